@@ -1,0 +1,40 @@
+# Everything runs in .venv, made on first use by the Python found below (3.11 or newer).
+PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11 python,\
+  $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
+BIN = .venv/bin
+
+.PHONY: demo test lint stress bench bench-start clean
+
+demo: .venv/demo
+	$(BIN)/geneva table --z 6 --internal
+	$(BIN)/geneva profile designs/press-curved.toml -o build/press-curved-slot.csv
+	@echo "the slot of designs/press-curved.toml is in build/press-curved-slot.csv"
+
+test: .venv/dev lint
+	$(BIN)/pytest -n auto
+
+lint: .venv/dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+# Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
+bench-start: .venv/dev
+	$(BIN)/python tests/bench_start.py
+
+.venv/python:
+	@test -n "$(PYTHON)" || { echo "make: no Python 3.11 or newer found; set PYTHON=..." >&2; exit 1; }
+	$(PYTHON) -m venv .venv
+	@touch $@
+
+.venv/demo: .venv/python pyproject.toml
+	$(BIN)/pip install --quiet --editable .
+	@mkdir -p build
+	@touch $@
+
+.venv/dev: .venv/demo
+	$(BIN)/pip install --quiet $$($(BIN)/python -c "import tomli; print(*(r.replace(' ', '') for r in tomli.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
+	@touch $@
+
+clean:
+	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks

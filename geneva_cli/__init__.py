@@ -1,0 +1,3 @@
+"""Design calculator for Geneva (Maltese-cross) mechanisms."""
+
+__version__ = "0.1.0"

@@ -1,0 +1,135 @@
+"""The command line: commands that load when chosen, and the one place where errors become text.
+
+Start-up is measured (`make bench-start`): the group below knows each command by name and one line
+of help, so that --help, completion and suggestions import no command, and a command imports only
+what it shows.
+"""
+
+from __future__ import annotations
+
+import gc
+
+gc.disable()  # nothing that is imported is garbage; looking for it costs 5 % of the start
+
+import errno
+import importlib
+import os
+import sys
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+from typer.main import get_command
+
+from geneva_cli import __version__
+from geneva_cli.errors import GenevaError
+
+# The registry: module in geneva_cli.commands -> the line that --help shows.
+COMMANDS = {
+    "table": "Timing and peaks of wheels, one row for each number of slots.",
+    "peaks": "Greatest velocity, acceleration, jerk and power of a design.",
+    "motion": "Position, velocity, acceleration and jerk over a cycle.",
+    "profile": "The slot: pitch curve, both flanks, pressure angle and curvature.",
+    "report": "One page on a design, for a person.",
+    "check": "Does the design work? Exit status 1 where a check fails.",
+    "laws": "The motion laws and their characteristic values.",
+    "new": "Write a commented spec to start from.",
+}
+
+
+class LazyGroup(TyperGroup):
+    """A group of stubs; the chosen command's module is imported when it is resolved."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        self.commands = {n: TyperCommand(n, help=h, callback=_stub) for n, h in COMMANDS.items()}
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Every command, in the order of the registry."""
+        return list(COMMANDS)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """The real command behind a stub."""
+        name, stub, rest = super().resolve_command(ctx, args)
+        if stub is None or name is None:
+            return name, stub, rest
+        module = importlib.import_module(f"geneva_cli.commands.{name}")
+        one = typer.Typer(add_completion=False, rich_markup_mode=None)
+        one.command(name)(module.run)
+        return name, get_command(one), rest
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; what a user can put right becomes a line and an exit code."""
+        gc.enable()
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+            return result
+        except GenevaError as error:
+            _fail(str(error))
+        except BrokenPipeError:
+            _abandon_stdout()
+            raise typer.Exit(128 + 13) from None  # as a shell reports SIGPIPE
+        except OSError as error:
+            if error.errno != errno.ENOSPC:
+                raise
+            _abandon_stdout()
+            _fail(f"<stdout>: cannot write: {error.strerror}; free some space, or use -o FILE")
+        except KeyboardInterrupt:
+            raise typer.Exit(130) from None
+        except MemoryError:
+            _fail("out of memory; ask for fewer samples or a coarser tolerance")
+
+
+def _stub() -> None:
+    """Stands in for a command whose module is not loaded."""
+
+
+def _fail(message: str) -> None:
+    print(message, file=sys.stderr)
+    raise typer.Exit(2) from None
+
+
+def _abandon_stdout() -> None:
+    """Point standard output at nothing, so that the interpreter's last flush is silent."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        print(f"geneva {__version__}")
+        raise typer.Exit
+
+
+# Without Rich's markup the help is plain text, which needs no import of Rich.
+app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.callback(no_args_is_help=True)
+def geneva(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Design calculator for Geneva (Maltese-cross) mechanisms."""
+
+
+def main() -> None:
+    """The entry point ``geneva``."""
+    try:
+        app(prog_name="geneva")
+    except SystemExit as stop:
+        status = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
+    except KeyboardInterrupt:
+        status = 130
+    _leave(status)
+
+
+def _leave(status: int) -> None:
+    """End the process at once; taking the interpreter apart would cost a sixth of the run."""
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except OSError:  # reported before, or nobody left to report to
+            status = status or 2
+    os._exit(status)

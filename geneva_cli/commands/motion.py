@@ -1,0 +1,26 @@
+"""``geneva motion``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output, SpecPath
+
+
+def run(
+    spec: SpecPath,
+    samples: Annotated[int, typer.Option(metavar="N", help="Rows, both ends included.")] = 361,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Position, velocity, acceleration and jerk, evenly in the input angle over a cycle from entry.
+
+    Where the stations differ, over a whole period of the machine.
+    """
+    from geneva_cli.motion import motion_table
+    from geneva_cli.output import show
+    from geneva_cli.spec import load
+
+    show(motion_table(load(spec), samples), output, format, [spec])

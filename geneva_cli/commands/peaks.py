@@ -1,0 +1,17 @@
+"""``geneva peaks``."""
+
+from __future__ import annotations
+
+from geneva_cli.commands.options import Format, Output, SpecPath
+
+
+def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
+    """Greatest velocity, acceleration, jerk and power of a design, as invariants.
+
+    Angles are signed input angles from mid-motion. Where the stations differ, the greatest of all.
+    """
+    from geneva_cli.output import show
+    from geneva_cli.peaks import peaks_table
+    from geneva_cli.spec import load
+
+    show(peaks_table(load(spec)), output, format, [spec])

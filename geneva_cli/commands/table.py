@@ -1,0 +1,27 @@
+"""``geneva table``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output
+from geneva_cli.output import show
+
+
+def run(
+    z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.")] = "3..12",
+    internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
+    n: Annotated[float, typer.Option("--n", metavar="RPM", help="Input speed.")] = 60.0,
+    rollers: Annotated[int, typer.Option(metavar="M", help="Rollers on the crank.")] = 1,
+    A: Annotated[
+        float, typer.Option("--A", metavar="X", help="Side-crank offset; 0: plain crank.")
+    ] = 0.0,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Timing and peaks of wheels, one row for each number of slots."""
+    from geneva_cli.survey import survey
+
+    show(survey(z, "internal" if internal else "external", n, rollers, A), output, format)

@@ -1,0 +1,22 @@
+"""The input shaft carries the crank itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geneva_cli.drives import Front
+from geneva_cli.jet import Jet
+
+
+class Keys(NamedTuple):
+    """No keys of its own."""
+
+
+def front(keys: Keys) -> Callable[[float], Front]:
+    """Crank angle and input angle are one."""
+    return lambda crank_deg: Front(crank_deg, _same)
+
+
+def _same(advance: Jet) -> Jet:
+    return advance

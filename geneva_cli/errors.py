@@ -1,0 +1,25 @@
+"""The one exception for what a user can put right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class GenevaError(Exception):
+    """Wrong spec, wrong file or wrong value: shown as ``FILE:LINE: message``, exit code 2.
+
+    ``key`` names the place in the spec, as in ``("drive", "A")``; the reader of the spec
+    turns it into a file and a line.
+    """
+
+    def __init__(self, message: str, key: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.key = key
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """`` (did you mean "..."?)`` for the closest known word, or nothing."""
+    import difflib
+
+    close = difflib.get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f' (did you mean "{close[0]}"?)' if close else ""

@@ -1,0 +1,74 @@
+"""The pin's circle as the wheel sees it, for external and internal wheels.
+
+The wheel's axis is the origin, the crank's axis at (1, 0): lengths are in units of the centre
+distance L. b = pi/z is half the index angle, l = R/L the crank radius.
+
+A pose is one moment of the motion, described in the frame whose x axis is the ray from the
+wheel's centre to the pin at that moment. About it the pin moves by
+
+    sin(d) * slope + (1 - cos(d)) * bend        (d: crank angle since the pose)
+
+without cancellation: at entry and exit the pin moves along the ray only, so the part of the
+slope across it is exactly zero, and so are the wheel's angle and velocity there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.classic import SIGN, gap, half_motion_deg
+from geneva_cli.jet import Jet, sin_cos
+from geneva_cli.units import sin_cos_pi
+
+
+class Pose(NamedTuple):
+    """One moment of the pin's turn on its circle; vectors are (along the ray, across it)."""
+
+    crank_deg: float
+    wheel: float  # wheel angle, radians
+    along: float  # distance of the pin from the wheel's centre
+    slope: tuple[float, float]  # d(position)/d(crank angle)
+    bend: tuple[float, float]  # second derivative
+
+    def displacement(self, crank: Jet) -> tuple[Jet, Jet]:
+        """The pin's way since the pose, after the crank has turned by ``crank`` radians."""
+        s, c = sin_cos(crank * 0.5)
+        sine, versine = s * c * 2.0, s * s * 2.0
+        u = sine * self.slope[0] + versine * self.bend[0]
+        v = sine * self.slope[1] + versine * self.bend[1]
+        return u, v
+
+
+class Step(NamedTuple):
+    """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z."""
+
+    p: int
+    q: int
+
+    @property
+    def b(self) -> float:
+        """Half the index angle, radians."""
+        return math.pi * self.p / self.q
+
+    @property
+    def sin_cos(self) -> tuple[float, float]:
+        """sin b and cos b."""
+        return sin_cos_pi(self.p, self.q)
+
+
+def middle(gearing: str, l: float, gap: float) -> Pose:
+    """The pin on the line of centres, ``gap`` from the wheel's, for a crank of any radius l."""
+    return Pose(0.0, 0.0, gap, (0.0, l), (SIGN[gearing] * l, 0.0))
+
+
+def radial(gearing: str, step: Step) -> tuple[Pose, Pose, Pose]:
+    """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
+    g = SIGN[gearing]
+    l, cos_b = step.sin_cos
+    half = half_motion_deg(gearing, *step)
+    return (
+        Pose(-half, -step.b, cos_b, (-g * l, 0.0), (0.0, l)),
+        middle(gearing, l, gap(gearing, *step)),
+        Pose(half, step.b, cos_b, (g * l, 0.0), (0.0, -l)),
+    )

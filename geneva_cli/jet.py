@@ -1,0 +1,167 @@
+"""Jets: numbers that carry their first derivatives (truncated Taylor arithmetic).
+
+A jet of order n holds the Taylor coefficients c[0..n] of a function of one
+variable at a point, c[k] = f^(k)/k!. Coefficients are floats, or NumPy arrays
+of one shape; the same formula then runs on one angle through ``math``, without
+NumPy being imported, or on a million through ``numpy``.
+
+The recurrences are the classical ones of automatic differentiation
+(Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2).
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    Array: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+    Number: TypeAlias = float | Array
+
+# Number is float | ndarray for the reader; arithmetic mixes them freely, which
+# is beyond what the type checker follows, so coefficients are Any inside.
+Coefficient: TypeAlias = Any
+
+_FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
+
+
+def library(x: Coefficient) -> Any:
+    """The module whose sin and cos suit x: ``math`` for a number, ``numpy`` for an array."""
+    if isinstance(x, (float, int)):
+        return math
+    import numpy
+
+    return numpy
+
+
+class Jet:
+    """Taylor coefficients of a function at a point (float) or at many (arrays)."""
+
+    __slots__ = ("c",)
+
+    def __init__(self, coefficients: Sequence[Coefficient]) -> None:
+        self.c = tuple(coefficients)
+
+    @staticmethod
+    def variable(x: Coefficient, order: int) -> Jet:
+        """The independent variable itself at x."""
+        return Jet((x, 1.0, 0.0, 0.0, 0.0, 0.0)[: order + 1])
+
+    @property
+    def order(self) -> int:
+        """The highest derivative carried."""
+        return len(self.c) - 1
+
+    def derivatives(self) -> tuple[Coefficient, ...]:
+        """Value, first derivative, second, ... up to the order."""
+        return tuple(c if k < 2 else c * _FACTORIAL[k] for k, c in enumerate(self.c))
+
+    def derivative(self) -> Jet:
+        """The jet of the derivative, one order lower."""
+        return Jet([k * c for k, c in enumerate(self.c) if k])
+
+    def __add__(self, other: Jet | Coefficient) -> Jet:
+        if isinstance(other, Jet):
+            return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
+        return Jet((self.c[0] + other, *self.c[1:]))
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Jet:
+        return Jet([-a for a in self.c])
+
+    def __sub__(self, other: Jet | Coefficient) -> Jet:
+        if isinstance(other, Jet):
+            return Jet([a - b for a, b in zip(self.c, other.c, strict=True)])
+        return Jet((self.c[0] - other, *self.c[1:]))
+
+    def __rsub__(self, other: Coefficient) -> Jet:
+        return Jet((other - self.c[0], *[-a for a in self.c[1:]]))
+
+    def __mul__(self, other: Jet | Coefficient) -> Jet:
+        if not isinstance(other, Jet):
+            return Jet([a * other for a in self.c])
+        a, b = self.c, other.c
+        return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Jet | Coefficient) -> Jet:
+        if not isinstance(other, Jet):
+            return Jet([a / other for a in self.c])
+        b = other.c
+        q: list[Coefficient] = []
+        for k, a in enumerate(self.c):
+            q.append((a - sum(q[i] * b[k - i] for i in range(k))) / b[0])
+        return Jet(q)
+
+    def __rtruediv__(self, other: Coefficient) -> Jet:
+        return Jet((other, *[0.0] * self.order)) / self
+
+
+def _convolve(a: Sequence[Coefficient], b: Sequence[Coefficient], k: int, first: int) -> Any:
+    total = a[first] * b[k - first]
+    for i in range(first + 1, k + 1):
+        total = total + a[i] * b[k - i]
+    return total
+
+
+def sin_cos(x: Jet) -> tuple[Jet, Jet]:
+    """Sine and cosine together; each one's recurrence needs the other."""
+    m = library(x.c[0])
+    s, c = [m.sin(x.c[0])], [m.cos(x.c[0])]
+    slope = [k * a for k, a in enumerate(x.c)]
+    for k in range(1, len(x.c)):
+        s.append(_convolve(slope, c, k, 1) / k)
+        c.append(-_convolve(slope, s, k, 1) / k)
+    return Jet(s), Jet(c)
+
+
+def sqrt(x: Jet) -> Jet:
+    """Square root of a positive jet."""
+    q = [library(x.c[0]).sqrt(x.c[0])]
+    for k in range(1, len(x.c)):
+        q.append((x.c[k] - sum(q[i] * q[k - i] for i in range(1, k))) / (2.0 * q[0]))
+    return Jet(q)
+
+
+def integral(slope: Jet, value: Coefficient) -> Jet:
+    """The jet, one order higher, whose derivative is ``slope`` and whose value is ``value``."""
+    return Jet((value, *[c / (k + 1) for k, c in enumerate(slope.c)]))
+
+
+def atan2(y: Jet, x: Jet) -> Jet:
+    """Angle of the vector (x, y), from its rate (x y' - y x') / (x² + y²)."""
+    value = library(y.c[0] + x.c[0]).atan2(y.c[0], x.c[0])
+    if y.order == 0:
+        return Jet((value,))
+    low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
+    rate = (low_x * y.derivative() - low_y * x.derivative()) / (low_x * low_x + low_y * low_y)
+    return integral(rate, value)
+
+
+def piecewise(
+    x: Coefficient, cuts: Sequence[float], pieces: Sequence[Callable[[Coefficient], Jet]]
+) -> Jet:
+    """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
+
+    x is a float or a one-dimensional array; each piece sees only its own part.
+    """
+    if isinstance(x, float):
+        return pieces[bisect_left(cuts, x)](x)
+    import numpy as np
+
+    index = np.searchsorted(cuts, x)
+    out: list[Coefficient] = []
+    for i in np.unique(index):
+        where = index == i
+        jet = pieces[i](x[where])
+        if not out:
+            out = [np.empty(x.shape) for _ in jet.c]
+        for total, part in zip(out, jet.c, strict=True):
+            total[where] = part
+    return Jet(out)

@@ -1,0 +1,79 @@
+"""The wheel's position, velocity, acceleration and jerk over a whole period of the machine."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+# One thread: our arrays are small, and starting the others costs more than they save.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.mechanism import Mechanism
+from geneva_cli.station import Station
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
+
+SAMPLES_MAX = 10_000_000
+NAMES = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
+
+
+def check_samples(samples: int) -> None:
+    """Raise GenevaError where so many samples are too few or too many."""
+    if not 2 <= samples <= SAMPLES_MAX:
+        raise GenevaError(f"--samples {samples}: must be at least 2, at most {SAMPLES_MAX}")
+
+
+def motion_table(mechanism: Mechanism, samples: int) -> Table:
+    """``samples`` rows, evenly in the input angle over one period from the first entry.
+
+    Entry and exit belong to the motion: what is just inside is shown there. The last row is the
+    end of the last dwell.
+    """
+    check_samples(samples)
+    stations = mechanism.stations
+    start = stations[0].mid_deg + stations[0].entry_deg
+    input_deg = start + mechanism.period_deg * np.arange(samples) / (samples - 1)
+    input_deg[-1] = start + mechanism.period_deg
+    wheel = np.empty(samples)
+    rates = [np.zeros(samples) for _ in range(3)]
+    first = 0
+    for i, station in enumerate(stations):
+        # What stays constant within a cycle: the steps that are done before it.
+        base = sum(2.0 * s.half_step for s in stations[:i]) + station.half_step
+        base -= stations[0].half_step
+        exit_ = station.mid_deg + station.exit_deg
+        last = int(np.searchsorted(input_deg, exit_, side="right"))
+        next_entry = exit_ + mechanism.dwell_deg(i)
+        following = i + 1 < len(stations)
+        end = int(np.searchsorted(input_deg, next_entry, side="left")) if following else samples
+        local = np.clip(
+            input_deg[first:last] - station.mid_deg, station.entry_deg, station.exit_deg
+        )
+        for out, values in zip([wheel, *rates], derivatives(station, local), strict=True):
+            out[first:last] = values
+        wheel[first:last] += base
+        wheel[last:end] = base + station.half_step
+        first = end
+    time = (input_deg - start) / (6.0 * mechanism.spec.drive.n_rpm)
+    return Table(NAMES, [time, input_deg, np.degrees(wheel), *rates])
+
+
+def derivatives(station: Station, local_deg: Array) -> tuple[Array, ...]:
+    """Wheel angle, velocity, acceleration and jerk at ascending input angles of one station.
+
+    A symmetric motion at symmetric angles is computed once and mirrored.
+    """
+    if station.symmetric and len(local_deg) > 2 and np.array_equal(local_deg, -local_deg[::-1]):
+        half = (len(local_deg) + 1) // 2
+        first = station.motion(local_deg[:half]).derivatives()
+        rest = len(local_deg) - half
+        return tuple(
+            np.concatenate((v, v[:rest][::-1] if k % 2 else -v[:rest][::-1]))
+            for k, v in enumerate(first)
+        )
+    return station.motion(local_deg).derivatives()

@@ -1,0 +1,43 @@
+"""JSON: ``{"rows": [...]}`` for tables, one nested object for records; never NaN or Infinity."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from geneva_cli.table import Table
+
+
+def chunks(table: Table, terminal: bool) -> Iterator[str]:
+    """The document, a block of rows at a time."""
+    if table.record:
+        yield json.dumps(_nested(table.names, next(table.rows())), indent=2) + "\n"
+        return
+    yield '{"rows": ['
+    separator = "\n"
+    for block in table.blocks():
+        lines = [json.dumps(_nested(table.names, row), allow_nan=False) for row in block]
+        yield separator + ",\n".join(lines)
+        separator = ",\n"
+    yield "\n]}\n"
+
+
+def _nested(names: tuple[str, ...], row: tuple[Any, ...]) -> dict[str, Any]:
+    tree: dict[str, Any] = {}
+    for name, value in zip(names, row, strict=True):
+        *groups, last = name.split(".")
+        node = tree
+        for group in groups:
+            node = node.setdefault(group, {})
+        node[last] = _plain(value)
+    return tree
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, float):
+        return value + 0.0 if math.isfinite(value) else None
+    if isinstance(value, Table):
+        return [_nested(value.names, row) for row in value.rows()]
+    return list(value) if isinstance(value, tuple) else value

@@ -1,0 +1,110 @@
+"""Tables for people: plain columns on a pipe, Rich on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from geneva_cli.table import Table
+
+DIGITS = 7  # significant digits for people; csv and json carry all
+
+
+def chunks(table: Table, terminal: bool) -> Iterator[str]:
+    """The table as text, line by line."""
+    if terminal and not table.record:
+        yield from _rich(table)
+        return
+    if table.title:
+        yield clean(table.title) + "\n\n"
+    yield from _record(table) if table.record else _plain(table)
+
+
+def cell(value: Any) -> str:
+    """A value as a person wants to read it."""
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value + 0.0:.{DIGITS}g}"  # + 0.0 turns -0.0 into 0
+    return clean(str(value))
+
+
+def clean(text: str) -> str:
+    """Text without control characters, which could carry terminal escapes."""
+    return "".join(c if c.isprintable() else " " for c in text)
+
+
+def _headings(names: tuple[str, ...]) -> list[list[str]]:
+    """Column names broken at underscores, so that sixteen columns stay readable."""
+    parts = [name.split("_") for name in names]
+    height = max(len(p) for p in parts)
+    return [[""] * (height - len(p)) + p for p in parts]
+
+
+def _plain(table: Table) -> Iterator[str]:
+    heads = _headings(table.names)
+    for block in table.blocks():
+        lines = [[cell(v) for v in row] for row in block]
+        widths = [
+            max(len(text) for text in (*head, *(line[i] for line in lines)))
+            for i, head in enumerate(heads)
+        ]
+        left = [isinstance(v, str) for v in block[0]]
+        if heads[0]:
+            for level in range(len(heads[0])):
+                yield _line([h[level] for h in heads], widths, left)
+            yield "  ".join("-" * w for w in widths) + "\n"
+            heads = [[] for _ in heads]
+        for line in lines:
+            yield _line(line, widths, left)
+
+
+def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:
+    cells = [
+        t.ljust(w) if is_left else t.rjust(w)
+        for t, w, is_left in zip(texts, widths, left, strict=True)
+    ]
+    return "  ".join(cells).rstrip() + "\n"
+
+
+def _record(table: Table) -> Iterator[str]:
+    """One line a value, a heading where the first part of the dotted name changes."""
+    row = next(table.rows())
+    split = [name.rpartition(".") for name in table.names]
+    width = max(len(name) + (2 if group else 0) for group, _, name in split)
+    current = ""
+    for (group, _, name), value in zip(split, row, strict=True):
+        if group != current:
+            yield f"{group}\n" if group else ""
+            current = group
+        label = f"  {name}" if group else name
+        yield f"{label.ljust(width)}  {cell(value)}\n"
+
+
+def _rich(table: Table) -> Iterator[str]:
+    import io
+
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table as RichTable
+    from rich.text import Text
+
+    out = RichTable(
+        box=SIMPLE_HEAD, title=Text(clean(table.title)) if table.title else None, padding=(0, 1)
+    )
+    rows = list(table.rows())
+    for i, head in enumerate(_headings(table.names)):
+        is_text = bool(rows) and isinstance(rows[0][i], str)
+        out.add_column("\n".join(head), justify="left" if is_text else "right", no_wrap=True)
+    for row in rows:
+        out.add_row(*[Text(cell(v)) for v in row])
+    console = Console(file=io.StringIO(), force_terminal=True)
+    # A table wider than the window is shown whole: a number cut short is a wrong number.
+    needed = console.measure(out, options=console.options.update(width=10_000)).maximum
+    console.width = max(needed, 40)
+    console.print(out)
+    file = console.file
+    assert isinstance(file, io.StringIO)
+    yield file.getvalue()

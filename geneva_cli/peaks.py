@@ -1,0 +1,186 @@
+"""Peak velocity, acceleration, jerk and power of a motion, as invariants.
+
+A peak is a root of the next derivative, found to the last bit, or an end of the motion, or a
+place where the law's derivative jumps; never the largest of a grid. The classic wheels' peaks of
+velocity and acceleration have closed forms.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geneva_cli import classic
+from geneva_cli.mechanism import Mechanism
+from geneva_cli.roots import extrema
+from geneva_cli.station import SlotDriven, Station
+from geneva_cli.table import Table, record_table
+from geneva_cli.timing import timings
+from geneva_cli.units import DEGREE
+
+
+class Peak(NamedTuple):
+    """The greatest size of a quantity, and the signed input angle of its first occurrence."""
+
+    max: float
+    at_deg: float
+
+
+class Ends(NamedTuple):
+    """Sizes just after entry and just before exit."""
+
+    acceleration_entry: float
+    acceleration_exit: float
+    jerk_entry: float
+    jerk_exit: float
+
+
+class Peaks(NamedTuple):
+    """All peaks of one station."""
+
+    velocity: Peak
+    acceleration: Peak
+    jerk: Peak
+    power: Peak
+    ends: Ends
+
+
+QUANTITIES: dict[str, Callable[[tuple[float, ...]], tuple[float, float, float]]] = {
+    # derivatives 0..5 of the wheel's angle -> the quantity and its first two derivatives
+    "velocity": lambda p: (p[1], p[2], p[3]),
+    "acceleration": lambda p: (p[2], p[3], p[4]),
+    "jerk": lambda p: (p[3], p[4], p[5]),
+    "power": lambda p: (p[1] * p[2], p[2] ** 2 + p[1] * p[3], 3 * p[2] * p[3] + p[1] * p[4]),
+}
+_ORDER = {"velocity": 3, "acceleration": 4, "jerk": 5, "power": 4}
+_TIE = 1e-13  # two peaks nearer than this are one peak that occurs twice
+
+
+def peak(station: Station, quantity: str) -> Peak:
+    """The greatest size of one quantity over a station's motion, ends included."""
+    pick, order = QUANTITIES[quantity], _ORDER[quantity]
+
+    def curve(x: float) -> tuple[float, float, float]:
+        value, slope, bend = pick(station.motion(x, order).derivatives())
+        return value, slope * DEGREE, bend * DEGREE * DEGREE
+
+    breaks = station.breaks_deg
+    if station.symmetric:
+        breaks = tuple(x for x in breaks if x <= 0.0)
+    best = Peak(-1.0, 0.0)
+    for a, b in zip(breaks, breaks[1:], strict=False):
+        # A break belongs to the piece before it; the piece after begins one double later.
+        start = a if a == breaks[0] else math.nextafter(a, math.inf)
+        for x in (start, *extrema(curve, start, b), b):
+            size = abs(curve(x)[0])
+            if size > best.max * (1.0 + _TIE):
+                best = Peak(size, a if x == start else x)
+    return best
+
+
+def ends(station: Station) -> Ends:
+    """Sizes at both ends, from inside the motion."""
+    first = station.motion(station.entry_deg).derivatives()
+    last = station.motion(station.exit_deg).derivatives()
+    return Ends(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
+
+
+def acceleration_peak(mechanism: Mechanism, station: Station) -> Peak:
+    """The peak acceleration, from its closed form where there is one."""
+    if not _is_classic(mechanism):
+        return peak(station, "acceleration")
+    if mechanism.spec.wheel.gearing == "internal":
+        return Peak(ends(station).acceleration_entry, station.entry_deg)
+    gap = station.pin(0.0, 0)[0].c[0]
+    size, at_deg = classic.acceleration_peak(mechanism.ratio, gap)
+    return Peak(size, -at_deg)
+
+
+def velocity_peak(mechanism: Mechanism, station: Station) -> Peak:
+    """The peak velocity, from its closed form where there is one."""
+    if _is_classic(mechanism):
+        return Peak(classic.velocity_peak(mechanism.ratio, station.pin(0.0, 0)[0].c[0]), 0.0)
+    return peak(station, "velocity")
+
+
+def peaks(mechanism: Mechanism, station: Station) -> Peaks:
+    """Every peak of one station."""
+    return Peaks(
+        velocity_peak(mechanism, station),
+        acceleration_peak(mechanism, station),
+        peak(station, "jerk"),
+        peak(station, "power"),
+        ends(station),
+    )
+
+
+def _is_classic(mechanism: Mechanism) -> bool:
+    spec = mechanism.spec
+    return spec.drive.kind == "crank" and isinstance(mechanism.stations[0], SlotDriven)
+
+
+def worst(mechanism: Mechanism) -> Peaks:
+    """The greatest peaks over all stations; angles are the machine's input angles."""
+    each = [_placed(peaks(mechanism, s), s.mid_deg) for s in mechanism.stations]
+
+    def greatest(candidates: list[Peak]) -> Peak:
+        best = candidates[0]
+        for other in candidates[1:]:
+            best = other if other.max > best.max * (1.0 + _TIE) else best
+        return best
+
+    return Peaks(
+        greatest([e.velocity for e in each]),
+        greatest([e.acceleration for e in each]),
+        greatest([e.jerk for e in each]),
+        greatest([e.power for e in each]),
+        Ends(*[max(values) for values in zip(*[e.ends for e in each], strict=True)]),
+    )
+
+
+def _placed(found: Peaks, mid_deg: float) -> Peaks:
+    def moved(p: Peak) -> Peak:
+        return Peak(p.max, mid_deg + p.at_deg)
+
+    return Peaks(
+        moved(found.velocity),
+        moved(found.acceleration),
+        moved(found.jerk),
+        moved(found.power),
+        found.ends,
+    )
+
+
+def peaks_table(mechanism: Mechanism) -> Table:
+    """The greatest peaks, then those of each station where the stations differ."""
+    first = timings(mechanism)[0]
+    values = _record(worst(mechanism)) | {
+        "motion_deg": first.motion_deg,
+        "dwell_deg": first.dwell_deg,
+    }
+    if len(mechanism.stations) > 1:
+        for i, (station, time) in enumerate(
+            zip(mechanism.stations, timings(mechanism), strict=True)
+        ):
+            found = _placed(peaks(mechanism, station), station.mid_deg)
+            one = _record(found) | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
+            values |= {f"station_{i + 1}.{name}": value for name, value in one.items()}
+    return record_table(values)
+
+
+def _record(found: Peaks) -> dict[str, float]:
+    return {
+        "velocity.max": found.velocity.max,
+        "velocity.at_deg": found.velocity.at_deg,
+        "acceleration.max": found.acceleration.max,
+        "acceleration.at_deg": found.acceleration.at_deg,
+        "acceleration.entry": found.ends.acceleration_entry,
+        "acceleration.exit": found.ends.acceleration_exit,
+        "jerk.max": found.jerk.max,
+        "jerk.at_deg": found.jerk.at_deg,
+        "jerk.entry": found.ends.jerk_entry,
+        "jerk.exit": found.ends.jerk_exit,
+        "power.max": found.power.max,
+        "power.at_deg": found.power.at_deg,
+    }

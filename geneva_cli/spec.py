@@ -1,0 +1,232 @@
+"""From a TOML file to a mechanism; every complaint names the file and, where it can, the line."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import os
+import sys
+from typing import Any, NamedTuple, get_args, get_type_hints
+
+import tomli
+
+from geneva_cli import drives, keys
+from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.mechanism import Mechanism, build
+
+BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
+TABLES: dict[str, Any] = {
+    "wheel": keys.Wheel,
+    "drive": keys.Drive,
+    "motion": keys.Motion,
+    "size": keys.Size,
+    "load": keys.Load,
+    "limits": keys.Limits,
+}
+_NAMES = {str: "text", int: "a whole number", float: "a number"}
+
+
+def load(path: str) -> Mechanism:
+    """The mechanism that a spec file describes; ``-`` is standard input.
+
+    Raises GenevaError, with the message ready to print, for anything wrong with the file.
+    """
+    name = "<stdin>" if path == "-" else path
+    text = _read(path, name)
+    try:
+        tree = tomli.loads(text)
+    except tomli.TOMLDecodeError as error:
+        said = error.msg[:1].lower() + error.msg[1:]
+        raise GenevaError(f"{name}:{error.lineno}: not TOML: {said}") from None
+    except RecursionError:
+        raise GenevaError(f"{name}: not a spec: brackets are nested too deeply") from None
+    try:
+        return build(_spec(tree, name))
+    except GenevaError as error:
+        if not error.key:
+            raise
+        line = line_of(text, error.key)
+        raise GenevaError(f"{name}:{line}: {error}" if line else f"{name}: {error}") from None
+
+
+def _read(path: str, name: str) -> str:
+    try:
+        if path == "-":
+            data = sys.stdin.buffer.read(BYTES_MAX + 1)
+        else:
+            with open(path, "rb") as file:
+                data = file.read(BYTES_MAX + 1)
+    except OSError as error:
+        advice = "; `geneva new external -o spec.toml` writes one to start from"
+        what = "this is a folder; give a file" if os.path.isdir(path) else str(error.strerror)
+        missing = isinstance(error, FileNotFoundError)
+        raise GenevaError(f"{name}: cannot read: {what}{advice if missing else ''}") from None
+    except ValueError as error:  # a NUL in the name
+        raise GenevaError(f"{name!r}: cannot read: {error}") from None
+    if len(data) > BYTES_MAX:
+        raise GenevaError(f"{name}: larger than {BYTES_MAX} bytes; a spec is a page of TOML")
+    try:
+        # A byte order mark, as some editors put it, is no part of the text.
+        return data.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise GenevaError(f"{name}:{line}: not UTF-8 text; save the file as UTF-8") from None
+
+
+def line_of(text: str, path: tuple[str, ...]) -> int:
+    """The line where a key (or, failing that, its table) is set; 0 if it is nowhere.
+
+    Asks the TOML reader itself: the key's line is the first after which the text so far parses
+    and holds the key. Only lines that could matter are tried.
+    """
+    while path:
+        lines = text.split("\n")
+        for i, line in enumerate(lines):
+            if path[-1] in line:
+                for end in range(i + 1, min(i + 50, len(lines)) + 1):  # a value of many lines
+                    try:
+                        node: Any = tomli.loads("\n".join(lines[:end]))
+                    except (tomli.TOMLDecodeError, RecursionError):
+                        continue
+                    for part in path:
+                        node = node.get(part) if isinstance(node, dict) else None
+                    if node is not None:
+                        return i + 1
+                    break
+        path = path[:-1]
+    return 0
+
+
+class Field(NamedTuple):
+    """One key: how its value is checked."""
+
+    key: str
+    types: tuple[type, ...]
+    rule: Any
+    default: Any
+    meaning: str
+
+
+def fields(table: Any) -> list[Field]:
+    """The keys of a table, from its class."""
+    out = []
+    for name, hint in get_type_hints(table, include_extras=True).items():
+        annotated, rule, meaning = get_args(hint)
+        types = tuple(get_args(annotated)) or (annotated,)
+        default = table._field_defaults.get(name, ...)
+        out.append(Field(name.rstrip("_"), types, rule, default, meaning))
+    return out
+
+
+def kind_keys(kind: str) -> Any:
+    """The class of the keys that a kind of drive adds to ``[drive]``."""
+    return importlib.import_module(f"geneva_cli.drives.{drives.KINDS[kind]}").Keys
+
+
+def _spec(tree: dict[str, Any], name: str) -> keys.Spec:
+    tree = dict(tree)
+    title = tree.pop("title", "")
+    if not isinstance(title, str):
+        raise GenevaError(f"title must be text, not {_shown(title)}", ("title",))
+    for table, value in tree.items():
+        if table not in TABLES:
+            hint = nearest(table, (*TABLES, "title"))
+            what = f"[{table}]" if isinstance(value, dict) else table
+            raise GenevaError(
+                f"unknown {'table' if isinstance(value, dict) else 'key'} {what}{hint}; "
+                f"known: title, {', '.join(f'[{t}]' for t in TABLES)}",
+                (table,),
+            )
+        if not isinstance(value, dict):
+            raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
+    if "wheel" not in tree:
+        raise GenevaError(f"{name}: no [wheel] table; the shortest spec is\n[wheel]\nz = 6")
+    drive, kind = _drive(dict(tree.pop("drive", {})))
+    tables = {table: _table(TABLES[table], table, value) for table, value in tree.items()}
+    return keys.Spec(drive=drive, kind=kind, title=title, path=name, **tables)
+
+
+def _drive(given: dict[str, Any]) -> tuple[keys.Drive, Any]:
+    """The common keys, and those of the kind."""
+    kind = given.get("kind", "crank")
+    if kind not in drives.KINDS:
+        hint = nearest(str(kind), drives.KINDS)
+        known = ", ".join(f'"{k}"' for k in drives.KINDS)
+        raise GenevaError(
+            f"kind must be one of {known}, not {_shown(kind)}{hint}", ("drive", "kind")
+        )
+    own_class = kind_keys(kind)
+    own = {k: given.pop(k) for k in [f.key for f in fields(own_class)] if k in given}
+    common = {f.key for f in fields(keys.Drive)}
+    for other in drives.KINDS:
+        for key in {f.key for f in fields(kind_keys(other))} & set(given) - common:
+            raise GenevaError(
+                f'{key} belongs to kind = "{other}", and this drive is "{kind}"', ("drive", key)
+            )
+    return (
+        _table(keys.Drive, "drive", given, tuple(own_class._fields)),
+        _table(own_class, "drive", own, why=f' for kind = "{kind}"'),
+    )
+
+
+def _table(
+    table: Any, name: str, given: dict[str, Any], also: tuple[str, ...] = (), why: str = ""
+) -> Any:
+    """The table's values, checked one by one."""
+    known = {f.key: f for f in fields(table)}
+    values = {}
+    for key, value in given.items():
+        if key not in known:
+            raise GenevaError(
+                f"unknown key {key} in [{name}]{nearest(key, (*known, *also))}; "
+                f"known: {', '.join((*known, *also))}",
+                (name, key),
+            )
+        field = f"{key}_" if f"{key}_" in table._fields else key
+        values[field] = _value(known[key], value, name)
+    for key, field_ in known.items():
+        if field_.default is ... and key not in given:
+            raise GenevaError(
+                f"[{name}] needs {key}{why}: {field_.meaning}, {field_.rule}", (name,)
+            )
+    return table(**values)
+
+
+def _value(field: Field, value: Any, table: str) -> Any:
+    """One value of the right type, in its range."""
+    place = (table, field.key)
+    numeric = [t for t in field.types if t in (int, float)]
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
+        if numeric[0] is int and not isinstance(value, int):
+            near = f", {math.floor(value)} or {math.ceil(value)}" if math.isfinite(value) else ""
+            raise GenevaError(
+                f"{field.key} = {value!r} must be a whole number{near} ({field.meaning})", place
+            )
+        if value not in field.rule:
+            raise GenevaError(
+                f"{field.key} = {_shown(value)} must be {field.rule} ({field.meaning})", place
+            )
+        return value if numeric[0] is int else float(value)
+    if isinstance(value, str) and str in field.types:
+        if isinstance(field.rule, tuple) and not numeric and value not in field.rule:
+            raise GenevaError(
+                f'{field.key} = "{value}" must be {field.rule}{nearest(value, field.rule)}', place
+            )
+        if numeric and value != "matched":
+            raise GenevaError(f'{field.key} must be a number or "matched", not "{value}"', place)
+        return value
+    wanted = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
+    raise GenevaError(f"{field.key} must be {wanted}, not {_shown(value)}", place)
+
+
+def _shown(value: Any) -> str:
+    """A wrong value, short enough for a message."""
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list):
+        return "a list"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value[:60]}"'
+    return f"{value:.12g}" if isinstance(value, float) else str(value)[:60]

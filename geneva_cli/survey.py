@@ -1,0 +1,127 @@
+"""The table of wheels: timing and peaks for each number of slots."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli import classic
+from geneva_cli.errors import GenevaError
+from geneva_cli.rules import Z_MAX
+from geneva_cli.table import Table, rows_table
+from geneva_cli.timing import Timing, timing
+from geneva_cli.units import sin_cos_pi
+
+NAMES = (
+    "z",
+    "gearing",
+    "rollers",
+    *Timing._fields,
+    "velocity_max",
+    "acceleration_max",
+    "acceleration_max_deg",
+    "acceleration_entry",
+    "jerk_entry",
+    "rollers_max",
+)
+ROWS_MAX = 10_000
+
+
+def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
+    """One row for each z in a text like ``6``, ``3..12`` or ``3,4,6``.
+
+    Raises GenevaError, naming the option, for a value out of its range.
+    """
+    if not 0.0 < n_rpm < math.inf:
+        raise GenevaError(f"--n {n_rpm:g}: the speed must be above 0")
+    if not -1.0 < A < 1.0:
+        raise GenevaError(f"--A {A:g}: the side-crank's offset must be above -1 and below 1")
+    if rollers < 1:
+        raise GenevaError(f"--rollers {rollers}: a crank carries at least 1")
+    if rollers > 1 and A:
+        raise GenevaError(
+            "--rollers with --A: the stations differ, so one row cannot describe them; write a "
+            'spec with kind = "side-crank" and use `geneva report`'
+        )
+    rows = []
+    for slots in parse_z(z):
+        try:
+            if A:
+                rows.append(_side_crank(slots, gearing, n_rpm, A))
+            else:
+                rows.append(_classic(slots, gearing, n_rpm, rollers))
+        except GenevaError as error:
+            raise GenevaError(f"--z {slots}: {error}") from None
+    return rows_table(NAMES, rows)
+
+
+def _classic(z: int, gearing: str, n_rpm: float, rollers: int) -> tuple[object, ...]:
+    """A row in closed form, without the machinery of motions."""
+    motion = 2.0 * classic.half_motion_deg(gearing, 1, z)
+    classic.refuse_jam(rollers, motion, gearing)
+    l, cos_b = sin_cos_pi(1, z)
+    gap = classic.gap(gearing, 1, z)
+    entry = l / cos_b  # the jump at entry is tan b, the jerk after it 3 tan² b
+    acceleration, at_deg = (
+        (entry, 0.5 * motion) if gearing == "internal" else classic.acceleration_peak(l, gap)
+    )
+    return (
+        z,
+        gearing,
+        rollers,
+        *timing(motion, 360.0 / rollers - motion, 360.0 / z, n_rpm),
+        classic.velocity_peak(l, gap),
+        acceleration,
+        at_deg,
+        entry,
+        3.0 * entry * entry,
+        classic.rollers_max(motion),
+    )
+
+
+def _side_crank(z: int, gearing: str, n_rpm: float, A: float) -> tuple[object, ...]:
+    from geneva_cli.drives.side_crank import Keys
+    from geneva_cli.keys import Drive, Spec, Wheel
+    from geneva_cli.mechanism import build
+    from geneva_cli.peaks import acceleration_peak, ends, velocity_peak
+    from geneva_cli.timing import Timing, timings
+
+    mechanism = build(Spec(Wheel(z, gearing), Drive("side-crank", n_rpm), Keys(A)))
+    station = mechanism.stations[0]
+    acceleration = acceleration_peak(mechanism, station)
+    jumps = ends(station)
+    return (
+        z,
+        gearing,
+        1,
+        *timings(mechanism)[0],
+        velocity_peak(mechanism, station).max,
+        acceleration.max,
+        abs(acceleration.at_deg),
+        jumps.acceleration_entry,
+        jumps.jerk_entry,
+        mechanism.rollers_max,
+    )
+
+
+def parse_z(text: str) -> list[int]:
+    """The numbers of slots in ``6``, ``3..12``, ``3,4,6`` or a mixture."""
+    out: list[int] = []
+    for part in text.split(","):
+        first, dots, last = part.partition("..")
+        low, high = _slots(first, text), _slots(last if dots else first, text)
+        if high < low:
+            raise GenevaError(f"--z {text}: {low}..{high} runs backwards; write {high}..{low}")
+        if len(out) + high - low >= ROWS_MAX:
+            raise GenevaError(f"--z {text}: that is more than {ROWS_MAX} rows; ask for fewer")
+        out.extend(range(low, high + 1))
+    return out
+
+
+def _slots(text: str, whole: str) -> int:
+    number = text.strip()
+    if not (number.isascii() and number.isdigit()):
+        raise GenevaError(f'--z {whole}: "{number}" is not a whole number; write 6, 3..12 or 3,4,6')
+    z = int(number) if len(number) < 12 else Z_MAX + 1
+    if not 3 <= z <= Z_MAX:
+        raise GenevaError(f"--z {whole}: z = {number} must be at least 3, at most {Z_MAX}")
+    return z

@@ -1,0 +1,45 @@
+"""The table: what every command that prints numbers hands to the output."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+
+class Table(NamedTuple):
+    """Named columns (lists or arrays) of equal length; the names carry the units.
+
+    A ``record`` has one row, whose dotted names are a tree: json nests it, and people read it
+    line by line. A None is a value that does not exist (an empty field, ``null`` in json).
+    """
+
+    names: tuple[str, ...]
+    columns: Sequence[Any]
+    record: bool = False
+    title: str = ""
+
+    def __len__(self) -> int:
+        return len(self.columns[0]) if self.columns else 0
+
+    def blocks(self, size: int = 8192) -> Iterator[list[tuple[Any, ...]]]:
+        """Rows as plain Python values, a block at a time, so that memory stays flat."""
+        for start in range(0, len(self), size):
+            part = [c[start : start + size] for c in self.columns]
+            lists = [p.tolist() if hasattr(p, "tolist") else p for p in part]
+            yield list(zip(*lists, strict=True))
+
+    def rows(self) -> Iterator[tuple[Any, ...]]:
+        """Rows one by one."""
+        for block in self.blocks():
+            yield from block
+
+
+def rows_table(names: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> Table:
+    """A table from its rows."""
+    columns = list(zip(*rows, strict=True)) if rows else [() for _ in names]
+    return Table(tuple(names), columns, title=title)
+
+
+def record_table(values: dict[str, Any], title: str = "") -> Table:
+    """A table of one row, to be read line by line."""
+    return Table(tuple(values), [(v,) for v in values.values()], record=True, title=title)
