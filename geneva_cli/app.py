@@ -101,6 +101,9 @@ def _version(asked: bool) -> None:
         raise typer.Exit
 
 
+# NumPy's arrays here are small: starting threads for them costs more than they save.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # Without Rich's markup the help is plain text, which needs no import of Rich.
 app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable=False)
 

@@ -50,8 +50,7 @@ def build(spec: Spec) -> Mechanism:
     wheel, drive = spec.wheel, spec.drive
     step = gearing.Step(1, wheel.z)
     natural = 2.0 * half_motion_deg(wheel.gearing, *step)
-    kind = importlib.import_module(f"geneva_cli.drives.{drives.KINDS[drive.kind]}")
-    front = kind.front(spec.kind)
+    front = _front(spec)
     alike = drive.kind == "crank"
     if spec.motion.law is None:
         _refuse_motion_keys(spec)
@@ -79,6 +78,12 @@ def build(spec: Spec) -> Mechanism:
     pose = gearing.middle(wheel.gearing, ratio, gap)
     station = LawDriven(0.0, motion, step.b, law, _anchor(pose, front, 0.0))
     return Mechanism(spec, (station,), 360.0 / drive.rollers, ratio, rollers_max(motion), law)
+
+
+def _front(spec: Spec) -> drives.Turn:
+    module = importlib.import_module(f"geneva_cli.drives.{drives.KINDS[spec.drive.kind]}")
+    turn: drives.Turn = module.front(spec.kind)
+    return turn
 
 
 def law_of(spec: Spec) -> Law:
@@ -130,29 +135,40 @@ def _ratio(
         return step.sin_cos[0]
     if given != "matched":
         return float(given)
-    return matched_ratio(spec, law, motion_deg, step.b, front)
+    matched = matched_ratio(spec, law, motion_deg, step.b, front)
+    if matched is None:
+        raise GenevaError(
+            "no R/L between 0 and 1 matches this motion: at mid-motion the wheel would have to "
+            "turn too fast (inside, more than half as fast as the crank) or back; give ratio as a "
+            "number, or change alpha0_deg or the law",
+            ("motion", "ratio"),
+        )
+    return matched
 
 
 def matched_ratio(
     spec: Spec, law: Law, motion_deg: float, half_step: float, front: drives.Turn
-) -> float:
-    """R/L at which the pin moves across the line of centres as fast as the wheel's slot does.
+) -> float | None:
+    """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
 
     psi1(0) = l/(1-l) f1(0) outside, l/(1+l) f1(0) inside, with f1 the front drive's ratio; at
-    any other R/L the pressure angle at mid-motion is 90 degrees.
+    any other R/L the pressure angle at mid-motion is 90 degrees. None where no R/L below 1 does.
     """
-    rate = front(0.0).advance(Jet.variable(0.0, 1)).c[1]
+    rate: float = front(0.0).advance(Jet.variable(0.0, 1)).c[1]
     wheel: float = law(0.5, 1).c[1] * 2.0 * half_step / math.radians(motion_deg)
     v = wheel / rate
-    inside = spec.wheel.gearing == "internal"
-    if v <= 0.0 or (inside and v >= 0.5):
-        raise GenevaError(
-            f"no R/L between 0 and 1 matches this motion: the wheel would have to turn {v:.4g} "
-            f"times as fast as the crank at mid-motion, not {'0 to 0.5' if inside else 'above 0'}; "
-            "give ratio as a number, or change alpha0_deg or the law",
-            ("motion", "ratio"),
-        )
-    return v / (1.0 - v) if inside else v / (1.0 + v)
+    if spec.wheel.gearing == "internal":
+        return v / (1.0 - v) if 0.0 < v < 0.5 else None
+    return v / (1.0 + v) if v > 0.0 else None
+
+
+def matched_ratio_of(mechanism: Mechanism) -> float | None:
+    """The matched R/L of a curved slot, whatever its own."""
+    station = mechanism.stations[0]
+    assert isinstance(station, LawDriven)
+    spec = mechanism.spec
+    front = _front(spec)
+    return matched_ratio(spec, station.law, station.motion_deg, station.half_step, front)
 
 
 def _refuse_alpha0(spec: Spec, natural_deg: float) -> None:

@@ -20,6 +20,8 @@ class Range(NamedTuple):
         return above and (x < self.high if self.ends[1] == ")" else x <= self.high)
 
     def __str__(self) -> str:
+        if math.isinf(self.low) and math.isinf(self.high):
+            return "a finite number"
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
         return low if math.isinf(self.high) else high if math.isinf(self.low) else f"{low}, {high}"

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import NamedTuple
 
-from geneva_cli.jet import Coefficient, Jet, atan2, piecewise, sin_cos
+from geneva_cli.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
 from geneva_cli.laws import Law, remaining
 from geneva_cli.units import DEGREE, radians
 
@@ -95,6 +95,11 @@ class SlotDriven(Station):
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
         return self.anchors[1].place(input_deg, order)
+
+    def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin runs along the slot's straight axis."""
+        x, y = self.pin(input_deg, order)
+        return sqrt(x * x + y * y), x * 0.0
 
 
 class LawDriven(Station):

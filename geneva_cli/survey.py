@@ -83,7 +83,7 @@ def _side_crank(z: int, gearing: str, n_rpm: float, A: float) -> tuple[object, .
     from geneva_cli.keys import Drive, Spec, Wheel
     from geneva_cli.mechanism import build
     from geneva_cli.peaks import acceleration_peak, ends, velocity_peak
-    from geneva_cli.timing import Timing, timings
+    from geneva_cli.timing import timings
 
     mechanism = build(Spec(Wheel(z, gearing), Drive("side-crank", n_rpm), Keys(A)))
     station = mechanism.stations[0]

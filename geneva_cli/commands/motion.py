@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, SpecPath
+from geneva_cli.commands.options import Format, Output, SpecPath, warn
 
 
 def run(
@@ -23,4 +23,6 @@ def run(
     from geneva_cli.output import show
     from geneva_cli.spec import load
 
-    show(motion_table(load(spec), samples), output, format, [spec])
+    mechanism = load(spec)
+    warn(mechanism)
+    show(motion_table(mechanism, samples), output, format, [spec])

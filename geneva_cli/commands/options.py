@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+import sys
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
+
+if TYPE_CHECKING:
+    from geneva_cli.mechanism import Mechanism
 
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
@@ -17,3 +21,11 @@ Format: TypeAlias = Annotated[
     str,
     typer.Option("--format", metavar="FORMAT", help="table, csv, json or md."),
 ]
+
+
+def warn(mechanism: Mechanism) -> None:
+    """Say on standard error what a number alone would hide."""
+    from geneva_cli.cautions import cautions
+
+    for caution in cautions(mechanism):
+        print(f"{mechanism.spec.path}: warning: {caution}", file=sys.stderr)

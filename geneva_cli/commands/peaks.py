@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.commands.options import Format, Output, SpecPath
+from geneva_cli.commands.options import Format, Output, SpecPath, warn
 
 
 def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
@@ -14,4 +14,6 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     from geneva_cli.peaks import peaks_table
     from geneva_cli.spec import load
 
-    show(peaks_table(load(spec)), output, format, [spec])
+    mechanism = load(spec)
+    warn(mechanism)
+    show(peaks_table(mechanism), output, format, [spec])

@@ -40,6 +40,16 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     write(output, module.chunks(table, False), inputs)
 
 
+def show_text(text: str, output: str = "-") -> None:
+    """Print a text as it is, or write it to a file."""
+    if output == "-":
+        sys.stdout.write(text)
+        return
+    from geneva_cli.output.files import write
+
+    write(output, [text])
+
+
 def format_of(output: str) -> str:
     """The format that a file's extension names; for standard output, the one for people."""
     if output == "-":

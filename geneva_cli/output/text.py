@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.table import Table
 
+WIDTH = 90
 DIGITS = 7  # significant digits for people; csv and json carry all
 
 
@@ -16,7 +18,7 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
         yield from _rich(table)
         return
     if table.title:
-        yield clean(table.title) + "\n\n"
+        yield "\n".join(paragraphs(table.title)) + "\n\n"
     yield from _record(table) if table.record else _plain(table)
 
 
@@ -34,6 +36,14 @@ def cell(value: Any) -> str:
 def clean(text: str) -> str:
     """Text without control characters, which could carry terminal escapes."""
     return "".join(c if c.isprintable() else " " for c in text)
+
+
+def paragraphs(text: str) -> list[str]:
+    """A text of one or more paragraphs, broken into lines that fit a terminal."""
+    lines = []
+    for paragraph in text.split("\n"):
+        lines += textwrap.wrap(clean(paragraph), WIDTH) or [""]
+    return lines
 
 
 def _headings(names: tuple[str, ...]) -> list[list[str]]:

@@ -1,0 +1,95 @@
+"""What a designer must be told without asking: each caution says what, where and what helps."""
+
+from __future__ import annotations
+
+from geneva_cli.keys import Z_USUAL
+from geneva_cli.mechanism import Mechanism, matched_ratio_of
+from geneva_cli.peaks import QUANTITIES
+from geneva_cli.pitch import retraces
+from geneva_cli.roots import extrema
+from geneva_cli.station import LawDriven, Station
+from geneva_cli.units import DEGREE
+
+SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
+
+
+def cautions(mechanism: Mechanism) -> list[str]:
+    """Everything that a number alone would hide."""
+    out = []
+    z = mechanism.spec.wheel.z
+    if z > Z_USUAL:
+        out.append(f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them")
+    station = mechanism.stations[0]
+    if not isinstance(station, LawDriven):
+        return out
+    back = turns_back(station)
+    if back:
+        out.append(
+            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; "
+            + (
+                "the sine group does so for |lambda| > 1/8"
+                if mechanism.spec.motion.law == "sine-group"
+                else "the law's points must not fall"
+            )
+        )
+    if not retraces(station):
+        out.append(_off_the_mid_condition(mechanism))
+    if max(abs(half(0.0, 2).c[2]) for half in (station.law.first, station.law.second)) > 1e-9:
+        out.append(
+            f'the law "{station.law.name}" starts and stops with a jump in acceleration: a soft '
+            "shock at both ends"
+        )
+    out.extend(_undercut(mechanism))
+    return out
+
+
+def turns_back(station: Station) -> tuple[float, float] | None:
+    """The least velocity and its input angle, where the wheel turns against its direction."""
+    pick = QUANTITIES["velocity"]
+
+    def curve(x: float) -> tuple[float, float, float]:
+        v, a, j = pick(station.motion(x, 3).derivatives())
+        return v, a * DEGREE, j * DEGREE * DEGREE
+
+    breaks = station.breaks_deg
+    places = [
+        x for a, b in zip(breaks, breaks[1:], strict=False) for x in (*extrema(curve, a, b), b)
+    ]
+    least = min(places, key=lambda x: curve(x)[0])
+    # Rounding leaves a law that stands still a few units in its last place on either side of 0.
+    noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
+    value = curve(least)[0]
+    return (value, least) if value < -noise else None
+
+
+def _off_the_mid_condition(mechanism: Mechanism) -> str:
+    matched = matched_ratio_of(mechanism)
+    helps = (
+        f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
+        if matched is not None
+        else "no R/L avoids it with this law and motion angle"
+    )
+    return (
+        f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
+        f"condition, so the pin force there has no bound unless the torque is zero; {helps}"
+    )
+
+
+def _undercut(mechanism: Mechanism) -> list[str]:
+    from geneva_cli.undercut import undercut
+
+    found = undercut(mechanism)
+    if found is None or found.depth_mm < SHOWN_UNDERCUT:
+        return []
+    r = mechanism.spec.roller_radius_mm + mechanism.spec.size.slot_clearance_mm
+    free = found.radius_mm - mechanism.spec.size.slot_clearance_mm
+    helps = (
+        "a smaller roller or a longer motion makes it less"
+        if found.to_cusp or free <= 0.0
+        else f"a roller radius below {free:.4g} mm avoids it"
+    )
+    return [
+        f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} deg: "
+        f"the roller's {r:.4g} mm exceed the radius of curvature, {found.radius_mm:.4g} mm at "
+        f"{found.at_deg:.4g} deg, and cut the wall back by {found.depth_mm:.3g} mm; {helps}"
+    ]

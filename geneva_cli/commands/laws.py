@@ -1,0 +1,26 @@
+"""``geneva laws``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output
+
+
+def run(
+    shape: Annotated[
+        float, typer.Option("--lambda", metavar="X", help="Shape of the sine group.")
+    ] = 0.0,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """The motion laws and their characteristic values.
+
+    Greatest ds/du, d2s/du2, d3s/du3 and their product for power, with u and s from 0 to 1.
+    """
+    from geneva_cli.law_values import laws_table
+    from geneva_cli.output import show
+
+    show(laws_table(shape), output, format)

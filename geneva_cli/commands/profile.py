@@ -1,0 +1,34 @@
+"""``geneva profile``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output, SpecPath, warn
+
+
+def run(
+    spec: SpecPath,
+    tolerance: Annotated[
+        float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
+    ] = 0.001,
+    samples: Annotated[
+        int | None, typer.Option(metavar="N", help="This many rows instead, evenly.")
+    ] = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """The slot: pitch curve, both flanks, pressure angle and radius of curvature.
+
+    In the wheel's frame, x towards the crank's axis at mid-motion. Left and right are the flanks
+    as the pin travels in; the radius is positive where its centre lies to the left.
+    """
+    from geneva_cli.output import show
+    from geneva_cli.profile import profile_table
+    from geneva_cli.spec import load
+
+    mechanism = load(spec)
+    warn(mechanism)
+    show(profile_table(mechanism, tolerance, samples), output, format, [spec])

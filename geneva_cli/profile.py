@@ -1,0 +1,179 @@
+"""The slot's profile: pitch curve and both flanks, sampled for a chord tolerance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.mechanism import Mechanism
+from geneva_cli.pitch import Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.station import Station
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
+
+NAMES = (
+    "input_deg",
+    "wheel_deg",
+    "x_mm",
+    "y_mm",
+    "left_x_mm",
+    "left_y_mm",
+    "right_x_mm",
+    "right_y_mm",
+    "pressure_deg",
+    "curvature_radius_mm",
+)
+ROWS_MAX = 1_000_000
+SURVEY = 2048  # intervals on which the curve's density is integrated
+FLOOR = 0.05  # least density, as a share of its mean: an inflection needs nodes too
+INSIDE = np.array([0.25, 0.5, 0.75])  # where a chord's distance from the curve is measured
+
+
+class Slot(NamedTuple):
+    """The slot at ascending input angles, in millimetres, in the wheel's frame.
+
+    ``left`` and ``right`` are the flanks as the pin travels in, ``radius`` the pitch curve's
+    radius of curvature: positive where its centre lies to the left, infinite on a straight line.
+    """
+
+    input_deg: Array
+    wheel_deg: Array
+    centre: Array  # (n, 2)
+    left: Array
+    right: Array
+    pressure_deg: Array
+    radius: Array
+
+
+def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
+    """The slot of a mechanism at ascending input angles of its first station."""
+    station, size = mechanism.stations[0], mechanism.spec.size
+    L = size.center_distance_mm
+    offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
+    back = retraces(station)
+    at = _pitch(station, input_deg, back)
+    # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
+    # flanks keep the sides they had on the way in.
+    side = np.where(back & (input_deg > 0.0), -1.0, 1.0)
+    normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
+    centre = L * np.column_stack((at.x, at.y))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        radius = L * side * np.divide(at.speed, at.turning)
+    radius = np.where(at.turning == 0.0, np.inf, radius)
+    return Slot(
+        input_deg,
+        np.degrees(station.motion(input_deg, 0).c[0]),
+        centre,
+        centre + offset * normal,
+        centre - offset * normal,
+        np.degrees(at.pressure),
+        radius,
+    )
+
+
+def _pitch(station: Station, input_deg: Array, back: bool) -> Pitch:
+    """The pitch curve, with its limit put in at a retracing mid-motion."""
+    middle = np.flatnonzero(input_deg == 0.0) if back else np.array([], dtype=int)
+    safe = input_deg.copy()
+    safe[middle] = 0.5 * station.entry_deg  # any regular place; overwritten below
+    at = pitch(station, safe)
+    if len(middle):
+        limit = pitch_at_retrace(station)
+        for column, value in zip(at, limit, strict=True):
+            column[middle] = value
+    return at
+
+
+def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
+    """Input angles at which to sample the slot, so that no chord misses a curve by more.
+
+    A chord of length h on a curve of curvature k misses it by k h²/8, so nodes are spread evenly
+    in the integral of sqrt(k) ds, taken on the flank where it is largest; then the misses are
+    measured and the number of nodes is corrected. Mid-motion, where the pitch curve can have a
+    cusp, is always a node.
+
+    Raises GenevaError where that takes more rows than are written.
+    """
+    if not tolerance_mm > 0.0:
+        raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
+    station = mechanism.stations[0]
+    first = _half(mechanism, station.entry_deg, 0.0, tolerance_mm)
+    if station.symmetric:
+        return np.concatenate((first[:-1], -first[::-1]))
+    return np.concatenate((first[:-1], _half(mechanism, 0.0, station.exit_deg, tolerance_mm)))
+
+
+def _half(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Array:
+    grid = np.linspace(a, b, SURVEY + 1)
+    share, total = _integrated_density(mechanism, grid)
+    pieces = max(1.0, total / np.sqrt(8.0 * tolerance_mm))
+    for _ in range(20):
+        if not pieces < ROWS_MAX:
+            raise GenevaError(
+                f"--tolerance {tolerance_mm:g} mm takes more than {ROWS_MAX} rows; "
+                f"a coarser one would do: {(total / ROWS_MAX) ** 2 / 4.0:.1g} mm, say"
+            )
+        count = int(np.ceil(pieces))
+        found = np.interp(np.linspace(0.0, 1.0, count + 1), share, grid)
+        found[0], found[-1] = a, b
+        miss = chord_error(mechanism, found)
+        if miss <= tolerance_mm:
+            return found
+        pieces = count * max(np.sqrt(miss / tolerance_mm), 1.0 + 1.0 / count)
+    raise GenevaError(
+        f"--tolerance {tolerance_mm:g} mm is finer than double precision can show at this size"
+    )
+
+
+def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float]:
+    """The integral of the node density over the grid as a share of one, and its total."""
+    station, size = mechanism.stations[0], mechanism.spec.size
+    L = size.center_distance_mm
+    offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
+    at = _pitch(station, grid, retraces(station))
+    turning = np.abs(at.turning)
+    # sqrt(k) ds for the outer flank: its curve is longer by turning * offset
+    density = np.sqrt(turning * (L * at.speed + offset * turning))
+    steps = np.diff(grid) * (np.pi / 180.0)
+    mean = float(np.mean(density))
+    if mean == 0.0:
+        return np.linspace(0.0, 1.0, len(grid)), 0.0
+    density = np.maximum(density, FLOOR * mean)
+    area = np.concatenate(([0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * steps)))
+    return area / area[-1], float(area[-1])
+
+
+def chord_error(mechanism: Mechanism, input_deg: Array) -> float:
+    """The greatest distance between pitch curve or flanks and the chords between samples, mm."""
+    steps = np.diff(input_deg)
+    inner = input_deg[:-1, None] + steps[:, None] * INSIDE
+    ends_, between = slot(mechanism, input_deg), slot(mechanism, inner.ravel())
+    worst = 0.0
+    for name in ("centre", "left", "right"):
+        knots, points = getattr(ends_, name), getattr(between, name)
+        chord = np.diff(knots, axis=0)
+        length = np.maximum(np.hypot(chord[:, 0], chord[:, 1]), 1e-300)
+        way = points.reshape(len(steps), len(INSIDE), 2) - knots[:-1, None, :]
+        off = np.abs(way[..., 0] * chord[:, None, 1] - way[..., 1] * chord[:, None, 0])
+        worst = max(worst, float(np.max(off / length[:, None])))
+    return worst
+
+
+def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """The slot as ``geneva profile`` writes it: for a chord tolerance, or ``samples`` evenly."""
+    station = mechanism.stations[0]
+    if samples is None:
+        input_deg = nodes(mechanism, tolerance_mm)
+    else:
+        if not 2 <= samples <= ROWS_MAX:
+            raise GenevaError(f"--samples {samples}: must be at least 2, at most {ROWS_MAX}")
+        input_deg = np.linspace(station.entry_deg, station.exit_deg, samples)
+    at = slot(mechanism, input_deg)
+    columns = [at.input_deg, at.wheel_deg]
+    for points in (at.centre, at.left, at.right):
+        columns += [points[:, 0], points[:, 1]]
+    return Table(NAMES, [*columns, at.pressure_deg, at.radius])

@@ -1,0 +1,146 @@
+"""One page on a design, for a person: words, timing, peaks, loads, sizes, cautions."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geneva_cli import loads
+from geneva_cli.cautions import cautions
+from geneva_cli.mechanism import Mechanism
+from geneva_cli.peaks import Peaks, peaks, worst
+from geneva_cli.station import LawDriven, Station
+from geneva_cli.table import Table, record_table
+from geneva_cli.timing import timings
+from geneva_cli.units import omega
+
+
+def report_table(mechanism: Mechanism) -> Table:
+    """Everything about one design, as a tree of named values under a paragraph of words."""
+    values: dict[str, Any] = {}
+    differ = len(mechanism.stations) > 1
+    for i, station in enumerate(mechanism.stations):
+        where = f"station_{i + 1}." if differ else ""
+        values |= _timing(mechanism, i, where)
+        values |= _peaks(mechanism, peaks(mechanism, station), station.mid_deg, where)
+    values |= _loads(mechanism)
+    values |= _sizes(mechanism)
+    found = cautions(mechanism)
+    values |= {f"warnings.{i}": text for i, text in enumerate(found, 1)} or {"warnings": "none"}
+    title = mechanism.spec.title
+    return record_table(values, f"{title}\n\n{words(mechanism)}" if title else words(mechanism))
+
+
+def words(mechanism: Mechanism) -> str:
+    """The design in words."""
+    spec = mechanism.spec
+    wheel, drive = spec.wheel, spec.drive
+    article = "An" if wheel.gearing[0] in "aeiou" else "A"
+    slots = "curved" if mechanism.law else "straight radial"
+    front = {"crank": "a crank"}.get(drive.kind, f"a {drive.kind}")
+    rollers = "one roller" if drive.rollers == 1 else f"{drive.rollers} rollers"
+    text = (
+        f"{article} {wheel.gearing} wheel of {wheel.z} {slots} slots, driven by {front} with "
+        f"{rollers} at {drive.n_rpm:g} rpm."
+    )
+    if mechanism.law:
+        text += f' The wheel follows the law "{mechanism.law.name}"'
+        if spec.motion.alpha0_deg:
+            text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
+        text += "; its slots are cut to suit."
+    each = [timings(mechanism)[i] for i in range(len(mechanism.stations))]
+    turn = f"turns by {mechanism.index_deg:.6g} deg"
+    if len(each) == 1:
+        text += (
+            f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."
+        )
+    else:
+        text += (
+            f" It {turn} {len(each)} times in a turn of the input, never twice alike: in "
+            + ", ".join(f"{t.motion_s:.4g}" for t in each)
+            + " s."
+        )
+    return text
+
+
+def _timing(mechanism: Mechanism, i: int, where: str) -> dict[str, Any]:
+    timing = timings(mechanism)[i]
+    values: dict[str, Any] = {f"{where}timing.{k}": v for k, v in timing._asdict().items()}
+    # Krasniqi's (15) and (16): t = phi/omega, shortest at the highest speed that the limits on
+    # force, torque and stress allow (n itself where there are none), and the work coefficient of
+    # one roller, k_r = phi/(2 pi - phi).
+    motion = mechanism.stations[i].motion_deg
+    fastest = loads.fastest_rpm(mechanism) or mechanism.spec.drive.n_rpm
+    values[f"{where}timing.shortest_motion_s"] = motion / (6.0 * fastest)
+    values[f"{where}timing.k_r"] = motion / (360.0 - motion)
+    return values
+
+
+def _peaks(mechanism: Mechanism, found: Peaks, mid_deg: float, where: str) -> dict[str, Any]:
+    w = omega(mechanism.spec.drive.n_rpm)
+    values: dict[str, Any] = {}
+    rows = (
+        ("velocity", found.velocity, w, "rad_s"),
+        ("acceleration", found.acceleration, w**2, "rad_s2"),
+        ("jerk", found.jerk, w**3, "rad_s3"),
+        ("power", found.power, w**3, "rad2_s3"),
+    )
+    for name, peak, scale, unit in rows:
+        values[f"{where}{name}.max"] = peak.max
+        values[f"{where}{name}.at_deg"] = mid_deg + peak.at_deg
+        values[f"{where}{name}.max_{unit}"] = peak.max * scale
+        if name == "acceleration":
+            entry = found.ends.acceleration_entry
+            values[f"{where}{name}.entry"] = entry
+            values[f"{where}{name}.entry_{unit}"] = entry * scale
+        if name == "jerk":
+            values[f"{where}{name}.entry"] = found.ends.jerk_entry
+    return values
+
+
+def _loads(mechanism: Mechanism) -> dict[str, Any]:
+    load = mechanism.spec.load
+    if not (load.inertia_kgm2 or load.torque_Nm):
+        return {}
+    values: dict[str, Any] = {}
+    shown = ["torque_Nm", "pin_force_N", "input_torque_Nm"]
+    if mechanism.spec.size.face_width_mm is not None:
+        shown.append("contact_stress_MPa")
+    for name in shown:
+        found = loads.greatest(mechanism, name)
+        bounded = math.isfinite(found.max)
+        values[f"loads.{name}_max"] = found.max if bounded else "without bound"
+        values[f"loads.{name}_at_deg"] = found.at_deg
+    if load.inertia_kgm2:
+        power = worst(mechanism).power.max
+        values["loads.kinetic_power_W"] = loads.kinetic_power_W(mechanism, power)
+    return values
+
+
+def _sizes(mechanism: Mechanism) -> dict[str, Any]:
+    """Sizes in millimetres; the wheel's radius is the one at which no roller fouls its rim."""
+    spec = mechanism.spec
+    L, r = spec.size.center_distance_mm, spec.roller_radius_mm
+    R = mechanism.ratio * L
+    station = mechanism.stations[0]
+    mouth, bottom = _distance(station, station.entry_deg) * L, _distance(station, 0.0) * L
+    inside = spec.wheel.gearing == "internal"
+    values: dict[str, Any] = {
+        "sizes.center_distance_mm": L,
+        "sizes.crank_radius_mm": R,
+        "sizes.ratio": mechanism.ratio,
+        "sizes.roller_radius_mm": r,
+        "sizes.slot_width_mm": 2.0 * (r + spec.size.slot_clearance_mm),
+        "sizes.slot_mouth_radius_mm": mouth,
+        "sizes.slot_bottom_radius_mm": bottom,
+        "sizes.rim_radius_mm" if inside else "sizes.wheel_radius_mm": math.hypot(mouth, r),
+    }
+    if isinstance(station, LawDriven):
+        values["sizes.pressure_angle_max_deg"] = loads.greatest(mechanism, "pressure_deg").max
+    values["sizes.rollers_max"] = mechanism.rollers_max
+    return values
+
+
+def _distance(station: Station, input_deg: float) -> float:
+    x, y = station.pin(input_deg, 0)
+    return math.hypot(x.c[0], y.c[0])

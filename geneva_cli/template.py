@@ -1,0 +1,66 @@
+"""A commented spec to start from, made from the same keys that the reader knows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.spec import TABLES, Field, fields, kind_keys
+
+# KIND -> what it says of itself, and the keys that it sets
+KINDS: dict[str, tuple[str, dict[str, dict[str, Any]]]] = {
+    "external": ("an external wheel, straight slots", {"wheel": {"z": 6}}),
+    "internal": (
+        "an internal wheel: more motion than dwell",
+        {"wheel": {"z": 6, "gearing": "internal"}},
+    ),
+    "rollers": (
+        "several rollers: more indexes in a turn of the crank",
+        {"wheel": {"z": 4}, "drive": {"rollers": 3}},
+    ),
+    "side-crank": (
+        "a side-crank drive: a slower, softer index",
+        {"wheel": {"z": 6}, "drive": {"kind": "side-crank", "A": 0.6}},
+    ),
+    "curved": (
+        "curved slots for a given motion law, at the mid condition",
+        {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
+    ),
+}
+
+
+def template(kind: str) -> str:
+    """The text of a valid spec; every key is there, with its default and its meaning.
+
+    Raises GenevaError for a kind that is not known.
+    """
+    if kind not in KINDS:
+        known = ", ".join(KINDS)
+        raise GenevaError(f'unknown KIND "{kind}"{nearest(kind, KINDS)}; it must be one of {known}')
+    about, given = KINDS[kind]
+    lines = [
+        f"# A Geneva mechanism: {about}.",
+        "# Keys behind a # have the default shown, or none; remove the # to set them.",
+        f"title = {_quoted(about)}",
+    ]
+    for name, table in TABLES.items():
+        lines += ["", f"[{name}]"]
+        values = given.get(name, {})
+        keys = fields(table)
+        if name == "drive":
+            keys += fields(kind_keys(values.get("kind", "crank")))
+        lines += [_line(field, values) for field in keys]
+    return "\n".join(lines) + "\n"
+
+
+def _line(field: Field, values: dict[str, Any]) -> str:
+    rule = f"; {field.rule}" if field.rule is not None else ""
+    note = f"  # {field.meaning}{rule}"
+    if field.key in values:
+        return f"{field.key} = {_quoted(values[field.key])}{note}"
+    default = "..." if field.default in (None, ...) else _quoted(field.default)
+    return f"# {field.key} = {default}{note}"
+
+
+def _quoted(value: Any) -> str:
+    return f'"{value}"' if isinstance(value, str) else f"{value}"
