@@ -11,18 +11,18 @@ import gc
 
 gc.disable()  # nothing that is imported is garbage; looking for it costs 5 % of the start
 
-import errno
 import importlib
+import io
 import os
 import sys
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from geneva_cli import __version__
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, clean
 
 # The registry: module in geneva_cli.commands -> the line that --help shows.
 COMMANDS = {
@@ -71,8 +71,6 @@ class LazyGroup(TyperGroup):
             _abandon_stdout()
             raise typer.Exit(128 + 13) from None  # as a shell reports SIGPIPE
         except OSError as error:
-            if error.errno != errno.ENOSPC:
-                raise
             _abandon_stdout()
             _fail(f"<stdout>: cannot write: {error.strerror}; free some space, or use -o FILE")
         except KeyboardInterrupt:
@@ -86,7 +84,7 @@ def _stub() -> None:
 
 
 def _fail(message: str) -> None:
-    print(message, file=sys.stderr)
+    print(clean(message), file=sys.stderr)
     raise typer.Exit(2) from None
 
 
@@ -119,16 +117,33 @@ def geneva(
 
 def main() -> None:
     """The entry point ``geneva``."""
+    _open_streams()
     try:
         app(prog_name="geneva")
+        status = 0
     except SystemExit as stop:
         status = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
         status = 130
+    except OSError as error:  # help or version, to a full disk
+        print(f"<stdout>: cannot write: {error.strerror}", file=sys.stderr)
+        status = 2
     _leave(status)
 
 
-def _leave(status: int) -> None:
+def _open_streams() -> None:
+    """Stand-ins for streams that were closed before the start, as a daemon's may be.
+
+    Opened in this order they take the descriptors 0, 1 and 2, which no file then gets.
+    """
+    sys.stdin = sys.stdin or open(os.devnull)
+    sys.stdout = sys.stdout or open(os.devnull, "w")
+    sys.stderr = sys.stderr or open(os.devnull, "w")
+    if isinstance(sys.stdout, io.TextIOWrapper):  # a title in a script that the terminal has not
+        sys.stdout.reconfigure(errors="backslashreplace")
+
+
+def _leave(status: int) -> NoReturn:
     """End the process at once; taking the interpreter apart would cost a sixth of the run."""
     for stream in (sys.stdout, sys.stderr):
         try:

@@ -16,6 +16,7 @@ from geneva_cli.pitch import retraces
 from geneva_cli.station import LawDriven
 from geneva_cli.table import Table, rows_table
 
+STEPS = 60  # tried on the way to a motion of a whole turn
 NAMES = ("spec", "check", "value", "must_be", "limit", "passes", "nearest")
 
 
@@ -171,11 +172,16 @@ def _slower_wheel(mechanism: Mechanism, passes: Callable[[Mechanism], bool]) -> 
         changed = with_dwell(alpha0)
         return changed is not None and passes(changed)
 
-    motion = mechanism.stations[0].motion_deg
-    longest = 360.0 / spec.drive.rollers
-    least = spec.motion.alpha0_deg - (longest - motion)
-    found = _passing(works, spec.motion.alpha0_deg, least + 1e-6 * longest)
-    return f"alpha0_deg = {found:.6g}" if found is not None else ""
+    # Outwards from the alpha_0 that fails, on both sides, to the nearest that passes.
+    now, motion = spec.motion.alpha0_deg, mechanism.stations[0].motion_deg
+    span = 360.0 / spec.drive.rollers
+    for i in range(1, STEPS):
+        for side in (-1.0, 1.0):
+            far = now + side * span * i / STEPS
+            if 0.0 < motion - side * span * i / STEPS < span and works(far):
+                found = _passing(works, now + side * span * (i - 1) / STEPS, far)
+                return f"alpha0_deg = {found:.9g}"
+    return ""
 
 
 def _eased(mechanism: Mechanism, key: str) -> str:

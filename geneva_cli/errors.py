@@ -17,6 +17,11 @@ class GenevaError(Exception):
         self.key = key
 
 
+def clean(text: str) -> str:
+    """Text without control characters, which could carry terminal escapes."""
+    return "".join(c if c.isprintable() else " " for c in text)
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """`` (did you mean "..."?)`` for the closest known word, or nothing."""
     import difflib

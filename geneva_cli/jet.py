@@ -155,6 +155,8 @@ def piecewise(
         return pieces[bisect_left(cuts, x)](x)
     import numpy as np
 
+    if not x.size:
+        return pieces[0](x)
     index = np.searchsorted(cuts, x)
     out: list[Coefficient] = []
     for i in np.unique(index):

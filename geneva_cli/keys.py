@@ -5,9 +5,10 @@ A key that is a Python keyword ends in an underscore here. ``None`` means: deriv
 
 from __future__ import annotations
 
+import os
 from typing import Annotated, NamedTuple
 
-from geneva_cli.rules import FINITE, NOT_NEGATIVE, POSITIVE, Z_MAX, OneOf, Range
+from geneva_cli.rules import FINITE, NOT_NEGATIVE, POSITIVE, SPEED, Z_MAX, OneOf, Range
 
 Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
 
@@ -23,7 +24,7 @@ class Drive(NamedTuple):
     """``[drive]``: the keys common to all kinds."""
 
     kind: Annotated[str, None, "what turns the crank"] = "crank"
-    n_rpm: Annotated[float, POSITIVE, "speed of the input shaft, constant"] = 60.0
+    n_rpm: Annotated[float, SPEED, "speed of the input shaft, constant"] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "rollers on the crank, m"] = 1
 
 
@@ -87,6 +88,16 @@ class Spec(NamedTuple):
     limits: Limits = Limits()
     title: str = ""
     path: str = ""  # of the file, for messages and for the files it names
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files that the design is read from, which no output may replace."""
+        return (self.path, self.law_file) if self.motion.file else (self.path,)
+
+    @property
+    def law_file(self) -> str:
+        """The file of the law ``table``; its name is relative to the spec."""
+        return os.path.join(os.path.dirname(self.path), self.motion.file or "")
 
     @property
     def roller_radius_mm(self) -> float:

@@ -6,9 +6,8 @@ conditions put velocity and acceleration to zero at both ends (SciPy, make_inter
 
 from __future__ import annotations
 
-import csv
 import math
-import os
+import re
 from typing import Any
 
 from geneva_cli.errors import GenevaError
@@ -17,6 +16,8 @@ from geneva_cli.keys import Spec
 from geneva_cli.laws import Law
 
 POINTS_MIN, POINTS_MAX = 6, 100_000
+S_MAX = 10.0  # a law runs from 0 to 1; past ten times that it is a mistake
+STEP_MIN = 1e-6  # of u: closer points make a spline of rounding errors
 BYTES_MAX = 1 << 24
 _WHERE = ("motion", "file")
 
@@ -29,7 +30,7 @@ def read_law(spec: Spec) -> Law:
     name = spec.motion.file
     if not name:
         raise GenevaError('the law "table" needs file = "points.csv", lines of u,s', _WHERE)
-    path = os.path.join(os.path.dirname(spec.path), name)
+    path = spec.law_file
     points = _points(path, _text(path))
     u, s = [p[0] for p in points], [p[1] for p in points]
     from scipy.interpolate import make_interp_spline
@@ -77,19 +78,24 @@ def _text(path: str) -> str:
 
 def _points(path: str, text: str) -> list[tuple[float, float]]:
     points: list[tuple[float, float]] = []
-    for number, row in enumerate(csv.reader(text.splitlines()), 1):
-        if not row or row[0].lstrip().startswith("#") or [c.strip() for c in row] == ["u", "s"]:
+    for number, line in enumerate(text.split("\n"), 1):
+        row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
+        if row == [""] or row[0].startswith("#") or row == ["u", "s"]:
             continue
         try:
-            u, s = (float(c) for c in row)
+            u, s = (float(cell) for cell in row)
         except ValueError:
             raise GenevaError(
                 f'{path}:{number}: "{",".join(row)[:60]}" is not two numbers u,s'
             ) from None
-        if not (math.isfinite(u) and math.isfinite(s)):
-            raise GenevaError(f"{path}:{number}: u and s must be finite numbers")
-        if points and u <= points[-1][0]:
-            raise GenevaError(f"{path}:{number}: u = {u:g} must be above the one before it")
+        if not (math.isfinite(u) and abs(s) <= S_MAX):
+            raise GenevaError(
+                f"{path}:{number}: u and s must be finite, s from -{S_MAX:g} to {S_MAX:g}"
+            )
+        if points and u < points[-1][0] + STEP_MIN:
+            raise GenevaError(
+                f"{path}:{number}: u = {u:g} must be above the one before it (by {STEP_MIN:g})"
+            )
         points.append((u, s))
         if len(points) > POINTS_MAX:
             raise GenevaError(f"{path}:{number}: more than {POINTS_MAX} points; thin them out")

@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli import drives, gearing
-from geneva_cli.classic import SIGN, half_motion_deg, refuse_jam, rollers_max
+from geneva_cli.classic import SIGN, gap, half_motion_deg, refuse_jam, rollers_max
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Jet
 from geneva_cli.keys import Spec
@@ -57,8 +57,11 @@ def build(spec: Spec) -> Mechanism:
         refuse_jam(drive.rollers, natural, wheel.gearing)
         poses = gearing.radial(wheel.gearing, step)
         count = 1 if alike else drive.rollers
+        l, rest = step.sin_cos[0], gap("external", *step)
+        kernel = (SIGN[wheel.gearing], l, rest) if alike else None
         stations = tuple(
-            _slot_driven(poses, front, step, 360.0 * j / drive.rollers) for j in range(count)
+            _slot_driven(poses, front, step, 360.0 * j / drive.rollers, kernel)
+            for j in range(count)
         )
         period = 360.0 / drive.rollers if alike else 360.0
         return Mechanism(spec, stations, period, step.sin_cos[0], rollers_max(natural))
@@ -74,8 +77,7 @@ def build(spec: Spec) -> Mechanism:
     _refuse_alpha0(spec, natural)
     refuse_jam(drive.rollers, motion, wheel.gearing)
     ratio = _ratio(spec, law, motion, step, front)
-    gap = 1.0 - SIGN[wheel.gearing] * ratio
-    pose = gearing.middle(wheel.gearing, ratio, gap)
+    pose = gearing.middle(wheel.gearing, ratio, 1.0 - SIGN[wheel.gearing] * ratio)
     station = LawDriven(0.0, motion, step.b, law, _anchor(pose, front, 0.0))
     return Mechanism(spec, (station,), 360.0 / drive.rollers, ratio, rollers_max(motion), law)
 
@@ -108,11 +110,15 @@ def law_of(spec: Spec) -> Law:
 
 
 def _slot_driven(
-    poses: tuple[gearing.Pose, ...], front: drives.Turn, step: gearing.Step, crank_deg: float
+    poses: tuple[gearing.Pose, ...],
+    front: drives.Turn,
+    step: gearing.Step,
+    crank_deg: float,
+    kernel: tuple[float, float, float] | None,
 ) -> SlotDriven:
     anchors = tuple(_anchor(pose, front, crank_deg) for pose in poses)
     mid = front(crank_deg).input_deg
-    return SlotDriven(mid, step.b, anchors)
+    return SlotDriven(mid, step.b, anchors, kernel)
 
 
 def _anchor(pose: gearing.Pose, front: drives.Turn, crank_deg: float) -> Anchor:

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.station import Station
 from geneva_cli.table import Table
-
-if TYPE_CHECKING:
-    from geneva_cli.jet import Array
 
 SAMPLES_MAX = 10_000_000
 NAMES = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
@@ -50,26 +44,10 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
         local = np.clip(
             input_deg[first:last] - station.mid_deg, station.entry_deg, station.exit_deg
         )
-        for out, values in zip([wheel, *rates], derivatives(station, local), strict=True):
+        for out, values in zip([wheel, *rates], station.derivatives(local), strict=True):
             out[first:last] = values
         wheel[first:last] += base
         wheel[last:end] = base + station.half_step
         first = end
     time = (input_deg - start) / (6.0 * mechanism.spec.drive.n_rpm)
     return Table(NAMES, [time, input_deg, np.degrees(wheel), *rates])
-
-
-def derivatives(station: Station, local_deg: Array) -> tuple[Array, ...]:
-    """Wheel angle, velocity, acceleration and jerk at ascending input angles of one station.
-
-    A symmetric motion at symmetric angles is computed once and mirrored.
-    """
-    if station.symmetric and len(local_deg) > 2 and np.array_equal(local_deg, -local_deg[::-1]):
-        half = (len(local_deg) + 1) // 2
-        first = station.motion(local_deg[:half]).derivatives()
-        rest = len(local_deg) - half
-        return tuple(
-            np.concatenate((v, v[:rest][::-1] if k % 2 else -v[:rest][::-1]))
-            for k, v in enumerate(first)
-        )
-    return station.motion(local_deg).derivatives()

@@ -28,9 +28,12 @@ NAMES = (
     "curvature_radius_mm",
 )
 ROWS_MAX = 1_000_000
+ATTEMPTS = 20
+SPARE = 0.02  # share of the nodes that is not worth another attempt
+ROUNDS = 6  # of moving a given number of nodes to where they are needed
 SURVEY = 2048  # intervals on which the curve's density is integrated
 FLOOR = 0.05  # least density, as a share of its mean: an inflection needs nodes too
-INSIDE = np.array([0.25, 0.5, 0.75])  # where a chord's distance from the curve is measured
+INSIDE = np.arange(1, 16) / 16.0  # where a chord's distance from the curve is measured
 
 
 class Slot(NamedTuple):
@@ -93,40 +96,93 @@ def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
 
     A chord of length h on a curve of curvature k misses it by k h²/8, so nodes are spread evenly
     in the integral of sqrt(k) ds, taken on the flank where it is largest; then the misses are
-    measured and the number of nodes is corrected. Mid-motion, where the pitch curve can have a
-    cusp, is always a node.
+    measured and nodes moved, added or taken away. Cusps are nodes: mid-motion, where the pitch
+    curve can have one, and the places where an undercut flank turns back.
 
     Raises GenevaError where that takes more rows than are written.
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
     station = mechanism.stations[0]
-    first = _half(mechanism, station.entry_deg, 0.0, tolerance_mm)
-    if station.symmetric:
-        return np.concatenate((first[:-1], -first[::-1]))
-    return np.concatenate((first[:-1], _half(mechanism, 0.0, station.exit_deg, tolerance_mm)))
+    cusps = _flank_cusps(mechanism)
+    ends = [station.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
+    if not station.symmetric:
+        ends += [*[x for x in cusps if x > 0.0], station.exit_deg]
+    parts = [
+        _smooth(mechanism, a, b, tolerance_mm)[:-1] for a, b in zip(ends, ends[1:], strict=False)
+    ]
+    found = np.concatenate((*parts, [ends[-1]]))
+    return np.concatenate((found[:-1], -found[::-1])) if station.symmetric else found
 
 
-def _half(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Array:
+def _flank_cusps(mechanism: Mechanism) -> list[float]:
+    """Where a flank stops and turns back, the roller being as large as the curve is sharp."""
+    station, size = mechanism.stations[0], mechanism.spec.size
+    offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
+    offset /= size.center_distance_mm
+
+    def excess(x: float, side: float) -> float:
+        at = pitch(station, x)
+        return float(at.speed - side * offset * at.turning)
+
+    # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
+    step = station.motion_deg / SURVEY
+    grid = station.entry_deg + step * (np.arange(SURVEY) + 0.5)
+    at = pitch(station, grid)
+    found = []
+    for side in (-1.0, 1.0):
+        sign = np.sign(at.speed - side * offset * at.turning)
+        for i in np.flatnonzero(sign[1:] * sign[:-1] < 0.0):
+            a, b = float(grid[i]), float(grid[i + 1])
+            if a < 0.0 < b:
+                continue
+            for _ in range(50):
+                x = 0.5 * (a + b)
+                a, b = (x, b) if excess(x, side) * sign[i] > 0.0 else (a, x)
+            found.append(0.5 * (a + b))
+    return sorted(found)
+
+
+def _smooth(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Array:
     grid = np.linspace(a, b, SURVEY + 1)
     share, total = _integrated_density(mechanism, grid)
-    pieces = max(1.0, total / np.sqrt(8.0 * tolerance_mm))
-    for _ in range(20):
-        if not pieces < ROWS_MAX:
+    count = max(1, int(np.ceil(total / np.sqrt(8.0 * tolerance_mm) if total else 1.0)))
+    best, too_few = None, 0
+    for _ in range(ATTEMPTS):
+        if not count < ROWS_MAX:
             raise GenevaError(
                 f"--tolerance {tolerance_mm:g} mm takes more than {ROWS_MAX} rows; "
                 f"a coarser one would do: {(total / ROWS_MAX) ** 2 / 4.0:.1g} mm, say"
             )
-        count = int(np.ceil(pieces))
         found = np.interp(np.linspace(0.0, 1.0, count + 1), share, grid)
-        found[0], found[-1] = a, b
-        miss = chord_error(mechanism, found)
-        if miss <= tolerance_mm:
-            return found
-        pieces = count * max(np.sqrt(miss / tolerance_mm), 1.0 + 1.0 / count)
+        for _ in range(ROUNDS):
+            found[0], found[-1] = a, b
+            root = np.sqrt(chord_errors(mechanism, found) / tolerance_mm)
+            if root.max() <= 1.0:
+                break
+            found = _respread(found, root)
+        # A chord's miss goes with the square of its length: so many of them should just do.
+        enough = int(np.ceil(root.sum()))
+        if root.max() <= 1.0:
+            best, good = found, count
+            count = max(enough, (too_few + good) // 2, 1)
+        else:
+            too_few = count
+            count = max(enough, count + 1) if best is None else (too_few + good + 1) // 2
+        if best is not None and (count >= good or good - too_few <= SPARE * good):
+            return best
+    if best is not None:
+        return best
     raise GenevaError(
         f"--tolerance {tolerance_mm:g} mm is finer than double precision can show at this size"
     )
+
+
+def _respread(found: Array, root: Array) -> Array:
+    """As many nodes, moved to where the square roots of the misses say they are needed."""
+    weight = np.maximum(root, FLOOR * root.mean())
+    area = np.concatenate(([0.0], np.cumsum(weight)))
+    return np.interp(np.linspace(0.0, area[-1], len(found)), area, found)
 
 
 def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float]:
@@ -147,19 +203,21 @@ def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float
     return area / area[-1], float(area[-1])
 
 
-def chord_error(mechanism: Mechanism, input_deg: Array) -> float:
-    """The greatest distance between pitch curve or flanks and the chords between samples, mm."""
+def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
+    """For each chord between samples, how far pitch curve or flanks stray from it, mm."""
     steps = np.diff(input_deg)
     inner = input_deg[:-1, None] + steps[:, None] * INSIDE
-    ends_, between = slot(mechanism, input_deg), slot(mechanism, inner.ravel())
-    worst = 0.0
+    ends, between = slot(mechanism, input_deg), slot(mechanism, inner.ravel())
+    worst = np.zeros(len(steps))
     for name in ("centre", "left", "right"):
-        knots, points = getattr(ends_, name), getattr(between, name)
-        chord = np.diff(knots, axis=0)
-        length = np.maximum(np.hypot(chord[:, 0], chord[:, 1]), 1e-300)
+        knots, points = getattr(ends, name), getattr(between, name)
+        chord = np.diff(knots, axis=0)[:, None, :]
         way = points.reshape(len(steps), len(INSIDE), 2) - knots[:-1, None, :]
-        off = np.abs(way[..., 0] * chord[:, None, 1] - way[..., 1] * chord[:, None, 0])
-        worst = max(worst, float(np.max(off / length[:, None])))
+        # To the nearest point of the chord itself: an undercut flank folds back beyond its ends.
+        square = np.maximum((chord * chord).sum(axis=2), 1e-300)
+        share = np.clip((way * chord).sum(axis=2) / square, 0.0, 1.0)
+        off = way - share[..., None] * chord
+        worst = np.maximum(worst, np.hypot(off[..., 0], off[..., 1]).max(axis=1))
     return worst
 
 

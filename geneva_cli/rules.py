@@ -22,6 +22,8 @@ class Range(NamedTuple):
     def __str__(self) -> str:
         if math.isinf(self.low) and math.isinf(self.high):
             return "a finite number"
+        if 0.0 < self.low < 1e-6:  # a bound that is there only to keep the arithmetic finite
+            return f"above 0 ({self.low:g} to {self.high:g})"
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
         return low if math.isinf(self.high) else high if math.isinf(self.low) else f"{low}, {high}"
@@ -36,8 +38,9 @@ class OneOf(tuple[str, ...]):
         return "one of " + ", ".join(f'"{word}"' for word in self)
 
 
-POSITIVE = Range(0.0, math.inf, "()")
-NOT_NEGATIVE = Range(0.0, math.inf, "[)")
+POSITIVE = Range(1e-12, 1e12)
+NOT_NEGATIVE = Range(0.0, 1e12)
+SPEED = Range(1e-9, 1e9)
 FINITE = Range(-math.inf, math.inf, "()")
 
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed

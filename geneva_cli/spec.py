@@ -5,15 +5,18 @@ from __future__ import annotations
 import importlib
 import math
 import os
+import re
 import sys
+from itertools import islice
 from typing import Any, NamedTuple, get_args, get_type_hints
 
 import tomli
 
 from geneva_cli import drives, keys
-from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.errors import GenevaError, clean, nearest
 from geneva_cli.mechanism import Mechanism, build
 
+TRIES = 10  # lines that look like setting a key, before its table is named instead
 BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
 TABLES: dict[str, Any] = {
     "wheel": keys.Wheel,
@@ -40,6 +43,8 @@ def load(path: str) -> Mechanism:
         raise GenevaError(f"{name}:{error.lineno}: not TOML: {said}") from None
     except RecursionError:
         raise GenevaError(f"{name}: not a spec: brackets are nested too deeply") from None
+    except ValueError as error:  # a whole number of thousands of digits
+        raise GenevaError(f"{name}: not a spec: {error}") from None
     try:
         return build(_spec(tree, name))
     except GenevaError as error:
@@ -77,24 +82,36 @@ def line_of(text: str, path: tuple[str, ...]) -> int:
     """The line where a key (or, failing that, its table) is set; 0 if it is nowhere.
 
     Asks the TOML reader itself: the key's line is the first after which the text so far parses
-    and holds the key. Only lines that could matter are tried.
+    and holds the key. Only lines that look like setting it are tried.
     """
+    lines = text.split("\n")
     while path:
-        lines = text.split("\n")
-        for i, line in enumerate(lines):
-            if path[-1] in line:
-                for end in range(i + 1, min(i + 50, len(lines)) + 1):  # a value of many lines
-                    try:
-                        node: Any = tomli.loads("\n".join(lines[:end]))
-                    except (tomli.TOMLDecodeError, RecursionError):
-                        continue
-                    for part in path:
-                        node = node.get(part) if isinstance(node, dict) else None
-                    if node is not None:
-                        return i + 1
-                    break
+        name = re.escape(path[-1])
+        sets = re.compile(rf"""(^|[\s.,{{\["']){name}["']?\s*[=.\]]""")
+        likely = (
+            i for i, x in enumerate(lines) if sets.search(x) and not x.lstrip().startswith("#")
+        )
+        for i in islice(likely, TRIES):
+            if _holds(lines, i + 1, path):
+                return i + 1
         path = path[:-1]
     return 0
+
+
+def _holds(lines: list[str], end: int, path: tuple[str, ...]) -> bool:
+    """Whether the first lines, up to the end of the value that line ``end`` begins, set the key."""
+    more = 0
+    while True:
+        try:
+            node: Any = tomli.loads("\n".join(lines[: end + more]))
+            break
+        except (ValueError, RecursionError):
+            if end + more >= len(lines):
+                return False
+            more = 2 * more + 1  # a value of many lines
+    for part in path:
+        node = node.get(part) if isinstance(node, dict) else None
+    return node is not None
 
 
 class Field(NamedTuple):
@@ -140,16 +157,18 @@ def _spec(tree: dict[str, Any], name: str) -> keys.Spec:
         if not isinstance(value, dict):
             raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
     if "wheel" not in tree:
-        raise GenevaError(f"{name}: no [wheel] table; the shortest spec is\n[wheel]\nz = 6")
+        raise GenevaError(
+            f"{name}: no [wheel] table; the shortest spec is [wheel] and, below it, z = 6"
+        )
     drive, kind = _drive(dict(tree.pop("drive", {})))
     tables = {table: _table(TABLES[table], table, value) for table, value in tree.items()}
-    return keys.Spec(drive=drive, kind=kind, title=title, path=name, **tables)
+    return keys.Spec(drive=drive, kind=kind, title=clean(title), path=name, **tables)
 
 
 def _drive(given: dict[str, Any]) -> tuple[keys.Drive, Any]:
     """The common keys, and those of the kind."""
     kind = given.get("kind", "crank")
-    if kind not in drives.KINDS:
+    if not isinstance(kind, str) or kind not in drives.KINDS:
         hint = nearest(str(kind), drives.KINDS)
         known = ", ".join(f'"{k}"' for k in drives.KINDS)
         raise GenevaError(

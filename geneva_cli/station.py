@@ -8,12 +8,15 @@ the centre distance L. The wheel's axis is the origin, the crank's axis at (1, 0
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
 from geneva_cli.laws import Law, remaining
 from geneva_cli.units import DEGREE, radians
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
 
 
 class Anchor(NamedTuple):
@@ -30,6 +33,22 @@ class Anchor(NamedTuple):
         tau = Jet.variable(radians(input_deg - self.input_deg), order)
         along, across = self.displacement(tau)
         return along + self.along, across
+
+
+END_DEG = 0.5  # closer than this to entry or exit, relative accuracy is kept too
+
+
+def is_mirrored(input_deg: Array) -> bool:
+    """Whether the angles lie symmetrically about mid-motion."""
+    return bool((input_deg == -input_deg[::-1]).all())
+
+
+def mirror(first: Array, count: int, order: int) -> Array:
+    """``count`` values of a derivative from their first half; the even ones change sign."""
+    import numpy
+
+    rest = first[: count - len(first)][::-1]
+    return numpy.concatenate((first, rest if order % 2 else -rest))
 
 
 class Station(ABC):
@@ -60,6 +79,16 @@ class Station(ABC):
     def motion(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """Wheel angle with its derivatives by the input angle in radians."""
 
+    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
+        """The wheel's angle and its derivatives at many ascending input angles.
+
+        A symmetric motion at symmetric angles is computed once and mirrored.
+        """
+        mirrored = self.symmetric and is_mirrored(input_deg)
+        first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
+        values = self.motion(first, max(orders)).derivatives()
+        return [mirror(values[k], len(input_deg), k) if mirrored else values[k] for k in orders]
+
     @abstractmethod
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's centre (x, y) in the fixed frame."""
@@ -74,9 +103,16 @@ class Station(ABC):
 class SlotDriven(Station):
     """Pin path and straight radial slot are known and give the motion."""
 
-    def __init__(self, mid_deg: float, half_step: float, anchors: tuple[Anchor, ...]) -> None:
+    def __init__(
+        self,
+        mid_deg: float,
+        half_step: float,
+        anchors: tuple[Anchor, ...],
+        classic: tuple[float, float, float] | None = None,
+    ) -> None:
         super().__init__(mid_deg, anchors[0].input_deg, anchors[-1].input_deg, half_step)
         self.anchors = anchors
+        self.classic = classic  # sign, l and 1 - l of a plain crank's kernel
         degs = [a.input_deg for a in anchors]
         self._cuts = [0.5 * (a + b) for a, b in zip(degs, degs[1:], strict=False)]
 
@@ -91,6 +127,25 @@ class SlotDriven(Station):
             return solve
 
         return piecewise(input_deg, self._cuts, [about(a) for a in self.anchors])
+
+    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
+        """As of any station; a plain crank's in closed form, but for the ends.
+
+        There the anchors keep the relative accuracy of what goes to zero.
+        """
+        if self.classic is None:
+            return super().derivatives(input_deg, orders)
+        from geneva_cli.kernel import Kernel
+
+        out = Kernel(*self.classic).derivatives(input_deg, orders, is_mirrored(input_deg))
+        first = int(input_deg.searchsorted(self.entry_deg + END_DEG))
+        last = int(input_deg.searchsorted(self.exit_deg - END_DEG))
+        for part in (slice(0, first), slice(last, None)):
+            if len(input_deg[part]):
+                values = self.motion(input_deg[part], max(orders)).derivatives()
+                for k, o in zip(orders, out, strict=True):
+                    o[part] = values[k]
+        return out
 
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
-
 from geneva_cli import classic
 from geneva_cli.errors import GenevaError
-from geneva_cli.rules import Z_MAX
+from geneva_cli.rules import SPEED, Z_MAX
 from geneva_cli.table import Table, rows_table
 from geneva_cli.timing import Timing, timing
 from geneva_cli.units import sin_cos_pi
@@ -31,8 +29,8 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
 
     Raises GenevaError, naming the option, for a value out of its range.
     """
-    if not 0.0 < n_rpm < math.inf:
-        raise GenevaError(f"--n {n_rpm:g}: the speed must be above 0")
+    if n_rpm not in SPEED:
+        raise GenevaError(f"--n {n_rpm:g}: the speed must be {SPEED}")
     if not -1.0 < A < 1.0:
         raise GenevaError(f"--A {A:g}: the side-crank's offset must be above -1 and below 1")
     if rollers < 1:

@@ -23,9 +23,9 @@ def run(
     from geneva_cli.spec import load
 
     mechanisms = [load(spec) for spec in specs]
+    table = checks_table(mechanisms)
+    show(table, output, format, [file for m in mechanisms for file in m.spec.files])
     for mechanism in mechanisms:
         warn(mechanism)
-    table = checks_table(mechanisms)
-    show(table, output, format, specs)
     if not all(table.columns[NAMES.index("passes")]):
         raise typer.Exit(1)

@@ -24,5 +24,5 @@ def run(
     from geneva_cli.spec import load
 
     mechanism = load(spec)
+    show(motion_table(mechanism, samples), output, format, mechanism.spec.files)
     warn(mechanism)
-    show(motion_table(mechanism, samples), output, format, [spec])

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
+from geneva_cli.errors import clean
+
 if TYPE_CHECKING:
     from geneva_cli.mechanism import Mechanism
 
@@ -28,4 +30,4 @@ def warn(mechanism: Mechanism) -> None:
     from geneva_cli.cautions import cautions
 
     for caution in cautions(mechanism):
-        print(f"{mechanism.spec.path}: warning: {caution}", file=sys.stderr)
+        print(clean(f"{mechanism.spec.path}: warning: {caution}"), file=sys.stderr)

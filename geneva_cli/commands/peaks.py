@@ -15,5 +15,5 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     from geneva_cli.spec import load
 
     mechanism = load(spec)
+    show(peaks_table(mechanism), output, format, mechanism.spec.files)
     warn(mechanism)
-    show(peaks_table(mechanism), output, format, [spec])

@@ -12,5 +12,5 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     from geneva_cli.spec import load
 
     mechanism = load(spec)
+    show(report_table(mechanism), output, format, mechanism.spec.files)
     warn(mechanism)
-    show(report_table(mechanism), output, format, [spec])

@@ -27,9 +27,7 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten."""
     name = format or format_of(output)
     if name not in FORMATS:
-        raise GenevaError(
-            f'unknown format "{name}"; it must be one of {", ".join(FORMATS)}', ("--format",)
-        )
+        raise GenevaError(f"--format {name}: it must be one of {', '.join(FORMATS)}")
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
     if output == "-":
         for chunk in module.chunks(table, sys.stdout.isatty()):
@@ -58,6 +56,6 @@ def format_of(output: str) -> str:
     if extension not in EXTENSIONS:
         known = ", ".join(f".{e}" for e in EXTENSIONS)
         raise GenevaError(
-            f"{output}: the extension does not name a format ({known}); add one, or --format"
+            f'-o "{output}": the extension names no format ({known}); add one, or --format'
         )
     return EXTENSIONS[extension]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from geneva_cli.errors import clean
 from geneva_cli.table import Table
 
 
@@ -28,7 +29,7 @@ def _field(value: Any) -> str:
         return "true" if value else "false"
     if not isinstance(value, str):
         return str(value)
-    text = "".join(c if c.isprintable() else " " for c in value)
+    text = clean(value)
     if text[:1] in ("=", "+", "-", "@"):
         text = "'" + text  # a spreadsheet would run it as a formula
     if any(c in text for c in ',"'):

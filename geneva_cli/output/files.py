@@ -13,7 +13,8 @@ from types import FrameType
 from geneva_cli.errors import GenevaError
 
 # Left behind only by kill -9 or a power cut; the name says whose it is.
-TEMPORARY = ".{name}.geneva-{pid}.tmp"
+TEMPORARY = ".{name}.geneva-{number}.tmp"
+NAME_MAX = 200  # bytes of the file's own name in it: a folder takes 255
 
 
 def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
@@ -23,6 +24,8 @@ def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
     permissions. A device or a pipe is written to directly. Raises GenevaError where the file
     cannot be written, or is one of ``inputs``.
     """
+    if not path or "\0" in path:
+        raise GenevaError(f'-o "{path}": not a file\'s name')
     path = os.path.realpath(path)
     _refuse_input(path, inputs)
     try:
@@ -43,7 +46,10 @@ def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
 
 def _replace(path: str, chunks: Iterable[str], old: os.stat_result | None) -> None:
     folder, name = os.path.split(path)
-    temporary = os.path.join(folder, TEMPORARY.format(name=name, pid=os.getpid()))
+    name = name.encode(errors="surrogateescape")[:NAME_MAX].decode(errors="replace")
+    number = os.getpid()
+    while os.path.lexists(temporary := _temporary(folder, name, number)):
+        number += 1  # another run's, or one that was killed: not ours to touch
 
     def stop(number: int, frame: FrameType | None) -> None:
         sys.exit(128 + number)  # unwinds through the finally below
@@ -62,6 +68,10 @@ def _replace(path: str, chunks: Iterable[str], old: os.stat_result | None) -> No
             os.unlink(temporary)
         for number, handler in handlers.items():
             signal.signal(number, handler)
+
+
+def _temporary(folder: str, name: str, number: int) -> str:
+    return os.path.join(folder, TEMPORARY.format(name=name, number=number))
 
 
 def _refuse_input(path: str, inputs: Iterable[str]) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.output.text import cell, clean
+from geneva_cli.errors import clean
+from geneva_cli.output.text import cell
 from geneva_cli.table import Table
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterator
 from typing import Any
 
+from geneva_cli.errors import clean
 from geneva_cli.table import Table
 
 WIDTH = 90
+NOISE = 1e-13
 DIGITS = 7  # significant digits for people; csv and json carry all
 
 
@@ -33,11 +36,6 @@ def cell(value: Any) -> str:
     return clean(str(value))
 
 
-def clean(text: str) -> str:
-    """Text without control characters, which could carry terminal escapes."""
-    return "".join(c if c.isprintable() else " " for c in text)
-
-
 def paragraphs(text: str) -> list[str]:
     """A text of one or more paragraphs, broken into lines that fit a terminal."""
     lines = []
@@ -56,7 +54,7 @@ def _headings(names: tuple[str, ...]) -> list[list[str]]:
 def _plain(table: Table) -> Iterator[str]:
     heads = _headings(table.names)
     for block in table.blocks():
-        lines = [[cell(v) for v in row] for row in block]
+        lines = [[cell(v) for v in row] for row in _without_noise(block)]
         widths = [
             max(len(text) for text in (*head, *(line[i] for line in lines)))
             for i, head in enumerate(heads)
@@ -69,6 +67,19 @@ def _plain(table: Table) -> Iterator[str]:
             heads = [[] for _ in heads]
         for line in lines:
             yield _line(line, widths, left)
+
+
+def _without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
+    """Rows in which a number that is only rounding beside its column's largest is shown as 0."""
+    scales = [
+        max((abs(v) for v in column if isinstance(v, float) and v == v), default=0.0)
+        for column in zip(*block, strict=True)
+    ]
+    for row in block:
+        yield [
+            0.0 if isinstance(v, float) and abs(v) < NOISE * scale < math.inf else v
+            for v, scale in zip(row, scales, strict=True)
+        ]
 
 
 def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:

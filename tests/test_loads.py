@@ -1,0 +1,150 @@
+"""Forces, torque and stress: published comparisons, and balances that must close."""
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli import loads
+from geneva_cli.keys import Drive, Limits, Load, Motion, Size, Spec, Wheel
+from geneva_cli.mechanism import Mechanism, build
+
+OMEGA = 2.0 * math.pi
+# Krasniqi's press: peak inertia torque 345.2 N m on straight slots, resisting torque 497 N m.
+PRESS = Spec(
+    Wheel(6),
+    Drive(n_rpm=60.0),
+    size=Size(441.89, 20.0, face_width_mm=30.0),
+    load=Load(345.2 / 1.349637275901903 / OMEGA**2, 497.0),
+)
+
+
+def pin_force(motion: Motion) -> float:
+    return loads.greatest(build(PRESS._replace(motion=motion)), "pin_force_N").max
+
+
+def test_the_press_with_straight_slots() -> None:
+    """Krasniqi: 3433 N, at 17.07 degrees before mid-motion (theory of the straight slot)."""
+    found = loads.greatest(build(PRESS), "pin_force_N")
+    assert found.max == pytest.approx(3433.0, abs=0.5)
+    assert found.at_deg == pytest.approx(-17.07, abs=0.005)
+    # Hertz for 3433 N, 30 mm, roller of 20 mm, E = 210 GPa: 458.4 MPa
+    assert loads.greatest(build(PRESS), "contact_stress_MPa").max == pytest.approx(458.4, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("motion", "newtons"),
+    [
+        (Motion("cycloidal", ratio=0.5), 3385.0),
+        (Motion("3-4-5", ratio="matched"), 3100.0),
+        (Motion("cycloidal", alpha0_deg=-40.0, ratio="matched"), 2439.0),
+        (Motion("sine-group", alpha0_deg=-40.0, ratio="matched"), 3432.0),
+        (Motion("sine-group", ratio="matched"), 5379.0),
+    ],
+)
+def test_the_press_with_curved_slots(motion: Motion, newtons: float) -> None:
+    """The comparison that the published force table could not give; rounded to 1 N."""
+    assert pin_force(motion) == pytest.approx(newtons, abs=0.6)
+
+
+def test_off_the_mid_condition_the_force_has_no_bound() -> None:
+    assert math.isinf(pin_force(Motion("sine-group", ratio=0.5)))
+
+
+def test_near_mid_motion_it_grows_as_published() -> None:
+    """23.9 kN one degree before mid-motion, 2.1 MN a hundredth before it."""
+    mechanism = build(PRESS._replace(motion=Motion("sine-group", ratio=0.5)))
+    station = mechanism.stations[0]
+    assert loads.state(mechanism, station, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
+    # printed to two digits, cut off
+    assert loads.state(mechanism, station, -0.01).pin_force_N == pytest.approx(2.15e6, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("z", "force", "power"),
+    [
+        (3, 206.55191627986100319, 159.3141681653509548),
+        (6, 2.3911331461217286559, 0.99033003352939846981),
+        (24, 0.15033377172524891233, 0.01276713326923606),
+    ],
+)
+def test_inertia_factors(z: int, force: float, power: float) -> None:
+    """F L/(I w²) and T/(I w²) of external wheels under inertia alone, 20 digits elsewhere.
+
+    The places are found by golden section, flat to the square root of an ulp: 1e-14 in value.
+    """
+    spec = Spec(Wheel(z), Drive(n_rpm=30.0 / math.pi), size=Size(1000.0), load=Load(1.0))
+    mechanism = build(spec)
+    assert loads.greatest(mechanism, "pin_force_N").max == pytest.approx(force, rel=1e-13)
+    assert loads.greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=1e-13)
+
+
+def friction_balance(gearing: str, f: float, x: float) -> tuple[float, float]:
+    """Pin force and input torque by statics in the plane, without the program's formulas.
+
+    The roller's centre is at P; the wall ahead (or behind) presses with N along its normal and
+    rubs with f N against the slip of the roller, which does not turn on its pin.
+    """
+    mechanism = build(
+        Spec(
+            Wheel(6, gearing),
+            Drive(n_rpm=30.0 / math.pi),
+            size=Size(1000.0, 60.0),
+            load=Load(1.0, 0.3, friction=f),
+        )
+    )
+    station = mechanism.stations[0]
+    psi, psi1, psi2 = station.motion(x, 2).derivatives()
+    torque = psi2 + 0.3
+    P = complex(*(c.c[0] for c in station.pin(x, 0)))
+    P1 = complex(*(c.c[1] for c in station.pin(x, 1)))
+    turn = -1.0 if gearing == "external" else 1.0  # the crank's sense, the wheel's being positive
+    ahead = math.copysign(1.0, torque)
+    along = np.exp(1j * psi)
+    contact = P + 0.06 * 1j * along * ahead
+    roller = P1 + 1j * turn * (contact - P)
+    wheel = 1j * psi1 * contact
+    slip = (roller - wheel) @ along if False else ((roller - wheel) * along.conjugate()).real
+
+    def moment(N: float) -> float:
+        force = N * 1j * along * ahead + f * N * math.copysign(1.0, slip) * along
+        return float((contact.conjugate() * force).imag)
+
+    N = torque / moment(1.0)
+    return N, torque * psi1 + f * N * abs(slip)
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("x", [-55.0, -20.0, 10.0, 40.0])
+def test_friction_against_statics(gearing: str, x: float) -> None:
+    """10 ulp: a dozen operations on each side."""
+    mechanism = build(
+        Spec(
+            Wheel(6, gearing),
+            Drive(n_rpm=30.0 / math.pi),
+            size=Size(1000.0, 60.0),
+            load=Load(1.0, 0.3, friction=0.2),
+        )
+    )
+    at = loads.state(mechanism, mechanism.stations[0], x)
+    N, shaft = friction_balance(gearing, 0.2, x)
+    assert at.pin_force_N == pytest.approx(N, rel=3e-15)
+    assert at.input_torque_Nm == pytest.approx(shaft, rel=1e-14)
+
+
+def test_power_closes_over_a_cycle() -> None:
+    """Without friction the input's work over a motion is the resisting torque's alone."""
+    mechanism = build(PRESS)
+    station = mechanism.stations[0]
+    x, weights = np.polynomial.legendre.leggauss(60)
+    torque = [loads.state(mechanism, station, float(60.0 * t)).input_torque_Nm for t in x]
+    work = float(np.dot(torque, weights)) * math.radians(60.0)
+    assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves
+
+
+def test_the_fastest_speed_meets_its_limit() -> None:
+    mechanism: Mechanism = build(PRESS._replace(limits=Limits(pin_force_max_N=3000.0)))
+    n = loads.fastest_rpm(mechanism)
+    assert n is not None
+    again = build(PRESS._replace(drive=Drive(n_rpm=n)))
+    assert loads.greatest(again, "pin_force_N").max == pytest.approx(3000.0, rel=2e-6)

@@ -1,0 +1,39 @@
+"""Specs that ``geneva new`` writes: valid, complete, and true to the keys."""
+
+from pathlib import Path
+
+import pytest
+import tomli
+
+from geneva_cli.checks import checks
+from geneva_cli.spec import TABLES, fields, load
+from geneva_cli.template import KINDS, template
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_new_spec_loads_and_passes(kind: str, tmp_path: Path) -> None:
+    file = tmp_path / "spec.toml"
+    file.write_text(template(kind), encoding="utf-8")
+    assert all(c.passes for c in checks(load(str(file))))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_key_is_there(kind: str) -> None:
+    text = template(kind)
+    for name, table in TABLES.items():
+        assert f"[{name}]" in text
+        for field in fields(table):
+            assert f"\n{field.key} = " in text or f"\n# {field.key} = " in text
+
+
+def test_the_defaults_shown_are_the_defaults() -> None:
+    """Uncommented, the keys with a default still describe the same machine."""
+    lines = template("external").splitlines()
+    shown = [
+        x[2:] if x.startswith("# ") and " = " in x and "..." not in x else x for x in lines[2:]
+    ]
+    tree = tomli.loads("\n".join(shown))
+    for name, table in TABLES.items():
+        for field in fields(table):
+            if field.key in tree[name] and field.default is not ...:
+                assert tree[name][field.key] == field.default
