@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.units import sin_cos_pi
+from geneva_cli.units import one_minus_sin_pi, sin_cos_pi
 
 SIGN = {"external": 1.0, "internal": -1.0}
 
@@ -19,14 +19,8 @@ def half_motion_deg(gearing: str, p: int, q: int) -> float:
 
 
 def gap(gearing: str, p: int, q: int) -> float:
-    """Least distance of the pin from the wheel's centre in units of L: 1 - l, inside 1 + l.
-
-    1 - sin b = 2 sin²(45° - b/2) has no cancellation as l nears 1.
-    """
-    if gearing == "internal":
-        return 1.0 + sin_cos_pi(p, q)[0]
-    half: float = sin_cos_pi(q - 2 * p, 4 * q)[0]
-    return 2.0 * half * half
+    """Least distance of the pin from the wheel's centre in units of L: 1 - l, inside 1 + l."""
+    return 1.0 + sin_cos_pi(p, q)[0] if gearing == "internal" else one_minus_sin_pi(p, q)
 
 
 def rollers_max(motion_deg: float) -> int:

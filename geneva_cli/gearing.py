@@ -18,7 +18,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.classic import SIGN, gap, half_motion_deg
-from geneva_cli.jet import Jet, sin_cos
+from geneva_cli.jet import Jet
 from geneva_cli.units import sin_cos_pi
 
 
@@ -31,10 +31,8 @@ class Pose(NamedTuple):
     slope: tuple[float, float]  # d(position)/d(crank angle)
     bend: tuple[float, float]  # second derivative
 
-    def displacement(self, crank: Jet) -> tuple[Jet, Jet]:
-        """The pin's way since the pose, after the crank has turned by ``crank`` radians."""
-        s, c = sin_cos(crank * 0.5)
-        sine, versine = s * c * 2.0, s * s * 2.0
+    def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """The pin's way since the pose, after the crank has turned by d: sin d and 1 - cos d."""
         u = sine * self.slope[0] + versine * self.bend[0]
         v = sine * self.slope[1] + versine * self.bend[1]
         return u, v

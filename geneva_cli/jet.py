@@ -113,12 +113,36 @@ def _convolve(a: Sequence[Coefficient], b: Sequence[Coefficient], k: int, first:
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
     """Sine and cosine together; each one's recurrence needs the other."""
     m = library(x.c[0])
-    s, c = [m.sin(x.c[0])], [m.cos(x.c[0])]
-    slope = [k * a for k, a in enumerate(x.c)]
-    for k in range(1, len(x.c)):
+    return _circle([k * a for k, a in enumerate(x.c)], m.sin(x.c[0]), m.cos(x.c[0]))
+
+
+def _circle(
+    slope: Sequence[Coefficient], sine: Coefficient, cosine: Coefficient
+) -> tuple[Jet, Jet]:
+    """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
+    s, c = [sine], [cosine]
+    for k in range(1, len(slope)):
         s.append(_convolve(slope, c, k, 1) / k)
         c.append(-_convolve(slope, s, k, 1) / k)
     return Jet(s), Jet(c)
+
+
+def sine_versine(x: Jet) -> tuple[Jet, Jet]:
+    """sin x and 1 - cos x, the latter without cancellation."""
+    s, c = sin_cos(x)
+    half = library(x.c[0]).sin(0.5 * x.c[0])
+    return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
+
+
+def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient) -> tuple[Jet, Jet]:
+    """The same of the direction of the vector (x, y), which turns at ``rate`` (one order less)."""
+    length = library(x + y).hypot(x, y)
+    sine, cosine = y / length, x / length
+    # 1 - cos = sin²/(1 + cos), or as it stands where the cosine is negative
+    ahead = 0.5 * (1.0 + library(x + y).copysign(1.0, x))
+    versine = ahead * sine * sine / (1.0 + abs(cosine)) + (1.0 - ahead) * (1.0 - cosine)
+    s, c = _circle([0.0, *rate.c], sine, cosine)
+    return s, Jet((versine, *[-a for a in c.c[1:]]))
 
 
 def sqrt(x: Jet) -> Jet:

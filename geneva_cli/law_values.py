@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.jet import Coefficient, Jet
 from geneva_cli.laws import LAWS, Law, named
 from geneva_cli.peaks import peak
 from geneva_cli.station import Anchor, LawDriven
@@ -23,10 +24,14 @@ class Characteristic(NamedTuple):
     power: float
 
 
+def _nowhere(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    return Jet.variable(tau, order), Jet.variable(tau, order)
+
+
 def characteristic(law: Law) -> Characteristic:
     """The characteristic values of one law, from the same root finding as a machine's peaks."""
     # A step of 1 in a motion of 1 radian: the invariants are then the law's own derivatives.
-    nowhere = Anchor(0.0, 0.0, 0.0, lambda tau: (tau, tau))
+    nowhere = Anchor(0.0, 0.0, 0.0, _nowhere)
     station = LawDriven(0.0, math.degrees(1.0), 0.5, law, nowhere)
     return Characteristic(*[peak(station, name).max for name in Characteristic._fields])
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from geneva_cli import drives, gearing
 from geneva_cli.classic import SIGN, gap, half_motion_deg, refuse_jam, rollers_max
 from geneva_cli.errors import GenevaError
-from geneva_cli.jet import Jet
+from geneva_cli.jet import Coefficient, Jet
 from geneva_cli.keys import Spec
 from geneva_cli.laws import Law, named
 from geneva_cli.station import Anchor, LawDriven, SlotDriven, Station
@@ -126,8 +126,8 @@ def _anchor(pose: gearing.Pose, front: drives.Turn, crank_deg: float) -> Anchor:
     here = front(crank_deg + pose.crank_deg)
     from_mid = here.input_deg - front(crank_deg).input_deg
 
-    def displacement(tau: Jet) -> tuple[Jet, Jet]:
-        return pose.displacement(here.advance(tau))
+    def displacement(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        return pose.displacement(*here.advance(tau, order))
 
     return Anchor(from_mid, pose.wheel, pose.along, displacement)
 
@@ -160,7 +160,7 @@ def matched_ratio(
     psi1(0) = l/(1-l) f1(0) outside, l/(1+l) f1(0) inside, with f1 the front drive's ratio; at
     any other R/L the pressure angle at mid-motion is 90 degrees. None where no R/L below 1 does.
     """
-    rate: float = front(0.0).advance(Jet.variable(0.0, 1)).c[1]
+    rate: float = front(0.0).advance(0.0, 1)[0].c[1]
     wheel: float = law(0.5, 1).c[1] * 2.0 * half_step / math.radians(motion_deg)
     v = wheel / rate
     if spec.wheel.gearing == "internal":

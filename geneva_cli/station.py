@@ -25,16 +25,16 @@ class Anchor(NamedTuple):
     input_deg: float
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
     along: float  # distance of the pin from the wheel's axis there
-    displacement: Callable[[Jet], tuple[Jet, Jet]]
-    # input angle since then, radians -> the pin's way (along the ray, across it)
+    displacement: Callable[[Coefficient, int], tuple[Jet, Jet]]
+    # input angle since then, radians, and order -> the pin's way (along the ray, across it)
 
     def place(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
         """The pin (along the anchor's ray, across it) at an input angle in degrees."""
-        tau = Jet.variable(radians(input_deg - self.input_deg), order)
-        along, across = self.displacement(tau)
+        along, across = self.displacement(radians(input_deg - self.input_deg), order)
         return along + self.along, across
 
 
+NEAR_END = 0.75  # share of the way to an end from which the end's own anchor serves
 END_DEG = 0.5  # closer than this to entry or exit, relative accuracy is kept too
 
 
@@ -114,7 +114,8 @@ class SlotDriven(Station):
         self.anchors = anchors
         self.classic = classic  # sign, l and 1 - l of a plain crank's kernel
         degs = [a.input_deg for a in anchors]
-        self._cuts = [0.5 * (a + b) for a, b in zip(degs, degs[1:], strict=False)]
+        # Each anchor serves what is near it; entry and exit, only where the motion goes to zero.
+        self._cuts = [degs[1] + NEAR_END * (end - degs[1]) for end in (degs[0], degs[-1])]
 
     def motion(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""

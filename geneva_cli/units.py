@@ -22,6 +22,16 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
     multiplies that by 12 on the way to its peak acceleration. Here the argument is an exact
     fraction, reduced to an eighth of a turn, and both series are summed in integers of 128 bits.
     """
+    s, c = _scaled_sin_cos(p, q)
+    return s / _ONE, c / _ONE
+
+
+def one_minus_sin_pi(p: int, q: int) -> float:
+    """1 - sin(pi p/q), correctly rounded however near to 1 the sine is."""
+    return (_ONE - _scaled_sin_cos(p, q)[0]) / _ONE
+
+
+def _scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
     quarter = (4 * p + q) // (2 * q)  # nearest number of quarter turns
     x = _PI * (2 * p - quarter * q) // (2 * q)
     sums = [_ONE, x]  # cosine, sine
@@ -32,7 +42,7 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
         if term == -1:  # floor division never reaches 0 from below
             break
         sums[k % 2] += -term if k % 4 > 1 else term
-    c, s = sums[0] / _ONE, sums[1] / _ONE
+    c, s = sums
     return ((s, c), (c, -s), (-s, -c), (-c, s))[quarter % 4]
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.jet import Jet
+from geneva_cli.jet import Coefficient, Jet
 
 KINDS = {"crank": "crank", "side-crank": "side_crank"}
 
@@ -18,7 +18,9 @@ class Front(NamedTuple):
     """The gearing between input shaft and crank, about one crank angle."""
 
     input_deg: float  # input angle there
-    advance: Callable[[Jet], Jet]  # input angle since then -> crank angle since then, radians
+    # input angle since then, radians, and order -> sin d and 1 - cos d of the crank's angle d
+    # since then, with their derivatives by the input angle
+    advance: Callable[[Coefficient, int], tuple[Jet, Jet]]
 
 
 # from a crank angle in degrees to the front about it

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from geneva_cli.drives import Front
-from geneva_cli.jet import Jet
+from geneva_cli.jet import Coefficient, Jet, sine_versine
 
 
 class Keys(NamedTuple):
@@ -18,5 +18,5 @@ def front(keys: Keys) -> Callable[[float], Front]:
     return lambda crank_deg: Front(crank_deg, _same)
 
 
-def _same(advance: Jet) -> Jet:
-    return advance
+def _same(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    return sine_versine(Jet.variable(tau, order))
