@@ -7,7 +7,7 @@ from geneva_cli.mechanism import Mechanism, matched_ratio_of
 from geneva_cli.peaks import QUANTITIES
 from geneva_cli.pitch import retraces
 from geneva_cli.roots import extrema
-from geneva_cli.station import LawDriven, Station
+from geneva_cli.station import LawDriven, LawMotion, Station
 from geneva_cli.units import DEGREE
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
@@ -20,7 +20,7 @@ def cautions(mechanism: Mechanism) -> list[str]:
     if z > Z_USUAL:
         out.append(f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them")
     station = mechanism.stations[0]
-    if not isinstance(station, LawDriven):
+    if not isinstance(station, LawMotion):
         return out
     back = turns_back(station)
     if back:
@@ -32,13 +32,15 @@ def cautions(mechanism: Mechanism) -> list[str]:
                 else "the law's points must not fall"
             )
         )
-    if not retraces(station):
+    if isinstance(station, LawDriven) and not retraces(station):
         out.append(_off_the_mid_condition(mechanism))
     if max(abs(half(0.0, 2).c[2]) for half in (station.law.first, station.law.second)) > 1e-9:
         out.append(
             f'the law "{station.law.name}" starts and stops with a jump in acceleration: a soft '
             "shock at both ends"
         )
+    if isinstance(station, LawDriven):
+        out.extend(_loose(mechanism))
     out.extend(_undercut(mechanism))
     return out
 
@@ -73,6 +75,21 @@ def _off_the_mid_condition(mechanism: Mechanism) -> str:
         f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
         f"condition, so the pin force there has no bound unless the torque is zero; {helps}"
     )
+
+
+def _loose(mechanism: Mechanism) -> list[str]:
+    from geneva_cli.positive import positive_drive
+
+    drive = positive_drive(mechanism)
+    if drive is None or not drive.loose_deg:
+        return []
+    where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in drive.loose_deg)
+    return [
+        f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): the "
+        "wall that the torque needs there is cut away by the slot's other branch, up to "
+        f'{drive.gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, and '
+        "less torque_Nm against the inertia makes the interval shorter"
+    ]
 
 
 def _undercut(mechanism: Mechanism) -> list[str]:

@@ -13,7 +13,7 @@ from geneva_cli.keys import Z_USUAL, Spec
 from geneva_cli.mechanism import Mechanism, build, matched_ratio_of
 from geneva_cli.peaks import Peaks, worst
 from geneva_cli.pitch import retraces
-from geneva_cli.station import LawDriven
+from geneva_cli.station import LawDriven, LawMotion
 from geneva_cli.table import Table, rows_table
 
 STEPS = 60  # tried on the way to a motion of a whole turn
@@ -44,9 +44,9 @@ def checks_table(mechanisms: list[Mechanism]) -> Table:
 
 def _motion(mechanism: Mechanism) -> list[Check]:
     dwell = min(mechanism.dwell_deg(i) for i in range(len(mechanism.stations)))
-    out = [Check("dwell_deg", dwell, "above", 0.0, dwell > 0.0)]
+    out = [Check("dwell_deg", dwell, "at least", 0.0, dwell >= 0.0)]
     station = mechanism.stations[0]
-    if not isinstance(station, LawDriven):
+    if not isinstance(station, LawMotion):
         return out
     back = turns_back(station)
     nearest = "lambda = " + f"{math.copysign(0.125, mechanism.spec.motion.lambda_):g}"
@@ -60,6 +60,8 @@ def _motion(mechanism: Mechanism) -> list[Check]:
             "" if back is None else nearest if mechanism.spec.motion.law == "sine-group" else "",
         )
     )
+    if not isinstance(station, LawDriven):
+        return out
     if mechanism.spec.limits.pressure_angle_max_deg is None:
         pressure = loads.greatest(mechanism, "pressure_deg").max
         out.append(_pressure(mechanism, pressure, 90.0))

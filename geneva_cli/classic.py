@@ -10,7 +10,7 @@ import math
 from geneva_cli.errors import GenevaError
 from geneva_cli.units import one_minus_sin_pi, sin_cos_pi
 
-SIGN = {"external": 1.0, "internal": -1.0}
+SIGN = {"external": 1.0, "internal": -1.0, "spherical": 1.0}
 
 
 def half_motion_deg(gearing: str, p: int, q: int) -> float:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from geneva_cli.classic import SIGN, gap, half_motion_deg
 from geneva_cli.jet import Jet
-from geneva_cli.units import sin_cos_pi
+from geneva_cli.units import sin_cos_deg, sin_cos_pi
 
 
 class Pose(NamedTuple):
@@ -69,4 +69,88 @@ def radial(gearing: str, step: Step) -> tuple[Pose, Pose, Pose]:
         Pose(-half, -step.b, cos_b, (-g * l, 0.0), (0.0, l)),
         middle(gearing, l, gap(gearing, *step)),
         Pose(half, step.b, cos_b, (g * l, 0.0), (0.0, -l)),
+    )
+
+
+def offset(step: Step, e: float) -> tuple[Pose, Pose, Pose]:
+    """The same for straight slots whose axes miss the wheel's centre by e (in units of L).
+
+    Shockless at both ends where the axis is tangent to the crank's circle: l = sin b cos d with
+    d = asin(e / cos b). The crank's angle of motion stays 180° - 2b and the two ends trade their
+    jumps: entry l/cos(b-d), exit l/cos(b+d). Coordinates are those of the slot, whose axis runs at
+    -e beside the ray from the wheel's centre. Raises ValueError unless b + |d| < 90 degrees.
+    """
+    sin_b, cos_b = step.sin_cos
+    sin_d = e / cos_b
+    if not abs(sin_d) < 1.0 or step.b + abs(math.asin(sin_d)) >= math.pi / 2.0:
+        raise ValueError
+    d = math.asin(sin_d)
+    cos_d = math.sqrt((1.0 - sin_d) * (1.0 + sin_d))
+    l = sin_b * cos_d
+    half, turn = half_motion_deg("external", *step), math.degrees(d)
+    # 1 - sin b cos d = (1 - sin b) + 2 sin b sin²(d/2)
+    least = gap("external", *step) + 2.0 * sin_b * math.sin(0.5 * d) ** 2
+    deepest = math.sqrt((least - e) * (least + e))
+    sin_m, cos_m = e / least, deepest / least
+    return (
+        Pose(-half - turn, -step.b, math.cos(step.b - d), (-l, 0.0), (0.0, l)),
+        Pose(
+            0.0,
+            math.asin(sin_m) - d,
+            deepest,
+            (l * sin_m, l * cos_m),
+            (l * cos_m, -l * sin_m),
+        ),
+        Pose(half - turn, step.b, math.cos(step.b + d), (l, 0.0), (0.0, -l)),
+    )
+
+
+class Sphere(NamedTuple):
+    """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
+
+    sin th = sin S sin b, so that the pin enters its meridian slot along it. Seen along the wheel's
+    axis the pin runs on an ellipse, (sin S - tan th cos S cos a, tan th sin a) times cos th.
+    """
+
+    sin_S: float
+    cos_S: float
+    sin_th: float
+    cos_th: float
+    cos_a: float  # of the half motion angle: tan th / tan S
+    sin_a: float
+
+    @property
+    def half_motion_deg(self) -> float:
+        """Crank angle from entry to mid-motion."""
+        return math.degrees(math.atan2(self.sin_a, self.cos_a))
+
+
+def sphere(step: Step, axes_deg: float) -> Sphere:
+    """The proportions of a spherical wheel with shafts at ``axes_deg``."""
+    sin_b, cos_b = step.sin_cos
+    sin_S, cos_S = sin_cos_deg(axes_deg)
+    sin_th = sin_S * sin_b
+    # cos² th = cos² S + sin² S cos² b: a sum of positive terms
+    cos_th = math.hypot(cos_S, sin_S * cos_b)
+    return Sphere(sin_S, cos_S, sin_th, cos_th, sin_b * cos_S / cos_th, cos_b / cos_th)
+
+
+def spherical(step: Step, ball: Sphere) -> tuple[Pose, Pose, Pose]:
+    """Entry, middle and exit of a spherical wheel's pin, in its projection along the wheel's axis.
+
+    Lengths are in units of the sphere's radius.
+    """
+    sin_b, cos_b = step.sin_cos
+    half = ball.half_motion_deg
+    # derivatives of the pin's place at the crank angle a, by it
+    across, along = ball.sin_th * ball.cos_S, ball.sin_th
+    mouth = math.hypot(ball.sin_S * ball.cos_th - across * ball.cos_a, along * ball.sin_a)
+    slope = across * ball.sin_a * cos_b + along * ball.cos_a * sin_b
+    inward = across * ball.cos_a * cos_b - along * ball.sin_a * sin_b
+    aside = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
+    middle_ = ball.sin_S * ball.cos_th - across  # sin(S - th)
+    return (
+        Pose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
+        Pose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),
+        Pose(half, step.b, mouth, (slope, 0.0), (inward, -aside)),
     )

@@ -134,14 +134,14 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
 
 
-def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient) -> tuple[Jet, Jet]:
-    """The same of the direction of the vector (x, y), which turns at ``rate`` (one order less)."""
+def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+    """The same of the direction of the vector (x, y), which turns at ``rate``."""
     length = library(x + y).hypot(x, y)
     sine, cosine = y / length, x / length
     # 1 - cos = sin²/(1 + cos), or as it stands where the cosine is negative
     ahead = 0.5 * (1.0 + library(x + y).copysign(1.0, x))
     versine = ahead * sine * sine / (1.0 + abs(cosine)) + (1.0 - ahead) * (1.0 - cosine)
-    s, c = _circle([0.0, *rate.c], sine, cosine)
+    s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
     return s, Jet((versine, *[-a for a in c.c[1:]]))
 
 

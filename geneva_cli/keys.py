@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from typing import Annotated, NamedTuple
 
-from geneva_cli.rules import FINITE, NOT_NEGATIVE, POSITIVE, SPEED, Z_MAX, OneOf, Range
+from geneva_cli.rules import FINITE, LENGTH, NOT_NEGATIVE, POSITIVE, SPEED, Z_MAX, OneOf, Range
 
 Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
 
@@ -17,7 +17,18 @@ class Wheel(NamedTuple):
     """``[wheel]``."""
 
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
-    gearing: Annotated[str, OneOf(("external", "internal")), "where the crank turns"] = "external"
+    gearing: Annotated[
+        str, OneOf(("external", "internal", "spherical")), "where the crank turns"
+    ] = "external"
+    axes_deg: Annotated[
+        float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"
+    ] = 90.0
+    offset_mm: Annotated[
+        float, LENGTH, "how far the slots' axes miss the wheel's centre; > 0 enters gently"
+    ] = 0.0
+    steps_deg: Annotated[
+        tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, a repeating pattern"
+    ] = None
 
 
 class Drive(NamedTuple):
@@ -26,6 +37,9 @@ class Drive(NamedTuple):
     kind: Annotated[str, None, "what turns the crank"] = "crank"
     n_rpm: Annotated[float, SPEED, "speed of the input shaft, constant"] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "rollers on the crank, m"] = 1
+    roller_angles_deg: Annotated[
+        tuple[float, ...] | None, Range(0.0, 360.0, "[)"), "where they stand, if not evenly"
+    ] = None
 
 
 class Motion(NamedTuple):

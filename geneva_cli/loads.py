@@ -83,9 +83,9 @@ def contact(station: Station, sign: float, input_deg: float) -> Contact:
     _, v, a = station.motion(input_deg, 2).derivatives()
     x, y = station.pin(input_deg, 1)
     crank = atan2(y, (1.0 - x) * sign).c[1]
-    if not isinstance(station, LawDriven):
-        rho, along = station.pitch(input_deg, 1)[0].c
-        return Contact(v, a, rho, 0.0, 0.0, along, crank)
+    straight = station.rail(input_deg)
+    if straight:
+        return Contact(v, a, straight[0], 0.0, 0.0, straight[1], crank)
     back = retraces(station)
     middle = input_deg == 0.0
     at = pitch_at_retrace(station) if middle and back else pitch(station, input_deg)

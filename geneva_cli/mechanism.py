@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 from typing import NamedTuple
 
-from geneva_cli import drives, gearing
-from geneva_cli.classic import SIGN, gap, half_motion_deg, refuse_jam, rollers_max
+from geneva_cli import classic, drives, gearing, kinds
+from geneva_cli.classic import SIGN, half_motion_deg, refuse_jam, rollers_max
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet
 from geneva_cli.keys import Spec
-from geneva_cli.laws import Law, named
-from geneva_cli.station import Anchor, LawDriven, SlotDriven, Station
+from geneva_cli.law_of import law_of
+from geneva_cli.laws import Law
+from geneva_cli.layout import Place, places, refuse_layout
+from geneva_cli.station import Anchor, LawDriven, LawMotion, SlotDriven, SphereDriven, Station
 
 
 class Mechanism(NamedTuple):
@@ -27,19 +28,26 @@ class Mechanism(NamedTuple):
     period_deg: float  # input angle after which the stations come round again
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
-    law: Law | None = None
 
     @property
-    def index_deg(self) -> float:
-        """The wheel's step."""
-        return 360.0 / self.spec.wheel.z
+    def law(self) -> Law | None:
+        """The motion law, where the motion is given."""
+        station = self.stations[0]
+        return station.law if isinstance(station, LawMotion) else None
+
+    def index_deg(self, i: int) -> float:
+        """The wheel's step at a station."""
+        steps = self.spec.wheel.steps_deg
+        return steps[i] if steps else 360.0 / self.spec.wheel.z
 
     def dwell_deg(self, i: int) -> float:
         """Input angle from station i's exit to the next entry."""
         here = self.stations[i]
         after = self.stations[(i + 1) % len(self.stations)]
         turns = self.period_deg if i + 1 == len(self.stations) else 0.0
-        return turns + (after.mid_deg + after.entry_deg) - (here.mid_deg + here.exit_deg)
+        dwell = turns + (after.mid_deg + after.entry_deg) - (here.mid_deg + here.exit_deg)
+        # Rollers may follow each other without a pause; what is left then is rounding.
+        return dwell if abs(dwell) > 1e-9 else 0.0
 
 
 def build(spec: Spec) -> Mechanism:
@@ -47,78 +55,53 @@ def build(spec: Spec) -> Mechanism:
 
     Raises GenevaError, naming the key, where the values do not make a machine together.
     """
-    wheel, drive = spec.wheel, spec.drive
-    step = gearing.Step(1, wheel.z)
-    natural = 2.0 * half_motion_deg(wheel.gearing, *step)
-    front = _front(spec)
-    alike = drive.kind == "crank"
-    if spec.motion.law is None:
-        _refuse_motion_keys(spec)
-        refuse_jam(drive.rollers, natural, wheel.gearing)
-        poses = gearing.radial(wheel.gearing, step)
-        count = 1 if alike else drive.rollers
-        l, rest = step.sin_cos[0], gap("external", *step)
-        kernel = (SIGN[wheel.gearing], l, rest) if alike else None
-        stations = tuple(
-            _slot_driven(poses, front, step, 360.0 * j / drive.rollers, kernel)
-            for j in range(count)
-        )
-        period = 360.0 / drive.rollers if alike else 360.0
-        return Mechanism(spec, stations, period, step.sin_cos[0], rollers_max(natural))
-    if drive.rollers > 1 and not alike:
-        raise GenevaError(
-            f"{drive.rollers} rollers on a {drive.kind} move the wheel differently, so one curved "
-            "slot cannot serve them all; use rollers = 1, or straight slots (no law)",
-            ("drive", "rollers"),
-        )
-    law = law_of(spec)
-    natural = 2.0 * front(0.5 * natural).input_deg
-    motion = natural - spec.motion.alpha0_deg
-    _refuse_alpha0(spec, natural)
-    refuse_jam(drive.rollers, motion, wheel.gearing)
-    ratio = _ratio(spec, law, motion, step, front)
-    pose = gearing.middle(wheel.gearing, ratio, 1.0 - SIGN[wheel.gearing] * ratio)
-    station = LawDriven(0.0, motion, step.b, law, _anchor(pose, front, 0.0))
-    return Mechanism(spec, (station,), 360.0 / drive.rollers, ratio, rollers_max(motion), law)
+    refuse_layout(spec)
+    if kinds.own_path(spec.drive.kind):
+        plan: drives.Plan = kinds.module(spec.drive.kind).plan(spec)
+        motion = plan.station.motion_deg
+        refuse_jam(spec.drive.rollers, motion, spec.wheel.gearing)
+        period = 360.0 / spec.drive.rollers
+        spec = spec._replace(size=plan.size)
+        return Mechanism(spec, (plan.station,), period, plan.ratio, rollers_max(motion))
+    return _straight(spec) if spec.motion.law is None else _curved(spec)
 
 
 def _front(spec: Spec) -> drives.Turn:
-    module = importlib.import_module(f"geneva_cli.drives.{drives.KINDS[spec.drive.kind]}")
-    turn: drives.Turn = module.front(spec.kind)
+    turn: drives.Turn = kinds.module(spec.drive.kind).front(spec.kind)
     return turn
 
 
-def law_of(spec: Spec) -> Law:
-    """The motion law that a spec names."""
-    motion = spec.motion
-    if motion.lambda_ and motion.law != "sine-group":
-        raise GenevaError(
-            f'lambda shapes only the law "sine-group", not "{motion.law}"', ("motion", "lambda")
-        )
-    if motion.law == "table":
-        from geneva_cli.law_table import read_law
-
-        return read_law(spec)
-    if motion.file is not None:
-        raise GenevaError(
-            'file goes with law = "table"; remove it or change the law', ("motion", "file")
-        )
-    try:
-        return named(motion.law or "", motion.lambda_)
-    except GenevaError as error:
-        raise GenevaError(str(error), ("motion", "law")) from None
+def _straight(spec: Spec) -> Mechanism:
+    """Straight slots, a roller on the crank's circle: the slots give the motion."""
+    _refuse_motion_keys(spec)
+    front, found = _front(spec), places(spec)
+    stations = tuple(_slot_driven(spec, front, place) for place in found)
+    alike = len(found) == 1
+    period = 360.0 / spec.drive.rollers if alike else 360.0
+    natural = 2.0 * found[0].half_motion_deg
+    return Mechanism(spec, stations, period, found[0].ratio, rollers_max(natural))
 
 
-def _slot_driven(
-    poses: tuple[gearing.Pose, ...],
-    front: drives.Turn,
-    step: gearing.Step,
-    crank_deg: float,
-    kernel: tuple[float, float, float] | None,
-) -> SlotDriven:
-    anchors = tuple(_anchor(pose, front, crank_deg) for pose in poses)
-    mid = front(crank_deg).input_deg
-    return SlotDriven(mid, step.b, anchors, kernel)
+def _slot_driven(spec: Spec, front: drives.Turn, place: Place) -> SlotDriven:
+    gear, step = spec.wheel.gearing, place.step
+    mid = front(place.crank_deg).input_deg
+    if gear == "spherical":
+        ball = gearing.sphere(step, spec.wheel.axes_deg)
+        poses = gearing.spherical(step, ball)
+        anchors = tuple(_anchor(pose, front, place.crank_deg) for pose in poses)
+        here = front(place.crank_deg)
+        top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
+
+        def height(tau: Coefficient, order: int) -> Jet:
+            return top - here.advance(tau, order)[1] * (ball.sin_S * ball.sin_th)
+
+        return SphereDriven(mid, step.b, anchors, height)
+    e = place.offset
+    poses = gearing.offset(step, e) if e else gearing.radial(gear, step)
+    anchors = tuple(_anchor(pose, front, place.crank_deg) for pose in poses)
+    plain = spec.drive.kind == "crank" and not e
+    kernel = (SIGN[gear], step.sin_cos[0], classic.gap("external", *step)) if plain else None
+    return SlotDriven(mid, step.b, anchors, kernel, e)
 
 
 def _anchor(pose: gearing.Pose, front: drives.Turn, crank_deg: float) -> Anchor:
@@ -130,6 +113,21 @@ def _anchor(pose: gearing.Pose, front: drives.Turn, crank_deg: float) -> Anchor:
         return pose.displacement(*here.advance(tau, order))
 
     return Anchor(from_mid, pose.wheel, pose.along, displacement)
+
+
+def _curved(spec: Spec) -> Mechanism:
+    """A law and a roller on the crank's circle: the slots are solved for."""
+    wheel, drive = spec.wheel, spec.drive
+    step = gearing.Step(1, wheel.z)
+    front, law = _front(spec), law_of(spec)
+    natural = 2.0 * front(half_motion_deg(wheel.gearing, *step)).input_deg
+    motion = natural - spec.motion.alpha0_deg
+    _refuse_alpha0(spec, natural)
+    refuse_jam(drive.rollers, motion, wheel.gearing)
+    ratio = _ratio(spec, law, motion, step, front)
+    pose = gearing.middle(wheel.gearing, ratio, 1.0 - SIGN[wheel.gearing] * ratio)
+    station = LawDriven(0.0, motion, step.b, law, _anchor(pose, front, 0.0))
+    return Mechanism(spec, (station,), 360.0 / drive.rollers, ratio, rollers_max(motion))
 
 
 def _ratio(
@@ -172,9 +170,8 @@ def matched_ratio_of(mechanism: Mechanism) -> float | None:
     """The matched R/L of a curved slot, whatever its own."""
     station = mechanism.stations[0]
     assert isinstance(station, LawDriven)
-    spec = mechanism.spec
-    front = _front(spec)
-    return matched_ratio(spec, station.law, station.motion_deg, station.half_step, front)
+    front = _front(mechanism.spec)
+    return matched_ratio(mechanism.spec, station.law, station.motion_deg, station.half_step, front)
 
 
 def _refuse_alpha0(spec: Spec, natural_deg: float) -> None:

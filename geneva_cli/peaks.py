@@ -14,7 +14,7 @@ from typing import NamedTuple
 from geneva_cli import classic
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.roots import extrema
-from geneva_cli.station import SlotDriven, Station
+from geneva_cli.station import Station
 from geneva_cli.table import Table, record_table
 from geneva_cli.timing import timings
 from geneva_cli.units import DEGREE
@@ -86,43 +86,39 @@ def ends(station: Station) -> Ends:
     return Ends(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
 
 
-def acceleration_peak(mechanism: Mechanism, station: Station) -> Peak:
+def acceleration_peak(station: Station) -> Peak:
     """The peak acceleration, from its closed form where there is one."""
-    if not _is_classic(mechanism):
+    if station.classic is None:
         return peak(station, "acceleration")
-    if mechanism.spec.wheel.gearing == "internal":
+    sign, l, rest = station.classic
+    if sign < 0.0:
         return Peak(ends(station).acceleration_entry, station.entry_deg)
-    gap = station.pin(0.0, 0)[0].c[0]
-    size, at_deg = classic.acceleration_peak(mechanism.ratio, gap)
+    size, at_deg = classic.acceleration_peak(l, rest)
     return Peak(size, -at_deg)
 
 
-def velocity_peak(mechanism: Mechanism, station: Station) -> Peak:
+def velocity_peak(station: Station) -> Peak:
     """The peak velocity, from its closed form where there is one."""
-    if _is_classic(mechanism):
-        return Peak(classic.velocity_peak(mechanism.ratio, station.pin(0.0, 0)[0].c[0]), 0.0)
-    return peak(station, "velocity")
+    if station.classic is None:
+        return peak(station, "velocity")
+    sign, l, rest = station.classic
+    return Peak(classic.velocity_peak(l, rest if sign > 0.0 else 1.0 + l), 0.0)
 
 
-def peaks(mechanism: Mechanism, station: Station) -> Peaks:
+def peaks(station: Station) -> Peaks:
     """Every peak of one station."""
     return Peaks(
-        velocity_peak(mechanism, station),
-        acceleration_peak(mechanism, station),
+        velocity_peak(station),
+        acceleration_peak(station),
         peak(station, "jerk"),
         peak(station, "power"),
         ends(station),
     )
 
 
-def _is_classic(mechanism: Mechanism) -> bool:
-    spec = mechanism.spec
-    return spec.drive.kind == "crank" and isinstance(mechanism.stations[0], SlotDriven)
-
-
 def worst(mechanism: Mechanism) -> Peaks:
     """The greatest peaks over all stations; angles are the machine's input angles."""
-    each = [_placed(peaks(mechanism, s), s.mid_deg) for s in mechanism.stations]
+    each = [_placed(peaks(s), s.mid_deg) for s in mechanism.stations]
 
     def greatest(candidates: list[Peak]) -> Peak:
         best = candidates[0]
@@ -163,7 +159,7 @@ def peaks_table(mechanism: Mechanism) -> Table:
         for i, (station, time) in enumerate(
             zip(mechanism.stations, timings(mechanism), strict=True)
         ):
-            found = _placed(peaks(mechanism, station), station.mid_deg)
+            found = _placed(peaks(station), station.mid_deg)
             one = _record(found) | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
             values |= {f"station_{i + 1}.{name}": value for name, value in one.items()}
     return record_table(values)

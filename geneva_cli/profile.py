@@ -66,7 +66,8 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     centre = L * np.column_stack((at.x, at.y))
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
-    radius = np.where(at.turning == 0.0, np.inf, radius)
+    straight = station.rail(station.entry_deg) is not None
+    radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
     return Slot(
         input_deg,
         np.degrees(station.motion(input_deg, 0).c[0]),

@@ -22,8 +22,9 @@ def report_table(mechanism: Mechanism) -> Table:
     for i, station in enumerate(mechanism.stations):
         where = f"station_{i + 1}." if differ else ""
         values |= _timing(mechanism, i, where)
-        values |= _peaks(mechanism, peaks(mechanism, station), station.mid_deg, where)
+        values |= _peaks(mechanism, peaks(station), station.mid_deg, where)
     values |= _loads(mechanism)
+    values |= _drive(mechanism)
     values |= _sizes(mechanism)
     found = cautions(mechanism)
     values |= {f"warnings.{i}": text for i, text in enumerate(found, 1)} or {"warnings": "none"}
@@ -49,7 +50,8 @@ def words(mechanism: Mechanism) -> str:
             text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
         text += "; its slots are cut to suit."
     each = [timings(mechanism)[i] for i in range(len(mechanism.stations))]
-    turn = f"turns by {mechanism.index_deg:.6g} deg"
+    steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.stations))})
+    turn = "turns by " + " or ".join(f"{step:.6g}" for step in steps) + " deg"
     if len(each) == 1:
         text += (
             f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."
@@ -115,6 +117,23 @@ def _loads(mechanism: Mechanism) -> dict[str, Any]:
         power = worst(mechanism).power.max
         values["loads.kinetic_power_W"] = loads.kinetic_power_W(mechanism, power)
     return values
+
+
+def _drive(mechanism: Mechanism) -> dict[str, Any]:
+    """Of curved slots: whether they drive the wheel positively under the spec's load."""
+    if mechanism.law is None:
+        return {}
+    from geneva_cli.positive import positive_drive
+
+    drive = positive_drive(mechanism)
+    if drive is None:
+        return {}
+    return {
+        "slot.positively_driven": not drive.loose_deg,
+        "slot.not_driven_share": drive.share,
+        "slot.branch_gap_mm": drive.gap_mm,
+        "slot.branch_gap_at_deg": drive.gap_at_deg,
+    }
 
 
 def _sizes(mechanism: Mechanism) -> dict[str, Any]:

@@ -41,6 +41,7 @@ class OneOf(tuple[str, ...]):
 POSITIVE = Range(1e-12, 1e12)
 NOT_NEGATIVE = Range(0.0, 1e12)
 SPEED = Range(1e-9, 1e9)
+LENGTH = Range(-1e12, 1e12)
 FINITE = Range(-math.inf, math.inf, "()")
 
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed

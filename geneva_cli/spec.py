@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 import os
 import re
 import sys
 from itertools import islice
+from types import UnionType
 from typing import Any, NamedTuple, get_args, get_type_hints
 
 import tomli
 
-from geneva_cli import drives, keys
+from geneva_cli import drives, keys, kinds
 from geneva_cli.errors import GenevaError, clean, nearest
 from geneva_cli.mechanism import Mechanism, build
 
@@ -26,7 +26,16 @@ TABLES: dict[str, Any] = {
     "load": keys.Load,
     "limits": keys.Limits,
 }
-_NAMES = {str: "text", int: "a whole number", float: "a number"}
+LIST = tuple[float, ...]
+LIST_MAX = 1000
+# words that stand for a number
+WORDS = {"ratio": ("matched",), "planet_ratio": ("shockless",)}
+_NAMES: dict[Any, str] = {
+    LIST: "a list of numbers",
+    str: "text",
+    int: "a whole number",
+    float: "a number",
+}
 
 
 def load(path: str) -> Mechanism:
@@ -118,7 +127,7 @@ class Field(NamedTuple):
     """One key: how its value is checked."""
 
     key: str
-    types: tuple[type, ...]
+    types: tuple[Any, ...]
     rule: Any
     default: Any
     meaning: str
@@ -129,7 +138,8 @@ def fields(table: Any) -> list[Field]:
     out = []
     for name, hint in get_type_hints(table, include_extras=True).items():
         annotated, rule, meaning = get_args(hint)
-        types = tuple(get_args(annotated)) or (annotated,)
+        # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
+        types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
         default = table._field_defaults.get(name, ...)
         out.append(Field(name.rstrip("_"), types, rule, default, meaning))
     return out
@@ -137,7 +147,7 @@ def fields(table: Any) -> list[Field]:
 
 def kind_keys(kind: str) -> Any:
     """The class of the keys that a kind of drive adds to ``[drive]``."""
-    return importlib.import_module(f"geneva_cli.drives.{drives.KINDS[kind]}").Keys
+    return kinds.module(kind).Keys
 
 
 def _spec(tree: dict[str, Any], name: str) -> keys.Spec:
@@ -177,8 +187,9 @@ def _drive(given: dict[str, Any]) -> tuple[keys.Drive, Any]:
     own_class = kind_keys(kind)
     own = {k: given.pop(k) for k in [f.key for f in fields(own_class)] if k in given}
     common = {f.key for f in fields(keys.Drive)}
-    for other in drives.KINDS:
-        for key in {f.key for f in fields(kind_keys(other))} & set(given) - common:
+    strange = set(given) - common
+    for other in drives.KINDS if strange else ():
+        for key in {f.key for f in fields(kind_keys(other))} & strange:
             raise GenevaError(
                 f'{key} belongs to kind = "{other}", and this drive is "{kind}"', ("drive", key)
             )
@@ -226,13 +237,18 @@ def _value(field: Field, value: Any, table: str) -> Any:
                 f"{field.key} = {_shown(value)} must be {field.rule} ({field.meaning})", place
             )
         return value if numeric[0] is int else float(value)
+    if isinstance(value, list) and LIST in field.types:
+        if not value or len(value) > LIST_MAX:
+            raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
+        return tuple(_value(field._replace(types=(float,)), v, table) for v in value)
     if isinstance(value, str) and str in field.types:
         if isinstance(field.rule, tuple) and not numeric and value not in field.rule:
             raise GenevaError(
                 f'{field.key} = "{value}" must be {field.rule}{nearest(value, field.rule)}', place
             )
-        if numeric and value != "matched":
-            raise GenevaError(f'{field.key} must be a number or "matched", not "{value}"', place)
+        if numeric and value not in WORDS[field.key]:
+            words = " or ".join(f'"{w}"' for w in WORDS[field.key])
+            raise GenevaError(f'{field.key} must be a number or {words}, not "{value}"', place)
         return value
     wanted = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {wanted}, not {_shown(value)}", place)

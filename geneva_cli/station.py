@@ -7,6 +7,7 @@ the centre distance L. The wheel's axis is the origin, the crank's axis at (1, 0
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
@@ -54,6 +55,9 @@ def mirror(first: Array, count: int, order: int) -> Array:
 class Station(ABC):
     """One motion: input window, pin path, slot and wheel angle, each as a function of the input."""
 
+    # sign, l and 1 - l where closed forms hold: straight radial slots on a plain crank
+    classic: tuple[float, float, float] | None = None
+
     def __init__(self, mid_deg: float, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.mid_deg = mid_deg  # the machine's input angle at this station's mid-motion
         self.entry_deg = entry_deg  # from mid_deg, negative
@@ -93,6 +97,12 @@ class Station(ABC):
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's centre (x, y) in the fixed frame."""
 
+    def rail(self, input_deg: float) -> tuple[float, float] | None:
+        """Of a straight slot: the lever of its normal about the wheel's axis, and the pin's speed
+        along it. None for a curved one.
+        """
+        return None
+
     def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's centre in the wheel's frame: the slot's pitch curve."""
         x, y = self.pin(input_deg, order)
@@ -101,7 +111,7 @@ class Station(ABC):
 
 
 class SlotDriven(Station):
-    """Pin path and straight radial slot are known and give the motion."""
+    """Pin path and straight slot are known and give the motion."""
 
     def __init__(
         self,
@@ -109,13 +119,24 @@ class SlotDriven(Station):
         half_step: float,
         anchors: tuple[Anchor, ...],
         classic: tuple[float, float, float] | None = None,
+        offset: float = 0.0,
+        ahead: float = 0.0,
+        mirrored: bool = True,
     ) -> None:
         super().__init__(mid_deg, anchors[0].input_deg, anchors[-1].input_deg, half_step)
         self.anchors = anchors
-        self.classic = classic  # sign, l and 1 - l of a plain crank's kernel
+        self.classic = classic
+        self.offset = offset  # e: by how much the slot's axis misses the wheel's centre
+        self.mirrored = mirrored  # False where the path's two halves differ
+        self.ahead = ahead  # direction of the middle anchor's ray, from the line of centres
         degs = [a.input_deg for a in anchors]
         # Each anchor serves what is near it; entry and exit, only where the motion goes to zero.
         self._cuts = [degs[1] + NEAR_END * (end - degs[1]) for end in (degs[0], degs[-1])]
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether path and slot have a mirror image about mid-motion."""
+        return self.mirrored and super().symmetric
 
     def motion(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""
@@ -123,11 +144,28 @@ class SlotDriven(Station):
         def about(anchor: Anchor) -> Callable[[Coefficient], Jet]:
             def solve(x: Coefficient) -> Jet:
                 along, across = anchor.place(x, order)
-                return atan2(across, along) + anchor.wheel
+                return self._turn(along, across) + anchor.wheel
 
             return solve
 
         return piecewise(input_deg, self._cuts, [about(a) for a in self.anchors])
+
+    def _turn(self, along: Jet, across: Jet) -> Jet:
+        """Angle by which the wheel has turned since the anchor, where the pin was at (along, -e).
+
+        The slot's axis passes the pin at (s, -e) with s² = rho² - e²; the difference of the two
+        directions is written so that it vanishes with ``across``.
+        """
+        e = self.offset
+        if e == 0.0:
+            return atan2(across, along)
+        s = self._depth(along, across)
+        gain = across * (across - 2.0 * e) / (s + along)  # s - along
+        return atan2(across * s - gain * e, along * s - (across - e) * e)
+
+    def _depth(self, along: Jet, across: Jet) -> Jet:
+        """Coordinate of the pin along its slot's axis."""
+        return sqrt(along * along + across * (across - 2.0 * self.offset))
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """As of any station; a plain crank's in closed form, but for the ends.
@@ -150,24 +188,70 @@ class SlotDriven(Station):
 
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
-        return self.anchors[1].place(input_deg, order)
+        middle = self.anchors[1]
+        along, across = middle.place(input_deg, order)
+        turn = self.ahead + math.atan2(self.offset, middle.along)
+        return turned(along, across - self.offset, turn)
 
     def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
-        x, y = self.pin(input_deg, order)
-        return sqrt(x * x + y * y), x * 0.0
+        middle = self.anchors[1]
+        depth = self._depth(*middle.place(input_deg, order))
+        # The slot's direction half-way through the step: straight ahead unless it is offset.
+        ahead = math.atan2(self.offset, middle.along) - middle.wheel
+        return turned(depth, depth * 0.0 - self.offset, ahead)
+
+    def rail(self, input_deg: float) -> tuple[float, float]:
+        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
+        depth = self._depth(*self.anchors[1].place(input_deg, 1))
+        return depth.c[0], depth.c[1]
 
 
-class LawDriven(Station):
-    """Pin path and motion are known and give the slot (a curved one)."""
+class SphereDriven(SlotDriven):
+    """A spherical wheel: the path is the pin's projection along the wheel's axis.
+
+    The slot is a meridian; its pitch curve is given in the flat development, along which lengths
+    on the sphere are kept, from the wheel's pole.
+    """
 
     def __init__(
-        self, mid_deg: float, motion_deg: float, half_step: float, law: Law, middle: Anchor
+        self,
+        mid_deg: float,
+        half_step: float,
+        anchors: tuple[Anchor, ...],
+        height: Callable[[Coefficient, int], Jet],
     ) -> None:
-        half = 0.5 * motion_deg
-        super().__init__(mid_deg, -half, half, half_step)
+        super().__init__(mid_deg, half_step, anchors)
+        self.height = height  # input angle, radians -> the pin's place along the wheel's axis
+
+    def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin's polar angle on the wheel, in radians: arc length over the sphere's radius."""
+        x, y = self.pin(input_deg, order)
+        polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
+        return polar, polar * 0.0
+
+    def rail(self, input_deg: float) -> tuple[float, float]:
+        """The lever is the pin's distance from the wheel's axis."""
+        polar = self.pitch(input_deg, 1)[0]
+        return math.sin(polar.c[0]), polar.c[1]
+
+
+def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:
+    """A vector turned by a fixed angle in radians."""
+    if angle == 0.0:
+        return x, y
+    s, c = math.sin(angle), math.cos(angle)
+    return x * c - y * s, x * s + y * c
+
+
+class LawMotion(Station):
+    """A station whose motion is given by a law."""
+
+    def __init__(
+        self, mid_deg: float, entry_deg: float, exit_deg: float, half_step: float, law: Law
+    ) -> None:
+        super().__init__(mid_deg, entry_deg, exit_deg, half_step)
         self.law = law
-        self.middle = middle
 
     @property
     def symmetric(self) -> bool:
@@ -176,13 +260,17 @@ class LawDriven(Station):
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Entry, the law's own breaks, mid-motion, and exit."""
-        inner = {0.0, *[(u - 0.5) * self.motion_deg for u in self.law.breaks]}
+        """Entry, the law's own breaks and its middle, the crossing of the centres, and exit."""
+        places = (0.5, *self.law.breaks)
+        inner = {0.0, *[self.entry_deg + u * self.motion_deg for u in places]}
+        if self.symmetric:
+            inner = {0.0, *[(u - 0.5) * self.motion_deg for u in self.law.breaks]}
         return (self.entry_deg, *sorted(inner), self.exit_deg)
 
     def motion(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The law, scaled to the step and to the motion angle."""
         whole, step = self.motion_deg, 2.0 * self.half_step
+        middle = 0.5 * (self.entry_deg + self.exit_deg)
 
         def first(x: Coefficient) -> Jet:
             return self.law.first((x - self.entry_deg) / whole, order) * step - self.half_step
@@ -191,9 +279,20 @@ class LawDriven(Station):
             rest = self.law.second((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
-        s = piecewise(input_deg, (0.0,), (first, second))
+        s = piecewise(input_deg, (middle,), (first, second))
         rate = 1.0 / (whole * DEGREE)
         return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])
+
+
+class LawDriven(LawMotion):
+    """Pin path and motion are known and give the slot (a curved one)."""
+
+    def __init__(
+        self, mid_deg: float, motion_deg: float, half_step: float, law: Law, middle: Anchor
+    ) -> None:
+        half = 0.5 * motion_deg
+        super().__init__(mid_deg, -half, half, half_step, law)
+        self.middle = middle
 
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its circle."""

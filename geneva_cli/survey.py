@@ -85,14 +85,14 @@ def _side_crank(z: int, gearing: str, n_rpm: float, A: float) -> tuple[object, .
 
     mechanism = build(Spec(Wheel(z, gearing), Drive("side-crank", n_rpm), Keys(A)))
     station = mechanism.stations[0]
-    acceleration = acceleration_peak(mechanism, station)
+    acceleration = acceleration_peak(station)
     jumps = ends(station)
     return (
         z,
         gearing,
         1,
         *timings(mechanism)[0],
-        velocity_peak(mechanism, station).max,
+        velocity_peak(station).max,
         acceleration.max,
         abs(acceleration.at_deg),
         jumps.acceleration_entry,

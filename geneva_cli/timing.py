@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def timing(motion_deg: float, dwell_deg: float, index_deg: float, n_rpm: float) 
         motion_deg,
         dwell_deg,
         index_deg,
-        motion_deg / dwell_deg,
+        motion_deg / dwell_deg if dwell_deg else math.inf,
         motion_deg / cycle,
         motion_deg / second,
         dwell_deg / second,
@@ -46,7 +47,7 @@ def timings(mechanism: Mechanism) -> list[Timing]:
         timing(
             station.motion_deg,
             mechanism.dwell_deg(i),
-            mechanism.index_deg,
+            mechanism.index_deg(i),
             mechanism.spec.drive.n_rpm,
         )
         for i, station in enumerate(mechanism.stations)

@@ -40,7 +40,7 @@ def test_a_period(spec: Spec, samples: int) -> None:
     # the wheel ends a whole number of steps further, to the rounding of the sum of degrees
     steps = len(mechanism.stations)
     assert at["wheel_deg"][-1] - at["wheel_deg"][0] == pytest.approx(
-        steps * mechanism.index_deg, abs=1e-12
+        steps * mechanism.index_deg(0), abs=1e-12
     )
     assert at["time_s"][-1] == pytest.approx(mechanism.period_deg / 360.0, rel=1e-15)
     if spec.motion.law != "sine-group":

@@ -1,7 +1,10 @@
 """What turns the crank: one file a kind, named here.
 
-Each module has ``Keys``, the keys it adds to ``[drive]``, and ``front(keys)``, a function from
-the crank's angle in degrees to a ``Front``.
+Each module has ``Keys``, the keys it adds to ``[drive]``, and one of two functions:
+
+- ``front(keys)``, where the roller is carried on the crank's circle: a function from the crank's
+  angle in degrees to a ``Front``;
+- ``plan(spec)``, where the roller has a path of its own: a ``Plan``.
 """
 
 from __future__ import annotations
@@ -10,8 +13,18 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.jet import Coefficient, Jet
+from geneva_cli.keys import Size
+from geneva_cli.station import Station
 
-KINDS = {"crank": "crank", "side-crank": "side_crank"}
+KINDS = {
+    "crank": "crank",
+    "side-crank": "side_crank",
+    "elliptical-gears": "elliptical_gears",
+    "four-bar": "four_bar",
+    "slider-crank": "slider_crank",
+    "epicyclic": "epicyclic",
+    "cam": "cam",
+}
 
 
 class Front(NamedTuple):
@@ -21,6 +34,14 @@ class Front(NamedTuple):
     # input angle since then, radians, and order -> sin d and 1 - cos d of the crank's angle d
     # since then, with their derivatives by the input angle
     advance: Callable[[Coefficient, int], tuple[Jet, Jet]]
+
+
+class Plan(NamedTuple):
+    """A machine whose roller has a path of its own: one station, and what its sizes become."""
+
+    station: Station
+    ratio: float  # l = R/L at mid-motion
+    size: Size
 
 
 # from a crank angle in degrees to the front about it

@@ -57,13 +57,13 @@ def _about(A: float, crank_deg: float) -> Front:
         # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi: as A nears 1 the
         # coulisse turns at half speed, and nothing cancels.
         sine, cosine = x * s + y * c, x * c - y * s - A
-        turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[:order]
+        turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[: max(order, 1)]
         # On the line of centres W is a sum for one sign of A; elsewhere x² + y² is.
         grows = level and A * c < 0.0
         W = length * length - 4.0 * A * c * sin_t * sin_t if grows else x * x + y * y
         square = Jet((W, *[2.0 * A * t for t in turns[1:]]))
         rate = 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
-        return sine_versine_of(rate, y, x)
+        return sine_versine_of(rate, y, x, order)
 
     # phi = f + h, but where the two nearly cancel, the angle of the input crank itself.
     phi = crank_deg + math.degrees(h)

@@ -1,0 +1,28 @@
+"""The motion law that a spec names."""
+
+from __future__ import annotations
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.keys import Spec
+from geneva_cli.laws import Law, named
+
+
+def law_of(spec: Spec) -> Law:
+    """The motion law that a spec names; GenevaError, naming the key, for one that is not known."""
+    motion = spec.motion
+    if motion.lambda_ and motion.law != "sine-group":
+        raise GenevaError(
+            f'lambda shapes only the law "sine-group", not "{motion.law}"', ("motion", "lambda")
+        )
+    if motion.law == "table":
+        from geneva_cli.law_table import read_law
+
+        return read_law(spec)
+    if motion.file is not None:
+        raise GenevaError(
+            'file goes with law = "table"; remove it or change the law', ("motion", "file")
+        )
+    try:
+        return named(motion.law or "", motion.lambda_)
+    except GenevaError as error:
+        raise GenevaError(str(error), ("motion", "law")) from None

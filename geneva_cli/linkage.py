@@ -1,0 +1,41 @@
+"""What the drives with a roller path of their own share: the wheel that fits the path."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli import gearing, path_wheel
+from geneva_cli.drives import Plan
+from geneva_cli.errors import GenevaError
+from geneva_cli.keys import Size, Spec
+
+
+def plan_on(spec: Spec, path: path_wheel.Path, entry_deg: float | None) -> Plan:
+    """The station of the wheel that a closed roller path can drive.
+
+    The path is given about the crank's axis, in millimetres, by the crank's angle in radians. Of
+    several wheels the gentlest is taken, or the one entered nearest to ``entry_deg``. Raises
+    GenevaError where none fits, or where the spec sets the centre distance, which follows.
+    """
+    if spec.size.center_distance_mm != Size().center_distance_mm:
+        raise GenevaError(
+            f'center_distance_mm follows from the linkage of kind = "{spec.drive.kind}"; remove it',
+            ("size", "center_distance_mm"),
+        )
+    step = gearing.Step(1, spec.wheel.z)
+    found = path_wheel.fits(path, step.b)
+    if not found:
+        raise GenevaError(
+            f"no wheel of z = {spec.wheel.z} slots fits this path: no two of its tangents meet at "
+            f"{360.0 / spec.wheel.z:.6g} deg, equally far away, with the roller nearer than that "
+            "all the way between and farther on the way back; change the linkage, or z",
+            ("drive", "kind"),
+        )
+    fit = found[0]
+    if entry_deg is not None:
+        wanted = math.radians(entry_deg)
+        fit = min(found, key=lambda f: abs(math.remainder(f.entry - wanted, math.tau)))
+    station, L = path_wheel.station(path, fit, step, 0j)
+    x, y = station.pin(0.0, 0)
+    reach = math.hypot(1.0 - x.c[0], y.c[0])
+    return Plan(station, reach, spec.size._replace(center_distance_mm=L))
