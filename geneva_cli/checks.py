@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from geneva_cli import loads
 from geneva_cli.cautions import SHOWN_UNDERCUT, turns_back
+from geneva_cli.drives import GEARED
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Z_USUAL, Spec
 from geneva_cli.mechanism import Mechanism, build, matched_ratio_of
@@ -45,6 +46,11 @@ def checks_table(mechanisms: list[Mechanism]) -> Table:
 def _motion(mechanism: Mechanism) -> list[Check]:
     dwell = min(mechanism.dwell_deg(i) for i in range(len(mechanism.stations)))
     out = [Check("dwell_deg", dwell, "at least", 0.0, dwell >= 0.0)]
+    if mechanism.spec.drive.kind in GEARED:
+        from geneva_cli.gears import convexity
+
+        for gear, least in convexity(mechanism)._asdict().items():
+            out.append(Check(f"{gear}_gear_convexity", least, "above", 0.0, least > 0.0))
     station = mechanism.stations[0]
     if not isinstance(station, LawMotion):
         return out

@@ -103,15 +103,15 @@ class Spec(NamedTuple):
     title: str = ""
     path: str = ""  # of the file, for messages and for the files it names
 
+    def beside(self, name: str) -> str:
+        """The path of a file that the spec names, relative to the spec itself."""
+        return os.path.join(os.path.dirname(self.path), name)
+
     @property
     def files(self) -> tuple[str, ...]:
         """The files that the design is read from, which no output may replace."""
-        return (self.path, self.law_file) if self.motion.file else (self.path,)
-
-    @property
-    def law_file(self) -> str:
-        """The file of the law ``table``; its name is relative to the spec."""
-        return os.path.join(os.path.dirname(self.path), self.motion.file or "")
+        named = [self.motion.file, getattr(self.kind, "ratio_file", None)]
+        return (self.path, *[self.beside(name) for name in named if name])
 
     @property
     def roller_radius_mm(self) -> float:

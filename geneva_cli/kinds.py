@@ -6,6 +6,8 @@ import importlib
 from typing import Any
 
 from geneva_cli.drives import KINDS
+from geneva_cli.errors import GenevaError
+from geneva_cli.keys import Spec
 
 
 def module(kind: str) -> Any:
@@ -16,3 +18,22 @@ def module(kind: str) -> Any:
 def own_path(kind: str) -> bool:
     """Whether the roller has a path of its own, and is not carried on the crank's circle."""
     return not hasattr(module(kind), "front")
+
+
+def turns(spec: Spec) -> int:
+    """Input turns in a turn of the crank."""
+    of = getattr(module(spec.drive.kind), "turns", None)
+    return int(of(spec.kind)) if of else 1
+
+
+def refuse_reach(spec: Spec, half_motion_deg: float) -> None:
+    """Raise GenevaError where the crank cannot turn through the whole motion in one go."""
+    of = getattr(module(spec.drive.kind), "reach_deg", None)
+    reach = of(spec.kind) if of else 180.0
+    if half_motion_deg > reach * (1.0 + 1e-12):
+        raise GenevaError(
+            f"z = {spec.wheel.z}: the motion takes {2.0 * half_motion_deg:.6g} deg of the crank, "
+            f'and kind = "{spec.drive.kind}" turns it by {2.0 * reach:.6g} at a time; fewer slots '
+            "here, or fewer on the first wheel",
+            ("wheel", "z"),
+        )

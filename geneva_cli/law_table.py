@@ -7,18 +7,16 @@ conditions put velocity and acceleration to zero at both ends (SciPy, make_inter
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet
 from geneva_cli.keys import Spec
 from geneva_cli.laws import Law
+from geneva_cli.points import Pairs, read_pairs
 
-POINTS_MIN, POINTS_MAX = 6, 100_000
-S_MAX = 10.0  # a law runs from 0 to 1; past ten times that it is a mistake
-STEP_MIN = 1e-6  # of u: closer points make a spline of rounding errors
-BYTES_MAX = 1 << 24
+# Closer points make a spline of rounding errors; past ten times its rise a law is a mistake.
+POINTS = Pairs("u", "s", 1e-6, 10.0, 6)
 _WHERE = ("motion", "file")
 
 
@@ -30,8 +28,10 @@ def read_law(spec: Spec) -> Law:
     name = spec.motion.file
     if not name:
         raise GenevaError('the law "table" needs file = "points.csv", lines of u,s', _WHERE)
-    path = spec.law_file
-    points = _points(path, _text(path))
+    path = spec.beside(name)
+    points = read_pairs(path, POINTS, _WHERE)
+    if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
+        raise GenevaError(f"{path}: a law runs from 0,0 to 1,1; the first or last point does not")
     u, s = [p[0] for p in points], [p[1] for p in points]
     from scipy.interpolate import make_interp_spline
 
@@ -58,49 +58,3 @@ def _law(spline: Any) -> Law:
 def _value(spline: Any, u: Coefficient) -> Coefficient:
     value = spline(u)
     return float(value) if isinstance(u, float) else value
-
-
-def _text(path: str) -> str:
-    try:
-        with open(path, "rb") as file:
-            data = file.read(BYTES_MAX + 1)
-    except OSError as error:
-        raise GenevaError(
-            f"cannot read the law's points in {path}: {error.strerror}", _WHERE
-        ) from None
-    if len(data) > BYTES_MAX:
-        raise GenevaError(f"{path}: larger than {BYTES_MAX} bytes; thin the points out")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise GenevaError(f"{path}: not UTF-8 text; save the file as UTF-8") from None
-
-
-def _points(path: str, text: str) -> list[tuple[float, float]]:
-    points: list[tuple[float, float]] = []
-    for number, line in enumerate(text.split("\n"), 1):
-        row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
-        if row == [""] or row[0].startswith("#") or row == ["u", "s"]:
-            continue
-        try:
-            u, s = (float(cell) for cell in row)
-        except ValueError:
-            raise GenevaError(
-                f'{path}:{number}: "{",".join(row)[:60]}" is not two numbers u,s'
-            ) from None
-        if not (math.isfinite(u) and abs(s) <= S_MAX):
-            raise GenevaError(
-                f"{path}:{number}: u and s must be finite, s from -{S_MAX:g} to {S_MAX:g}"
-            )
-        if points and u < points[-1][0] + STEP_MIN:
-            raise GenevaError(
-                f"{path}:{number}: u = {u:g} must be above the one before it (by {STEP_MIN:g})"
-            )
-        points.append((u, s))
-        if len(points) > POINTS_MAX:
-            raise GenevaError(f"{path}:{number}: more than {POINTS_MAX} points; thin them out")
-    if len(points) < POINTS_MIN:
-        raise GenevaError(f"{path}: {len(points)} points; a law needs at least {POINTS_MIN}")
-    if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
-        raise GenevaError(f"{path}: a law runs from 0,0 to 1,1; the first or last point does not")
-    return points

@@ -153,6 +153,9 @@ def refuse_layout(spec: Spec) -> None:
     _refuse_rollers(spec, given)
     if wheel.steps_deg:
         _refuse_steps(spec)
+    several = drive.rollers > 1 or drive.roller_angles_deg or wheel.steps_deg
+    if several and kinds.turns(spec) > 1:
+        raise GenevaError(f'kind = "{drive.kind}" carries one roller', ("drive", "kind"))
 
 
 def _refuse_rollers(spec: Spec, given: bool) -> None:

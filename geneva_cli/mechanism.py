@@ -67,7 +67,7 @@ def build(spec: Spec) -> Mechanism:
 
 
 def _front(spec: Spec) -> drives.Turn:
-    turn: drives.Turn = kinds.module(spec.drive.kind).front(spec.kind)
+    turn: drives.Turn = kinds.module(spec.drive.kind).front(spec)
     return turn
 
 
@@ -75,9 +75,11 @@ def _straight(spec: Spec) -> Mechanism:
     """Straight slots, a roller on the crank's circle: the slots give the motion."""
     _refuse_motion_keys(spec)
     front, found = _front(spec), places(spec)
+    kinds.refuse_reach(spec, found[0].half_motion_deg)
     stations = tuple(_slot_driven(spec, front, place) for place in found)
     alike = len(found) == 1
-    period = 360.0 / spec.drive.rollers if alike else 360.0
+    turn = 360.0 * kinds.turns(spec)
+    period = turn / spec.drive.rollers if alike else turn
     natural = 2.0 * found[0].half_motion_deg
     return Mechanism(spec, stations, period, found[0].ratio, rollers_max(natural))
 
@@ -120,6 +122,7 @@ def _curved(spec: Spec) -> Mechanism:
     wheel, drive = spec.wheel, spec.drive
     step = gearing.Step(1, wheel.z)
     front, law = _front(spec), law_of(spec)
+    kinds.refuse_reach(spec, half_motion_deg(wheel.gearing, *step))
     natural = 2.0 * front(half_motion_deg(wheel.gearing, *step)).input_deg
     motion = natural - spec.motion.alpha0_deg
     _refuse_alpha0(spec, natural)
@@ -127,7 +130,8 @@ def _curved(spec: Spec) -> Mechanism:
     ratio = _ratio(spec, law, motion, step, front)
     pose = gearing.middle(wheel.gearing, ratio, 1.0 - SIGN[wheel.gearing] * ratio)
     station = LawDriven(0.0, motion, step.b, law, _anchor(pose, front, 0.0))
-    return Mechanism(spec, (station,), 360.0 / drive.rollers, ratio, rollers_max(motion))
+    period = 360.0 * kinds.turns(spec) / drive.rollers
+    return Mechanism(spec, (station,), period, ratio, rollers_max(motion))
 
 
 def _ratio(

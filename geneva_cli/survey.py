@@ -43,8 +43,8 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     rows = []
     for slots in parse_z(z):
         try:
-            if A:
-                rows.append(_side_crank(slots, gearing, n_rpm, A))
+            if A or gearing == "spherical":
+                rows.append(_general(slots, gearing, n_rpm, rollers, A))
             else:
                 rows.append(_classic(slots, gearing, n_rpm, rollers))
         except GenevaError as error:
@@ -76,21 +76,23 @@ def _classic(z: int, gearing: str, n_rpm: float, rollers: int) -> tuple[object, 
     )
 
 
-def _side_crank(z: int, gearing: str, n_rpm: float, A: float) -> tuple[object, ...]:
+def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
+    """A row by the machinery of motions."""
     from geneva_cli.drives.side_crank import Keys
     from geneva_cli.keys import Drive, Spec, Wheel
     from geneva_cli.mechanism import build
     from geneva_cli.peaks import acceleration_peak, ends, velocity_peak
     from geneva_cli.timing import timings
 
-    mechanism = build(Spec(Wheel(z, gearing), Drive("side-crank", n_rpm), Keys(A)))
+    drive = Drive("side-crank" if A else "crank", n_rpm, rollers)
+    mechanism = build(Spec(Wheel(z, gearing), drive, Keys(A) if A else None))
     station = mechanism.stations[0]
     acceleration = acceleration_peak(station)
     jumps = ends(station)
     return (
         z,
         gearing,
-        1,
+        rollers,
         *timings(mechanism)[0],
         velocity_peak(station).max,
         acceleration.max,

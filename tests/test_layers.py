@@ -16,6 +16,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 ROWS = [
     ["geneva_cli"],
     ["errors", "jet", "roots", "rules", "table", "units"],
+    ["points"],
     ["classic", "kernel", "keys", "laws"],
     ["gearing", "law_table", "many", "station", "synthesis_closed"],
     ["drives", "law_of", "path_wheel", "synthesis_limit"],
@@ -25,8 +26,8 @@ ROWS = [
     ["layout"],
     ["mechanism", "pitch"],
     ["spec", "timing"],
-    ["loads", "motion", "peaks", "profile", "undercut"],
-    ["positive"],
+    ["loads", "motion", "peaks", "profile", "undercut", "gears", "groove"],
+    ["positive", "part"],
     ["cautions", "law_values", "survey", "template"],
     ["synthesis_wish"],
     ["synthesis"],
@@ -44,7 +45,7 @@ ROWS = [
     ["app"],
     ["__main__"],
 ]
-STREAMS = ["app", "commands.*", "output", "output.*", "spec", "law_table"]
+STREAMS = ["app", "commands.*", "output", "output.*", "spec", "points"]
 TYPER = ["app", "commands.*"]
 
 

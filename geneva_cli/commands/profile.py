@@ -11,9 +11,7 @@ from geneva_cli.commands.options import Format, Output, SpecPath, warn
 
 def run(
     spec: SpecPath,
-    part: Annotated[
-        str, typer.Option(metavar="PART", help="What to write; so far the slot.")
-    ] = "slot",
+    part: Annotated[str, typer.Option(metavar="PART", help="slot, gears or groove.")] = "slot",
     tolerance: Annotated[
         float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
     ] = 0.001,
@@ -28,13 +26,11 @@ def run(
     In the wheel's frame, x towards the crank's axis at mid-motion. Left and right are the flanks
     as the pin travels in; the radius is positive where its centre lies to the left.
     """
-    from geneva_cli.errors import GenevaError
     from geneva_cli.output import show
-    from geneva_cli.profile import profile_table
+    from geneva_cli.part import part_table
     from geneva_cli.spec import load
 
-    if part != "slot":
-        raise GenevaError(f"--part {part}: it must be slot")
     mechanism = load(spec)
-    show(profile_table(mechanism, tolerance, samples), output, format, mechanism.spec.files)
+    table = part_table(mechanism, part, tolerance, samples)
+    show(table, output, format, mechanism.spec.files)
     warn(mechanism)

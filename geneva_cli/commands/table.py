@@ -7,12 +7,16 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands.options import Format, Output
+from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 
 
 def run(
     z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.")] = "3..12",
     internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
+    spherical: Annotated[
+        bool, typer.Option("--spherical", help="Spherical wheels, shafts at 90 degrees.")
+    ] = False,
     n: Annotated[float, typer.Option("--n", metavar="RPM", help="Input speed.")] = 60.0,
     rollers: Annotated[int, typer.Option(metavar="M", help="Rollers on the crank.")] = 1,
     A: Annotated[
@@ -24,4 +28,7 @@ def run(
     """Timing and peaks of wheels, one row for each number of slots."""
     from geneva_cli.survey import survey
 
-    show(survey(z, "internal" if internal else "external", n, rollers, A), output, format)
+    if internal and spherical:
+        raise GenevaError("--internal with --spherical: choose one of them")
+    gearing = "internal" if internal else "spherical" if spherical else "external"
+    show(survey(z, gearing, n, rollers, A), output, format)

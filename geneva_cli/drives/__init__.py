@@ -2,8 +2,9 @@
 
 Each module has ``Keys``, the keys it adds to ``[drive]``, and one of two functions:
 
-- ``front(keys)``, where the roller is carried on the crank's circle: a function from the crank's
-  angle in degrees to a ``Front``;
+- ``front(spec)``, where the roller is carried on the crank's circle: a function from the crank's
+  angle in degrees to a ``Front``. Optional beside it: ``turns(keys)``, input turns in a turn of the
+  crank (1), and ``reach_deg(keys)``, how far from mid-motion the crank may move the wheel (180);
 - ``plan(spec)``, where the roller has a path of its own: a ``Plan``.
 """
 
@@ -20,11 +21,15 @@ KINDS = {
     "crank": "crank",
     "side-crank": "side_crank",
     "elliptical-gears": "elliptical_gears",
+    "noncircular-gears": "noncircular_gears",
+    "geneva-pair": "geneva_pair",
     "four-bar": "four_bar",
     "slider-crank": "slider_crank",
     "epicyclic": "epicyclic",
     "cam": "cam",
 }
+
+GEARED = ("elliptical-gears", "noncircular-gears")  # whose ratio is a pair of pitch curves
 
 
 class Front(NamedTuple):

@@ -8,7 +8,6 @@ the wheel's, rho = L sin phi / sin(phi + psi) (an internal wheel: phi - psi).
 from __future__ import annotations
 
 import math
-
 from typing import NamedTuple
 
 from geneva_cli import gearing

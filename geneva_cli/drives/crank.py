@@ -7,13 +7,14 @@ from typing import NamedTuple
 
 from geneva_cli.drives import Front
 from geneva_cli.jet import Coefficient, Jet, sine_versine
+from geneva_cli.keys import Spec
 
 
 class Keys(NamedTuple):
     """No keys of its own."""
 
 
-def front(keys: Keys) -> Callable[[float], Front]:
+def front(spec: Spec) -> Callable[[float], Front]:
     """Crank angle and input angle are one."""
     return lambda crank_deg: Front(crank_deg, _same)
 

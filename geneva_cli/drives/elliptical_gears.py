@@ -15,6 +15,7 @@ from typing import Annotated, NamedTuple
 
 from geneva_cli.drives import Front
 from geneva_cli.jet import Coefficient, Jet, library, sine_versine_of
+from geneva_cli.keys import Spec
 from geneva_cli.rules import OneOf, Range
 from geneva_cli.units import sin_cos_deg
 
@@ -26,8 +27,10 @@ class Keys(NamedTuple):
     phase: Annotated[str, OneOf(("slow", "quick")), "which index is at mid-motion"] = "slow"
 
 
-def front(keys: Keys) -> Callable[[float], Front]:
+def front(spec: Spec) -> Callable[[float], Front]:
     """Front about a crank angle f in degrees."""
+    keys = spec.kind
+    assert isinstance(keys, Keys)
     e = keys.eccentricity if keys.phase == "slow" else -keys.eccentricity
     return lambda crank_deg: _about(e, crank_deg)
 

@@ -16,6 +16,7 @@ from typing import Annotated, NamedTuple
 
 from geneva_cli.drives import Front
 from geneva_cli.jet import Coefficient, Jet, library, sine_versine_of
+from geneva_cli.keys import Spec
 from geneva_cli.rules import Range
 from geneva_cli.units import sin_cos_deg
 
@@ -28,9 +29,15 @@ class Keys(NamedTuple):
     ]
 
 
-def front(keys: Keys) -> Callable[[float], Front]:
+def front(spec: Spec) -> Callable[[float], Front]:
     """Front about a crank (coulisse) angle f in degrees."""
-    return lambda crank_deg: _about(keys.A, crank_deg)
+    assert isinstance(spec.kind, Keys)
+    return about(spec.kind.A)
+
+
+def about(A: float) -> Callable[[float], Front]:
+    """The same for an offset A."""
+    return lambda crank_deg: _about(A, crank_deg)
 
 
 def _about(A: float, crank_deg: float) -> Front:

@@ -11,10 +11,10 @@ import math
 from typing import Annotated, NamedTuple
 
 from geneva_cli.drives import Plan
-from geneva_cli.linkage import plan_on
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet, sin_cos, sqrt
 from geneva_cli.keys import Spec
+from geneva_cli.linkage import plan_on
 from geneva_cli.rules import LENGTH, POSITIVE, Range
 
 

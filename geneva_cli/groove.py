@@ -1,0 +1,64 @@
+"""The fixed groove of a cam-Geneva: its pitch curve, both flanks, pressure angle and curvature."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geneva_cli.drives.cam import CamDriven
+from geneva_cli.errors import GenevaError
+from geneva_cli.mechanism import Mechanism
+from geneva_cli.table import Table
+
+NAMES = (
+    "input_deg",
+    "radius_mm",
+    "x_mm",
+    "y_mm",
+    "left_x_mm",
+    "left_y_mm",
+    "right_x_mm",
+    "right_y_mm",
+    "pressure_deg",
+    "curvature_radius_mm",
+)
+SAMPLES = 721
+
+
+def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:
+    """The groove over the motion, evenly in the input angle, the crank's axis being the origin.
+
+    x points away from the wheel's axis; left and right are the flanks as the roller travels. The
+    pressure angle is the one between the groove's normal and the crank's arm, atan(R'/R).
+    """
+    station = mechanism.stations[0]
+    if not isinstance(station, CamDriven):
+        raise GenevaError(
+            f'--part groove: kind = "{mechanism.spec.drive.kind}" has none; kind = "cam" has'
+        )
+    size = mechanism.spec.size
+    L, offset = size.center_distance_mm, mechanism.spec.roller_radius_mm + size.slot_clearance_mm
+    x = np.linspace(station.entry_deg, station.exit_deg, samples or SAMPLES)
+    R = L * station.distances(x, 2)[1].c[0]
+    slope = station.distances(x, 2)[1].c[1] * L
+    px, py = station.groove(x, 2)
+    (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
+    speed = np.hypot(x1, y1)
+    turning = x1 * y2 - y1 * x2
+    with np.errstate(divide="ignore"):
+        # The roller enters along the slot, while the wheel still stands: a straight line.
+        straight = np.abs(turning) < 1e-12 * speed * speed
+        radius = np.where(straight, np.inf, L * speed**3 / turning)
+    nx, ny = -y1 / speed * offset, x1 / speed * offset
+    columns = [
+        x,
+        R,
+        L * x0,
+        L * y0,
+        L * x0 + nx,
+        L * y0 + ny,
+        L * x0 - nx,
+        L * y0 - ny,
+        np.degrees(np.arctan2(np.abs(slope), R)),
+        radius,
+    ]
+    return Table(NAMES, columns)
