@@ -18,6 +18,16 @@ lint: .venv/dev
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# Run time against error, tables and plots in build/bench; some minutes.
+bench: .venv/dev
+	@mkdir -p build/bench
+	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
+
+# Numerical stress against mpmath, then random specs; half an hour.
+stress: .venv/dev
+	$(BIN)/python tests/stress.py
+	$(BIN)/python tests/fuzz_spec.py --runs 200000
+
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev
 	$(BIN)/python tests/bench_start.py

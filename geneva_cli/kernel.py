@@ -1,16 +1,16 @@
-"""The classic wheels over whole arrays: closed forms, in place, a block at a time.
+"""The classic wheels over whole arrays: closed forms in tan(a/2), in place, a block at a time.
 
-With g = |1 -+ l| the pin's least distance from the wheel's centre on the far side of the crank's
-axis, both gearings are one formula: s = 1 - cos a outside and 1 + cos a inside, sign + and -,
+With t = tan(a/2), T = t², and (p, q) = (1-l, 1+l) outside, (1+l, 1-l) inside, both gearings are
 
-    D    = (1-l)² + 2 l s
-    psi  = atan2(l sin a, (1-l) + l s)
-    psi1 = sign l ((1-l) - s) / D
-    psi2 = - l (1-l²) sin a / D²
-    psi3 = sign l (1-l²) (s (1 + 4 l + l² - 2 l s) - (1-l)²) / D³
+    P    = p² + q² T
+    psi  = atan(2 l t / (p + q T))
+    psi1 = l (p - q T) / P
+    psi2 = - 2 l (1-l²) t (1+T) / P²
+    psi3 = l (1-l²) (1+T) (q² T² +- 12 l T - p²) / P³
 
-in which nothing cancels as l nears 1. A block stays in the processor's cache between the steps;
-on whole arrays the same steps take half as long again (`make bench` reprints it).
+in which nothing cancels as l nears 1, and one tangent is all the trigonometry there is. A block
+stays in the processor's cache between the steps; on whole arrays the same steps take half as long
+again (`geneva bench motion` reprints it).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Kernel(NamedTuple):
         n = len(input_deg)
         count = (n + 1) // 2 if mirrored else n
         out = [np.empty(n) for _ in orders]
-        work = np.empty((5, min(BLOCK, count)))
+        work = np.empty((4, min(BLOCK, count)))
         for start in range(0, count, BLOCK):
             stop = min(start + BLOCK, count)
             done = [o[start:stop] for o in out]
@@ -62,38 +62,40 @@ class Kernel(NamedTuple):
 
     def _block(self, x: Array, orders: Sequence[int], out: list[Array], work: Array) -> None:
         sign, l, rest = self
-        sine, cosine, versine, inverse, spare = work
-        np.multiply(x, 0.5 * DEGREE, out=spare)
-        np.sin(spare, out=sine)
-        np.cos(spare, out=cosine)
-        half = sine if sign > 0 else cosine
-        np.multiply(half, half, out=versine)  # s / 2
-        np.multiply(sine, cosine, out=sine)  # sin(a) / 2
-        np.multiply(versine, 4.0 * l, out=inverse)
-        inverse += rest * rest
-        np.reciprocal(inverse, out=inverse)
+        tan, square, inverse, spare = work
+        p, q = (rest, 1.0 + l) if sign > 0.0 else (1.0 + l, rest)
         scale = l * rest * (1.0 + l)
+        np.multiply(x, 0.5 * DEGREE, out=tan)
+        np.tan(tan, out=tan)
+        np.multiply(tan, tan, out=square)
+        np.multiply(square, q * q, out=inverse)
+        inverse += p * p
+        np.reciprocal(inverse, out=inverse)
         for order, to in zip(orders, out, strict=True):
             if order == 0:
-                np.multiply(versine, 2.0 * l, out=spare)
-                spare += rest
-                np.multiply(sine, 2.0 * l, out=to)
-                np.arctan2(to, spare, out=to)
+                np.multiply(square, q, out=spare)
+                spare += p
+                np.divide(tan, spare, out=to)
+                to *= 2.0 * l
+                np.arctan(to, out=to)
             elif order == 1:
-                np.multiply(versine, -2.0 * l * sign, out=to)
-                to += l * rest * sign
+                np.multiply(square, -l * q, out=to)
+                to += l * p
                 to *= inverse
             elif order == 2:
-                np.multiply(inverse, inverse, out=to)
-                to *= sine
+                np.add(square, 1.0, out=to)
+                to *= tan
+                to *= inverse
+                to *= inverse
                 to *= -2.0 * scale
             else:
-                np.multiply(versine, -4.0 * l, out=to)
-                to += 1.0 + 4.0 * l + l * l
-                to *= versine
-                to *= 2.0
-                to -= rest * rest
+                np.multiply(square, q * q, out=to)
+                to += sign * 12.0 * l
+                to *= square
+                to -= p * p
+                np.add(square, 1.0, out=spare)
+                to *= spare
                 to *= inverse
                 to *= inverse
                 to *= inverse
-                to *= scale * sign
+                to *= scale

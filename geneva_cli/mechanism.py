@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import NamedTuple
 
 from geneva_cli import classic, drives, gearing, kinds
@@ -13,6 +14,7 @@ from geneva_cli.keys import Spec
 from geneva_cli.law_of import law_of
 from geneva_cli.laws import Law
 from geneva_cli.layout import Place, places, refuse_layout
+from geneva_cli.many import acceleration_peak
 from geneva_cli.station import Anchor, LawDriven, LawMotion, SlotDriven, SphereDriven, Station
 
 
@@ -103,7 +105,11 @@ def _slot_driven(spec: Spec, front: drives.Turn, place: Place) -> SlotDriven:
     anchors = tuple(_anchor(pose, front, place.crank_deg) for pose in poses)
     plain = spec.drive.kind == "crank" and not e
     kernel = (SIGN[gear], step.sin_cos[0], classic.gap("external", *step)) if plain else None
-    return SlotDriven(mid, step.b, anchors, kernel, e)
+    station = SlotDriven(mid, step.b, anchors, kernel, e)
+    A = getattr(spec.kind, "A", None)
+    if A is not None and not e and step == (1, spec.wheel.z) and place.crank_deg == 0.0:
+        station.known_peak = partial(acceleration_peak, spec.wheel.z, gear, A)
+    return station
 
 
 def _anchor(pose: gearing.Pose, front: drives.Turn, crank_deg: float) -> Anchor:

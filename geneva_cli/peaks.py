@@ -88,6 +88,8 @@ def ends(station: Station) -> Ends:
 
 def acceleration_peak(station: Station) -> Peak:
     """The peak acceleration, from its closed form where there is one."""
+    if station.known_peak is not None:
+        return Peak(*station.known_peak())
     if station.classic is None:
         return peak(station, "acceleration")
     sign, l, rest = station.classic

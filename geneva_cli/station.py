@@ -36,7 +36,7 @@ class Anchor(NamedTuple):
 
 
 NEAR_END = 0.75  # share of the way to an end from which the end's own anchor serves
-END_DEG = 0.5  # closer than this to entry or exit, relative accuracy is kept too
+END_DEG = 0.05  # closer than this to entry or exit, relative accuracy is kept too
 
 
 def is_mirrored(input_deg: Array) -> bool:
@@ -57,6 +57,8 @@ class Station(ABC):
 
     # sign, l and 1 - l where closed forms hold: straight radial slots on a plain crank
     classic: tuple[float, float, float] | None = None
+    # size and angle (degrees) of the peak acceleration, where there is a quicker way to it
+    known_peak: Callable[[], tuple[float, float]] | None = None
 
     def __init__(self, mid_deg: float, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.mid_deg = mid_deg  # the machine's input angle at this station's mid-motion

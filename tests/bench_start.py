@@ -1,14 +1,13 @@
 """Wall time of whole runs, as a user waits for them: `make bench-start`.
 
-Every run is paired with one of the baseline right before it, so that a machine that speeds up or
-slows down in between hits both alike; the ratio is the median over the pairs.
+Every run is paired with one of the baseline right before it (geneva_cli.accuracy.timing_pairs).
 """
 
 import os
 import statistics
-import subprocess
 import sys
-from time import perf_counter
+
+from geneva_cli.accuracy.timing_pairs import median_ratio, paired
 
 PAIRS = 40
 BUDGET = 1.1
@@ -47,20 +46,6 @@ RUNS = {
 }
 
 
-def seconds(command, environment):
-    start = perf_counter()
-    subprocess.run(command, capture_output=True, env=environment)
-    return perf_counter() - start
-
-
-def paired(command, environment):
-    """Times of baseline and command, alternating; the first pair only warms the caches."""
-    pairs = [
-        (seconds(BASELINE, os.environ), seconds(command, environment)) for _ in range(PAIRS + 1)
-    ]
-    return pairs[1:]
-
-
 def main():
     width = max(map(len, RUNS))
     print(f"{PAIRS} pairs of whole processes, output to a pipe; medians, and of the pairs' ratios")
@@ -68,8 +53,8 @@ def main():
     ratios = {}
     for name, command in RUNS.items():
         environment = os.environ | COMPLETE if name.startswith("completion") else os.environ
-        pairs = paired(command, environment)
-        ratios[name] = statistics.median(own / base for base, own in pairs)
+        pairs = paired(BASELINE, command, environment, PAIRS)
+        ratios[name] = median_ratio(pairs)
         base, own = (1e3 * statistics.median(times) for times in zip(*pairs, strict=True))
         print(f"{name:{width}}  {own:6.1f}  {base:12.1f}  {ratios[name]:6.3f}", flush=True)
     verdict = "met" if ratios[TABLE] <= BUDGET else "NOT met"

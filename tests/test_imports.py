@@ -65,7 +65,13 @@ ROWS = [
     Row("check limits.toml", "tomli"),
     Row("check press-curved.toml", "tomli numpy"),
     Row("laws"),
+    Row("synth --tau 1/3"),
+    Row("synth --acceleration-max 0.5 --z 6"),
+    Row("synth --motion-deg 180 --z 6 --write 1", "tomli"),
+    Row("synth --motion-deg 180 --z 6 --write 4", "tomli numpy"),
     Row("new external", "tomli"),
+    Row("bench --help"),
+    Row("bench peaks --quick", "numpy scipy json"),  # json: SciPy's; matplotlib only for plots
 ]
 
 # The quick ones may import this much of the program, and no more.

@@ -20,7 +20,7 @@ ROWS = [
     ["classic", "kernel", "keys", "laws"],
     ["gearing", "law_table", "many", "station", "synthesis_closed"],
     ["drives", "law_of", "path_wheel", "synthesis_limit"],
-    ["linkage"],
+    ["coulisse", "linkage"],
     ["drives.*"],
     ["kinds"],
     ["layout"],

@@ -11,7 +11,8 @@ import math
 from collections.abc import Callable
 from typing import Annotated, Any, NamedTuple
 
-from geneva_cli.drives import Front, side_crank
+from geneva_cli.coulisse import coulisse
+from geneva_cli.drives import Front
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet, library, sine_versine_of
 from geneva_cli.keys import Spec
@@ -40,7 +41,7 @@ def front(spec: Spec) -> Callable[[float], Front]:
             ("drive", "kind"),
         )
     if keys.A is not None:
-        return side_crank.about(keys.A)
+        return coulisse(keys.A)
     path = spec.beside(keys.ratio_file or "")
     return _from_file(read_pairs(path, POINTS, ("drive", "ratio_file")))
 

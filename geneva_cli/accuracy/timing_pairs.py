@@ -1,0 +1,82 @@
+"""Times as ratios: every run is paired with one of a baseline right before it.
+
+A machine that speeds up or slows down in between hits both alike; the ratio is the median over the
+pairs.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from time import perf_counter
+from typing import Any
+
+Pair = tuple[float, float]  # seconds of the baseline, of the run after it
+SHORTEST = 2e-3  # seconds: shorter calls are repeated until they take as long
+
+
+def process_seconds(
+    command: Sequence[str], environment: Mapping[str, str], given: str | None = None
+) -> float:
+    """Wall time of a whole process, with ``given`` on its standard input."""
+    text = None if given is None else given.encode()
+    stdin = subprocess.DEVNULL if text is None else None
+    start = perf_counter()
+    subprocess.run(list(command), capture_output=True, env=environment, input=text, stdin=stdin)
+    return perf_counter() - start
+
+
+def paired(
+    baseline: Sequence[str], command: Sequence[str], environment: Mapping[str, str], pairs: int
+) -> list[Pair]:
+    """Times of baseline and command, alternating; one more pair before them warms the caches."""
+    found = [
+        (process_seconds(baseline, os.environ), process_seconds(command, environment))
+        for _ in range(pairs + 1)
+    ]
+    return found[1:]
+
+
+def median_ratio(pairs: Sequence[Pair]) -> float:
+    """The median of the pairs' ratios."""
+    return statistics.median(own / base for base, own in pairs)
+
+
+def ratios(
+    baseline: Callable[[], Any], calls: Sequence[Callable[[], Any]], seconds: float
+) -> list[float]:
+    """Time of each call as a ratio to the baseline's, all of them in turn, round after round.
+
+    Each call is first run once, unmeasured. It takes part until it has used ``seconds``, but at
+    least once; a call that is over in less than ``SHORTEST`` is repeated in each round.
+    """
+    repeats = [_repeats(call) for call in (baseline, *calls)]
+    spent = [0.0] * len(calls)
+    pairs: list[list[Pair]] = [[] for _ in calls]
+    while any(s < seconds for s in spent):
+        base = -1.0
+        for i, call in enumerate(calls):
+            if spent[i] >= seconds:
+                continue
+            if base < 0.0 or repeats[i + 1] == 1:  # after a long call the machine may have changed
+                base = _time(baseline, repeats[0])
+            own = _time(call, repeats[i + 1])
+            spent[i] += own * repeats[i + 1]
+            pairs[i].append((base, own))
+    return [median_ratio(p) for p in pairs]
+
+
+def _repeats(call: Callable[[], Any]) -> int:
+    once = _time(call, 1)
+    if once < SHORTEST:
+        once = _time(call, 1)  # warm now
+    return max(1, round(SHORTEST / once))
+
+
+def _time(call: Callable[[], Any], repeats: int) -> float:
+    start = perf_counter()
+    for _ in range(repeats):
+        call()
+    return (perf_counter() - start) / repeats

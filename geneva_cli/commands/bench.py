@@ -1,0 +1,50 @@
+"""``geneva bench``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output
+
+
+def run(
+    subject: Annotated[
+        str,
+        typer.Argument(
+            metavar="[SUBJECT]", help="peaks, many, motion, slot, start, export or all."
+        ),
+    ] = "all",
+    plots: Annotated[
+        str, typer.Option(metavar="FOLDER", help="Draw each subject there, as SVG.")
+    ] = "",
+    quick: Annotated[bool, typer.Option("--quick", help="Small sizes, seconds in all.")] = False,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Run time against error: ours beside what else is in use.
+
+    Errors against 50 digits; times as ratios to a baseline in the same run, which has a row.
+    """
+    import os
+
+    from geneva_cli.accuracy.bench import bench_table, measure, names
+    from geneva_cli.errors import GenevaError
+    from geneva_cli.output import format_of, show
+    from geneva_cli.output.files import write
+
+    if plots:
+        from geneva_cli.accuracy.plot import require, svg
+
+        require()
+        if not os.path.isdir(plots):
+            raise GenevaError(f"--plots {plots}: no such folder")
+    people = (format or format_of(output)) in ("table", "md")
+    rows = []
+    for name in names(subject):
+        about, found = measure(name, quick)
+        rows += found
+        if plots:
+            write(os.path.join(plots, f"{name}.svg"), [svg(about, found)])
+    show(bench_table(rows, people), output, format)

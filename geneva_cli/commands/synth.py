@@ -1,0 +1,81 @@
+"""``geneva synth``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output, warn
+
+
+def run(
+    tau: Annotated[str, typer.Option(metavar="X", help="Wish: motion / cycle.")] = "",
+    k: Annotated[str, typer.Option("--k", metavar="X", help="Wish: motion / dwell.")] = "",
+    motion_deg: Annotated[
+        str, typer.Option(metavar="DEG", help="Wish: input angle of one motion.")
+    ] = "",
+    step: Annotated[str, typer.Option(metavar="DEG", help="Wish: the wheel's step.")] = "",
+    acceleration_max: Annotated[
+        str, typer.Option(metavar="X", help="Wish: greatest acceleration, an invariant.")
+    ] = "",
+    cycle: Annotated[
+        str, typer.Option(metavar="S", help="Seconds from step to step; gives n_rpm.")
+    ] = "",
+    motion_s: Annotated[
+        str, typer.Option(metavar="S", help="Seconds of motion, with --step and --cycle.")
+    ] = "",
+    z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24")] = "",
+    internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
+    external: Annotated[bool, typer.Option("--external", help="External wheels.")] = False,
+    rollers: Annotated[
+        int | None, typer.Option(metavar="M", help="Rollers; without: all that do not jam.")
+    ] = None,
+    law: Annotated[
+        str, typer.Option(metavar="NAME", help="Law of the curved slots, or all.")
+    ] = "modified-sine",
+    write: Annotated[
+        int | None, typer.Option(metavar="N", help="Write row N as a spec instead.")
+    ] = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """From a wish to all machines that grant it, the lowest peak acceleration first.
+
+    One of --tau, --k, --motion-deg, --step with --cycle, or --acceleration-max; numbers may be
+    fractions. The plain crank is shown where it misses the motion by at most a millionth.
+    """
+    from geneva_cli.errors import GenevaError
+    from geneva_cli.output import format_of, show, show_text
+    from geneva_cli.synthesis import for_people, synthesis, synthesis_table
+    from geneva_cli.synthesis_wish import read_wish
+
+    wish = read_wish(
+        tau=tau,
+        k=k,
+        motion_deg=motion_deg,
+        step=step,
+        cycle=cycle,
+        motion_s=motion_s,
+        acceleration_max=acceleration_max,
+        z=z,
+        internal=internal,
+        external=external,
+        rollers=rollers,
+        law=law,
+    )
+    if write is None:
+        if output.endswith(".toml") and not format:
+            raise GenevaError(f"-o {output}: a spec is one row of the table; add --write N")
+        name = format or format_of(output)
+        table = synthesis_table(wish)
+        show(for_people(table) if name in ("table", "md") else table, output, format)
+        return
+    from geneva_cli.mechanism import build
+    from geneva_cli.synthesis_spec import chosen
+
+    if format:
+        raise GenevaError(f"--format {format}: --write writes a spec, which is TOML")
+    spec, text = chosen(wish, synthesis(wish), write)
+    show_text(text, output)
+    warn(build(spec._replace(path="<stdout>" if output == "-" else output)))

@@ -1,0 +1,376 @@
+"""Reference motions of 50 digits for every machine, from its geometry.
+
+A machine is given as the tables of a spec. The pin is a place in the plane (on the sphere: a
+vector), the wheel's angle its direction, written as a textbook would and differentiated by
+mpmath's differences with digits to spare. The derivatives that theory derives by hand stand below
+and are held against those differences, so each of the two checks the other. Nothing in this file
+imports the program; every key is taken as the exact double that it is.
+"""
+
+from witness import LAWS, mp, taylor, to_radians
+
+
+class Front:
+    """The crank's angle f behind a front drive, as a function of the input angle, and back."""
+
+    def __init__(self, drive=None, keys=None):
+        self.kind = drive.kind if drive else "crank"
+        slow = self.kind in ("side-crank", "noncircular-gears")  # the same ratio
+        self.A = mp.mpf(keys.A) if slow else mp.mpf(0)
+        self.e = mp.mpf(0)
+        if self.kind == "elliptical-gears":
+            self.e = mp.mpf(keys.eccentricity) * (1 if keys.phase == "slow" else -1)
+
+        # two wheels in series: the first wheel is the second's crank
+        self.first = mp.pi / keys.first_z if self.kind == "geneva-pair" else None
+
+    def crank(self, phi):
+        """The coulisse points along A + E, the ellipse along (E + e)/(1 + e E), E = e^(i phi).
+
+        E is taken out of both, so that no turn is lost: |A| and |e| are below 1.
+        """
+        E = mp.expj(phi)
+        if self.first:
+            return mp.arg(1 - mp.sin(self.first) / E)
+        return phi - mp.arg(1 + self.A * E) - 2 * mp.arg(1 + self.e * E)
+
+    def input(self, f):
+        """Law of sines in the side-crank's triangle; the ellipse's map turned round."""
+        if self.first:
+            if abs(abs(f) - self.first) < mp.mpf(10) ** -40:  # asin's end, where it loses digits
+                return mp.sign(f) * (mp.pi / 2 - self.first)
+            return mp.asin(mp.sin(f) / mp.sin(self.first)) - f
+        return f + mp.asin(self.A * mp.sin(f)) - 2 * mp.arg(1 - self.e * mp.expj(f))
+
+    def closed(self, phi):
+        """f1, f2, f3 as theory derives them by hand: sections 1.8 and 1.9."""
+        if self.first:
+            return offset_closed(mp.sin(self.first), mp.mpf(0), phi)
+        A, e, c, s = self.A, self.e, mp.cos(phi), mp.sin(phi)
+        if self.kind == "elliptical-gears":
+            W, k = 1 + e * e + 2 * e * c, 1 - e * e
+            third = 2 * e * k * ((1 + e * e) * c - 2 * e * c * c + 4 * e) / W**3
+            return k / W, 2 * e * k * s / W**2, third
+        W, k = 1 + 2 * A * c + A * A, A * (1 - A * A)
+        third = k * ((1 + A * A) * c - 2 * A * c * c + 4 * A) / W**3
+        return (1 + A * c) / W, k * s / W**2, third
+
+
+class Motion:
+    """One motion of one roller through one slot, about its own mid-motion; radians, L = 1.
+
+    ``wheel`` and ``pin`` are functions of the input angle; ``closed``, of the same, gives the
+    first three derivatives of the wheel's angle by hand-derived formulas.
+    """
+
+    law = None
+    offset = mp.mpf(0)  # of the straight slot's axis from the wheel's
+
+    def __init__(self, mid, entry, exit_, half_step, wheel, pin, closed=None, polar=None):
+        self.mid, self.entry, self.exit, self.b = mid, entry, exit_, half_step
+        self.wheel, self.pin, self.closed, self.polar = wheel, pin, closed, polar
+
+    def derivatives(self, deg):
+        """The wheel's angle and its derivatives 1..4, at a double in degrees taken as exact."""
+        return taylor(self.wheel, to_radians(deg), 4)
+
+    def rail(self, x):
+        """What the pin does in its slot: lever of the slot's normal, and speed along the slot.
+
+        In the frame that turns with the wheel the pin moves along the slot only.
+        """
+        if self.polar:
+            at, speed = taylor(self.polar, x, 1)
+            return mp.sin(at), speed
+        place, speed = taylor(lambda t: self.pin(t) * mp.expj(-self.wheel(t)), x, 1)
+        along = mp.expj(mp.arg(speed)) * (1 if speed.real * place.real > 0 else -1)
+        foot = (place * mp.conj(along)).real
+        return abs(foot), (speed * mp.conj(along)).real
+
+
+class LawMotion(Motion):
+    """A motion that a law gives; at a joint of the law, from the left."""
+
+    def __init__(self, law, motion, half_step, pin_of):
+        self.law, self.whole = law, motion
+        super().__init__(mp.mpf(0), -motion / 2, motion / 2, half_step, self._wheel, None)
+        self.pin = lambda x: pin_of(x, self._wheel(x))
+
+    def _wheel(self, x):
+        u = (x - self.entry) / self.whole
+        return 2 * self.b * (self.law(min(max(u, mp.mpf(0)), mp.mpf(1)), 2)[0] - mp.mpf(1) / 2)
+
+    def derivatives(self, deg):
+        """The law's own derivatives, scaled."""
+        # the entry angle is rounded: half a unit of it may lie outside the motion
+        u = (to_radians(deg) - self.entry) / self.whole
+        q = self.law(min(max(u, mp.mpf(0)), mp.mpf(1)), 4)
+        q[0] -= mp.mpf(1) / 2
+        return [2 * self.b * v / self.whole**k for k, v in enumerate(q)]
+
+
+def motions(spec):
+    """The motions of a machine in the order of its stations."""
+    kind = spec.drive.kind
+    if kind == "epicyclic":
+        return [epicyclic(spec)]
+    if kind == "cam":
+        return [cam(spec)]
+    front = Front(spec.drive, spec.kind)
+    if spec.motion.law is not None:
+        return [curved(spec, front)]
+    return [straight(spec, front, crank, b) for crank, b in rollers(spec)]
+
+
+def rollers(spec):
+    """Crank angle and half a step of every roller that moves the wheel in its own way."""
+    wheel, drive = spec.wheel, spec.drive
+    b = mp.pi / wheel.z
+    if wheel.steps_deg:
+        halves = [to_radians(s) / 2 for s in wheel.steps_deg]
+        # equal dwells between motions of pi - 2 b
+        dwell = (2 * mp.pi - sum(mp.pi - 2 * h for h in halves)) / len(halves)
+        out, at = [], mp.mpf(0)
+        for i, h in enumerate(halves):
+            if i:
+                at += mp.pi / 2 - halves[i - 1] + dwell + mp.pi / 2 - h
+            out.append((at, h))
+        return out
+    if drive.roller_angles_deg:
+        return [(to_radians(a), b) for a in drive.roller_angles_deg]
+    count = drive.rollers if drive.kind != "crank" else 1  # on a plain crank all move alike
+    return [(2 * mp.pi * j / drive.rollers, b) for j in range(count)]
+
+
+def straight(spec, front, crank, b):
+    """A straight slot, and a roller on the crank's circle, ``crank`` behind the first."""
+    gearing = spec.wheel.gearing
+    e = mp.mpf(spec.wheel.offset_mm) / mp.mpf(spec.size.center_distance_mm)
+    polar = None
+    if gearing == "spherical":
+        S = to_radians(spec.wheel.axes_deg)
+        th = mp.asin(mp.sin(S) * mp.sin(b))
+        half = mp.acos(mp.tan(th) / mp.tan(S)) if spec.wheel.axes_deg != 90.0 else mp.pi / 2
+        first, last = -half, half
+
+        def place(a):
+            x, y, _ = on_the_sphere(S, th, a)
+            return mp.mpc(x, y)
+
+        def wheel(a):
+            return mp.arg(place(a))
+
+        def polar_of(a):
+            x, y, height = on_the_sphere(S, th, a)
+            return mp.atan2(mp.hypot(x, y), height)
+
+        def hand(a):
+            return spherical_closed(S, th, a)
+
+        polar = polar_of
+    else:
+        g = -1 if gearing == "internal" else 1
+        d = mp.asin(e / mp.cos(b))
+        l = mp.sin(b) * mp.cos(d)
+        first, last = -(mp.pi / 2 - g * b + d), mp.pi / 2 - g * b - d
+
+        def place(a):
+            return 1 - g * l * mp.expj(-g * a)
+
+        def wheel(a):
+            at = place(a)
+            return mp.arg(at) + mp.asin(e / abs(at)) - d
+
+        def hand(a):
+            return offset_closed(l, e, a, g)
+
+    mid = front.input(crank)
+
+    def behind(f):
+        return lambda x: f(front.crank(mid + x) - crank)
+
+    def closed(x):
+        f1, f2, f3 = front.closed(mid + x)
+        G1, G2, G3 = hand(front.crank(mid + x) - crank)
+        return G1 * f1, G2 * f1**2 + G1 * f2, G3 * f1**3 + 3 * G2 * f1 * f2 + G1 * f3
+
+    out = Motion(
+        mid,
+        front.input(crank + first) - mid,
+        front.input(crank + last) - mid,
+        b,
+        behind(wheel),
+        behind(place),
+        closed,
+        behind(polar) if polar else None,
+    )
+    out.offset = e
+    return out
+
+
+def on_the_sphere(S, th, a):
+    """The pin on the unit sphere: wheel's axis up, the crank's at S from it in the xz plane.
+
+    At a = 0 it leans from the crank's axis towards the wheel's.
+    """
+    out, up = mp.cos(th), mp.sin(th)
+    x = out * mp.sin(S) - up * mp.cos(a) * mp.cos(S)
+    height = out * mp.cos(S) + up * mp.cos(a) * mp.sin(S)
+    return x, up * mp.sin(a), height
+
+
+def epicyclic(spec):
+    """The roller on a planet's arm: a trochoid about the crank's axis."""
+    keys, z = spec.kind, spec.wheel.z
+    b = mp.pi / z
+    u = mp.mpf(2 * z) / (z - 2)
+    c = 1 + u if keys.fixed == "sun" else 1 - u
+    l = mp.sin(b)
+    rp = l / (c * c - 1) if keys.planet_ratio == "shockless" else mp.mpf(keys.planet_ratio)
+    R0 = l + rp
+    half = mp.pi / 2 - b
+
+    def pin(x):
+        return 1 - R0 * mp.expj(-x) - rp * mp.expj(-c * x)
+
+    def closed(x):
+        way = [
+            -(((-1j) ** k) * R0 * mp.expj(-x) + ((-1j * c) ** k) * rp * mp.expj(-c * x))
+            for k in (1, 2, 3)
+        ]
+        return path_closed(pin(x), *way)
+
+    return Motion(mp.mpf(0), -half, half, b, lambda x: mp.arg(pin(x)), pin, closed)
+
+
+def cam(spec):
+    """A straight slot and a law: the law of sines in the triangle of both axes and the roller."""
+    g = -1 if spec.wheel.gearing == "internal" else 1
+    b = mp.pi / spec.wheel.z
+    motion = mp.pi - 2 * g * b - to_radians(spec.motion.alpha0_deg)
+
+    def pin(x, psi):
+        return mp.sin(x) / mp.sin(x + g * psi) * mp.expj(psi)
+
+    return LawMotion(LAWS[spec.motion.law], motion, b, pin)
+
+
+def curved(spec, front):
+    """A law and a roller on the crank's circle."""
+    g = -1 if spec.wheel.gearing == "internal" else 1
+    b, law = mp.pi / spec.wheel.z, LAWS[spec.motion.law]
+    motion = 2 * front.input(mp.pi / 2 - g * b) - to_radians(spec.motion.alpha0_deg)
+    l = spec.motion.ratio
+    if l is None:
+        l = mp.sin(b)
+    elif l == "matched":  # the slot crosses the line of centres as fast as the pin does
+        v = law(mp.mpf(1) / 2, 1)[1] * 2 * b / motion / front.closed(mp.mpf(0))[0]
+        l = v / (1 + g * v)
+    l = mp.mpf(l)
+    return LawMotion(law, motion, b, lambda x, _: 1 - g * l * mp.expj(-g * front.crank(x)))
+
+
+def path_closed(Q, Q1, Q2, Q3):
+    """Derivatives of arg Q by those of Q: theory 1.6."""
+    return (
+        (Q1 / Q).imag,
+        (Q2 / Q - (Q1 / Q) ** 2).imag,
+        (Q3 / Q - 3 * Q2 * Q1 / Q**2 + 2 * (Q1 / Q) ** 3).imag,
+    )
+
+
+def spherical_closed(S, th, a):
+    """Theory 1.3, any angle S between the axes."""
+    t, c, s = mp.tan(th), mp.cos(a), mp.sin(a)
+    N, M = t * s, mp.sin(S) - t * mp.cos(S) * c
+    Q = M * M + N * N
+    Q1 = 2 * t * (M * mp.cos(S) * s + N * c)
+    level = (t * mp.cos(S) * s) ** 2 + M * t * mp.cos(S) * c + (t * c) ** 2 - N * t * s
+    A = t * mp.sin(S)  # of A(a) = A (cos a - tan th / tan S)
+    psi1 = A * (c - t * mp.cos(S) / mp.sin(S)) / Q
+    psi2 = (-A * s - psi1 * Q1) / Q
+    return psi1, psi2, (-A * c - 2 * psi2 * Q1 - psi1 * 2 * level) / Q
+
+
+def offset_closed(l, e, a, g=1):
+    """Theory 1.4; with e = 0 the radial slot. An internal wheel is l -> -l and psi -> -psi."""
+    l = g * l
+    rho = mp.sqrt(1 - 2 * l * mp.cos(a) + l * l)
+    s = mp.sqrt(rho * rho - e * e)
+    psi = mp.atan2(l * mp.sin(a), 1 - l * mp.cos(a)) + mp.asin(e / rho)
+    C, D = l * mp.cos(a + psi), l * mp.sin(a + psi)
+    psi1, s1 = C / s, l * mp.sin(a) / s
+    s2 = (l * mp.cos(a) - s1 * s1) / s
+    psi2 = -(D * (1 + psi1) + psi1 * s1) / s
+    psi3 = -(C * (1 + psi1) ** 2 + D * psi2 + 2 * psi2 * s1 + psi1 * s2) / s
+    return g * psi1, g * psi2, g * psi3
+
+
+def linkage(kind, keys):
+    """The roller's path about the crank's axis in millimetres, by circles that meet."""
+    a = mp.mpf(keys.crank_mm)
+    arm = mp.mpf(keys.point_mm) * mp.expj(to_radians(keys.point_deg))
+
+    def turn(x):  # mpmath's expj stops its own root finder
+        return mp.mpc(mp.cos(x), mp.sin(x))
+
+    def four_bar(phi):
+        A = a * turn(phi)
+        b, c = mp.mpf(keys.coupler_mm), mp.mpf(keys.rocker_mm)
+        d = mp.mpf(keys.ground_mm) - A
+        side = 1 if keys.branch == "+" else -1
+        cosine = (b * b + abs(d) ** 2 - c * c) / (2 * b * abs(d))
+        return A + arm * turn(mp.arg(d) + side * mp.acos(cosine))
+
+    def slider(phi):
+        A = a * turn(phi)
+        return A + arm * turn(mp.asin((mp.mpf(keys.height_mm) - A.imag) / mp.mpf(keys.rod_mm)))
+
+    return {"four-bar": four_bar, "slider-crank": slider}[kind]
+
+
+def fitted(path, b, entry, exit_):
+    """Entry, exit and centre of the wheel whose slots are tangent to the path at both.
+
+    The two tangents meet equally far from both places, at the index angle.
+    """
+
+    def off(first, last):
+        (p, v), (q, w) = taylor(path, first, 1), taylor(path, last, 1)
+        t, u = v / abs(v), w / abs(w)
+        chord = ((q - p) * mp.conj(t + u)).imag
+        # -t and u point from the wheel's centre to the pin
+        return chord, abs(mp.arg(-u / t)) - 2 * b
+
+    first, last = mp.findroot(off, (entry, exit_), tol=mp.mpf(10) ** -80, verify=False)
+    (p, v), (q, w) = taylor(path, first, 1), taylor(path, last, 1)
+    rho = abs(q - p) / abs(v / abs(v) + w / abs(w))
+    return first, last, p + rho * v / abs(v)
+
+
+def on_path(spec, entry_deg, exit_deg):
+    """A machine whose roller is a point of a linkage; the two angles are near the true ones."""
+    b = mp.pi / spec.wheel.z
+    path = linkage(spec.drive.kind, spec.kind)
+    entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))
+    middle = (entry + exit_) / 2  # the input's own middle
+    L = abs(centre)
+    ray = path(entry) - centre
+    sense = 1 if mp.arg((path(exit_) - centre) / ray) > 0 else -1
+
+    def turned(x):
+        """The pin from the wheel's centre, the ray to it at entry being the x axis."""
+        at = (path(middle + x) - centre) / ray * abs(ray) / L
+        return at if sense > 0 else mp.conj(at)
+
+    # the crank's axis lies at (1, 0)
+    axis = -centre / ray * abs(ray) / L
+    axis = axis if sense > 0 else mp.conj(axis)
+    return Motion(
+        mp.mpf(0),
+        entry - middle,
+        exit_ - middle,
+        b,
+        lambda x: mp.arg(turned(x) * mp.expj(-b)),
+        lambda x: turned(x) / axis,
+    )
