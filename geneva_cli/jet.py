@@ -49,7 +49,7 @@ class Jet:
     @staticmethod
     def variable(x: Coefficient, order: int) -> Jet:
         """The independent variable itself at x."""
-        return Jet((x, 1.0, 0.0, 0.0, 0.0, 0.0)[: order + 1])
+        return Jet((x, 1.0, *[0.0] * (order - 1))[: order + 1])
 
     @property
     def order(self) -> int:

@@ -26,14 +26,14 @@ def turns(spec: Spec) -> int:
     return int(of(spec.kind)) if of else 1
 
 
-def refuse_reach(spec: Spec, half_motion_deg: float) -> None:
+def refuse_reach(spec: Spec, farthest_deg: float) -> None:
     """Raise GenevaError where the crank cannot turn through the whole motion in one go."""
     of = getattr(module(spec.drive.kind), "reach_deg", None)
     reach = of(spec.kind) if of else 180.0
-    if half_motion_deg > reach * (1.0 + 1e-12):
+    if farthest_deg > reach * (1.0 + 1e-12):
         raise GenevaError(
-            f"z = {spec.wheel.z}: the motion takes {2.0 * half_motion_deg:.6g} deg of the crank, "
-            f'and kind = "{spec.drive.kind}" turns it by {2.0 * reach:.6g} at a time; fewer slots '
-            "here, or fewer on the first wheel",
+            f"z = {spec.wheel.z}: the crank moves the wheel from up to {farthest_deg:.6g} deg "
+            f'beside the line of centres, and kind = "{spec.drive.kind}" turns it by {reach:.6g} '
+            "on either side; fewer slots here, or fewer on the first wheel",
             ("wheel", "z"),
         )

@@ -52,7 +52,7 @@ def _law(spline: Any) -> Law:
         return Jet([1.0 - c[0], *[x if k % 2 else -x for k, x in enumerate(c) if k]])
 
     # The knots, where the fifth derivative jumps, are no breaks up to the fourth.
-    return Law("table", first, second, (), "a spline through the points of a CSV file")
+    return Law("table", first, second, (), "a spline through the points of a CSV file", False)
 
 
 def _value(spline: Any, u: Coefficient) -> Coefficient:

@@ -27,6 +27,7 @@ class Law(NamedTuple):
     second: Half
     breaks: tuple[float, ...] = ()  # where a derivative up to the fourth jumps, inside 0..1
     about: str = ""
+    analytic: bool = True  # between the breaks; a spline is not
 
     def __call__(self, u: Coefficient, order: int = 3) -> Jet:
         """The law at a number or an array of u in 0..1, with its derivatives by u."""

@@ -10,6 +10,8 @@ from geneva_cli.classic import half_motion_deg, refuse_jam
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Spec
 
+AXES_MIN = 1e-6  # degrees
+
 
 class Place(NamedTuple):
     """One roller: the crank angle at which it crosses the line of centres, and its step."""
@@ -17,6 +19,7 @@ class Place(NamedTuple):
     crank_deg: float
     step: gearing.Step
     half_motion_deg: float
+    reach_deg: float  # farthest from the line of centres that its crank moves the wheel
     ratio: float  # of its arm to the centre distance
     offset: float  # of its slot, in units of the centre distance
 
@@ -43,11 +46,12 @@ def _place(spec: Spec, crank_deg: float, step: gearing.Step) -> Place:
     wheel = spec.wheel
     if wheel.gearing == "spherical":
         ball = gearing.sphere(step, wheel.axes_deg)
-        return Place(crank_deg, step, ball.half_motion_deg, ball.sin_th, 0.0)
+        half = ball.half_motion_deg
+        return Place(crank_deg, step, half, half, ball.sin_th, 0.0)
     e = wheel.offset_mm / spec.size.center_distance_mm
     if e:
         try:
-            l = gearing.offset(step, e)[2].slope[0]
+            entry, _, exit_ = gearing.offset(step, e)
         except ValueError:
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
             limit = step.sin_cos[1] ** 2 * spec.size.center_distance_mm
@@ -56,8 +60,11 @@ def _place(spec: Spec, crank_deg: float, step: gearing.Step) -> Place:
                 f"shock; its size must be below {limit:.6g}",
                 ("wheel", "offset_mm"),
             ) from None
-        return Place(crank_deg, step, half_motion_deg("external", *step), l, e)
-    return Place(crank_deg, step, half_motion_deg(wheel.gearing, *step), step.sin_cos[0], 0.0)
+        half = half_motion_deg("external", *step)
+        reach = max(-entry.crank_deg, exit_.crank_deg)
+        return Place(crank_deg, step, half, reach, exit_.slope[0], e)
+    half = half_motion_deg(wheel.gearing, *step)
+    return Place(crank_deg, step, half, half, step.sin_cos[0], 0.0)
 
 
 def _at_angles(spec: Spec, one: Place) -> list[Place]:
@@ -90,7 +97,7 @@ def _unequal(spec: Spec) -> list[Place]:
     if not total < 360.0:
         raise GenevaError(
             f"the {len(steps)} motions take {total:.6g} deg of a turn together and leave no dwell; "
-            "fewer or larger steps are needed",
+            "fewer rollers (a shorter pattern), or fewer slots, are needed",
             ("wheel", "steps_deg"),
         )
     dwell = (360.0 - total) / len(steps)
@@ -112,6 +119,12 @@ def refuse_layout(spec: Spec) -> None:
             'axes_deg goes with gearing = "spherical": other wheels have parallel shafts',
             ("wheel", "axes_deg"),
         )
+    if not AXES_MIN <= wheel.axes_deg <= 180.0 - AXES_MIN:
+        raise GenevaError(
+            f"axes_deg = {wheel.axes_deg:g}: the shafts are parallel but for rounding; it must be "
+            f'at least {AXES_MIN:g} away from 0 and 180, or the gearing "external" or "internal"',
+            ("wheel", "axes_deg"),
+        )
     if wheel.offset_mm and wheel.gearing != "external":
         raise GenevaError(
             f'offset slots are for external wheels; with gearing = "{wheel.gearing}" set '
@@ -120,11 +133,6 @@ def refuse_layout(spec: Spec) -> None:
         )
     if wheel.offset_mm and wheel.steps_deg:
         raise GenevaError("offset_mm with steps_deg: choose one of them", ("wheel", "offset_mm"))
-    if given and wheel.gearing == "spherical":
-        raise GenevaError(
-            "curved slots are flat; a spherical wheel has straight ones (remove law)",
-            ("motion", "law"),
-        )
     if given and (wheel.offset_mm or wheel.steps_deg):
         key = "offset_mm" if wheel.offset_mm else "steps_deg"
         raise GenevaError(
@@ -142,6 +150,11 @@ def refuse_layout(spec: Spec) -> None:
             f'kind = "{drive.kind}" drives an external wheel, not gearing = "{wheel.gearing}"',
             ("wheel", "gearing"),
         )
+    if given and wheel.gearing == "spherical":
+        raise GenevaError(
+            "curved slots are flat; a spherical wheel has straight ones (remove law)",
+            ("motion", "law"),
+        )
     if path and drive.rollers > 1 and drive.kind != "cam":
         raise GenevaError(f'kind = "{drive.kind}" carries one roller', ("drive", "rollers"))
     if path and given and drive.kind != "cam":
@@ -155,7 +168,8 @@ def refuse_layout(spec: Spec) -> None:
         _refuse_steps(spec)
     several = drive.rollers > 1 or drive.roller_angles_deg or wheel.steps_deg
     if several and kinds.turns(spec) > 1:
-        raise GenevaError(f'kind = "{drive.kind}" carries one roller', ("drive", "kind"))
+        where = "rollers" if drive.rollers > 1 else "kind"
+        raise GenevaError(f'kind = "{drive.kind}" carries one roller', ("drive", where))
 
 
 def _refuse_rollers(spec: Spec, given: bool) -> None:
@@ -190,8 +204,8 @@ def _refuse_steps(spec: Spec) -> None:
         raise GenevaError("steps_deg places the rollers itself; remove roller_angles_deg", key)
     if z % len(steps):
         raise GenevaError(
-            f"z = {z} is no multiple of the pattern's {len(steps)} steps; {len(steps)} or "
-            f"{2 * len(steps)} would be",
+            f"z = {z} is no multiple of the pattern's {len(steps)} steps; "
+            f"{_multiples(z, len(steps))} would be",
             key,
         )
     turn = math.fsum(steps) * z / len(steps)
@@ -203,3 +217,9 @@ def _refuse_steps(spec: Spec) -> None:
         )
     if max(steps) >= 180.0:
         raise GenevaError(f"a step of {max(steps):g} deg is out of reach; below 180", key)
+
+
+def _multiples(z: int, n: int) -> str:
+    """The multiples of n on both sides of z that are numbers of slots."""
+    near = [m for m in (z // n * n, (z // n + 1) * n) if m >= 3]
+    return " or ".join(str(m) for m in near)

@@ -77,7 +77,7 @@ def _straight(spec: Spec) -> Mechanism:
     """Straight slots, a roller on the crank's circle: the slots give the motion."""
     _refuse_motion_keys(spec)
     front, found = _front(spec), places(spec)
-    kinds.refuse_reach(spec, found[0].half_motion_deg)
+    kinds.refuse_reach(spec, found[0].reach_deg)
     stations = tuple(_slot_driven(spec, front, place) for place in found)
     alike = len(found) == 1
     turn = 360.0 * kinds.turns(spec)

@@ -65,7 +65,9 @@ def fits(path: Path, b: float) -> list[Fit]:
     found: list[Fit] = []
     for entry, exit_ in _candidates(path, b):
         fit = _checked(path, entry, exit_)
-        if fit and not any(abs(fit.entry - f.entry) < 1e-6 for f in found):
+        if fit and not any(
+            abs(math.remainder(fit.entry - f.entry, math.tau)) < 1e-6 for f in found
+        ):
             found.append(fit)
     return sorted(found, key=lambda f: f.peak)
 

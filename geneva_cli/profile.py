@@ -61,12 +61,17 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     at = _pitch(station, input_deg, back)
     # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
     # flanks keep the sides they had on the way in.
-    side = np.where(back & (input_deg > 0.0), -1.0, 1.0)
+    straight = station.rail(station.entry_deg) is not None
+    if straight:
+        first = pitch(station, station.entry_deg)
+        ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
+        side = np.where(ahead < 0.0, -1.0, 1.0)
+    else:
+        side = np.where(back & (input_deg > 0.0), -1.0, 1.0)
     normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
     centre = L * np.column_stack((at.x, at.y))
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
-    straight = station.rail(station.entry_deg) is not None
     radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
     return Slot(
         input_deg,

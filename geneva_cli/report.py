@@ -37,9 +37,11 @@ def words(mechanism: Mechanism) -> str:
     spec = mechanism.spec
     wheel, drive = spec.wheel, spec.drive
     article = "An" if wheel.gearing[0] in "aeiou" else "A"
-    slots = "curved" if mechanism.law else "straight radial"
-    front = {"crank": "a crank"}.get(drive.kind, f"a {drive.kind}")
-    rollers = "one roller" if drive.rollers == 1 else f"{drive.rollers} rollers"
+    curved = mechanism.stations[0].rail(mechanism.stations[0].entry_deg) is None
+    slots = "curved" if curved else "straight offset" if wheel.offset_mm else "straight radial"
+    front = f"{'an' if drive.kind[0] in 'aeiou' else 'a'} {drive.kind}"
+    count = len(wheel.steps_deg or drive.roller_angles_deg or ()) or drive.rollers
+    rollers = "one roller" if count == 1 else f"{count} rollers"
     text = (
         f"{article} {wheel.gearing} wheel of {wheel.z} {slots} slots, driven by {front} with "
         f"{rollers} at {drive.n_rpm:g} rpm."
@@ -48,7 +50,7 @@ def words(mechanism: Mechanism) -> str:
         text += f' The wheel follows the law "{mechanism.law.name}"'
         if spec.motion.alpha0_deg:
             text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
-        text += "; its slots are cut to suit."
+        text += "; its slots are cut to suit." if curved else "; the groove is cut to suit."
     each = [timings(mechanism)[i] for i in range(len(mechanism.stations))]
     steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.stations))})
     turn = "turns by " + " or ".join(f"{step:.6g}" for step in steps) + " deg"

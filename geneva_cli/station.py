@@ -200,7 +200,7 @@ class SlotDriven(Station):
         middle = self.anchors[1]
         depth = self._depth(*middle.place(input_deg, order))
         # The slot's direction half-way through the step: straight ahead unless it is offset.
-        ahead = math.atan2(self.offset, middle.along) - middle.wheel
+        ahead = self.ahead + math.atan2(self.offset, middle.along) - middle.wheel
         return turned(depth, depth * 0.0 - self.offset, ahead)
 
     def rail(self, input_deg: float) -> tuple[float, float]:

@@ -147,7 +147,7 @@ FRONTS = [
 PLANETS = [
     case("z", "[wheel]\nz = @\n" + PLANET, "5", 2, "z = 5", "3, 4 or 6"),
     case("z-24", "[wheel]\nz = @\n" + PLANET, "24", 2, "z = 24", "3, 4 or 6"),
-    case("large", WHEEL + PLANET.replace("0.01", "@"), "0.39", 5, "0.39", "below 0."),
+    case("large", WHEEL + PLANET.replace("0.01", "@"), "0.39", 5, "0.39", "at most 0."),
     case("small", WHEEL + PLANET.replace("0.01", "@"), "-0.39", 5, "-0.39", "above -0.1"),
     case("huge", WHEEL + PLANET.replace("0.01", "@"), "1e300", 5, "at most 0.4"),
     case("word", WHEEL + PLANET.replace("0.01", "@"), '"shock"', 5, '"shockless"'),
@@ -209,8 +209,8 @@ NONCIRCULAR = [
 
 PAIRS = [
     case("first-2", WHEEL + drive("geneva-pair", "first_z = @"), "2", 5, "first_z = 2", "least 3"),
-    case("short", "[wheel]\nz = @\n" + drive("geneva-pair", "first_z = 4"), "8", 2, "135", "90"),
-    case("rollers", WHEEL + drive("geneva-pair", "first_z = 3\nrollers = @"), "2", 4, "one roller"),
+    case("short", "[wheel]\nz = @\n" + drive("geneva-pair", "first_z = 4"), "8", 2, "67.5", "45"),
+    case("rollers", WHEEL + drive("geneva-pair", "first_z = 3\nrollers = @"), "2", 6, "one roller"),
     case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "270", "120"),
 ]
 
@@ -239,9 +239,9 @@ BOUNDS = [
     bound("offset-L", WHEEL + "offset_mm = @\n" + SMALL, "30", BELOW, -1),
     bound("alpha0-high", WHEEL + CAM + LAW + "alpha0_deg = @", "200", BELOW, -1),
     bound("planet-low", WHEEL + OWN_ARM, "-0.3", ABOVE, 1),
-    bound("planet-high", WHEEL + OWN_ARM, "0.3", BELOW, -1),
+    bound("planet-high", WHEEL + OWN_ARM, "0.3", r"at most (\S+)", -1),
     bound("ring-low", RING, "-0.39", ABOVE, 1),
-    bound("ring-high", RING, "0.39", BELOW, -1),
+    bound("ring-high", RING, "0.39", r"at most (\S+)", -1),
     bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"crank below (\S+)", -1),
 ]
 TAKE = r"motions take (\S+) deg"

@@ -21,7 +21,10 @@ from geneva_cli.laws import Law
 from geneva_cli.station import LawMotion
 from geneva_cli.units import radians
 
-NEAR_MIDDLE_DEG = 0.06  # where psi and phi both vanish: a series of psi there, see _near
+# Where psi and phi nearly vanish together, a series of psi / phi: within these angles its first
+# terms are exact to a double (a spline's series ends at its fifth).
+NEAR_DEG, TERMS = 3.0, 15
+NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
 class Keys(NamedTuple):
@@ -39,7 +42,7 @@ class CamDriven(LawMotion):
 
     def distances(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's distance from the wheel's axis and from the crank's, in units of L."""
-        near = NEAR_MIDDLE_DEG
+        near = NEAR_DEG if self.law.analytic else NEAR_SPLINE_DEG
 
         def whole(x: Coefficient) -> Jet:
             return _stacked(*self._by_sines(x, order))
@@ -58,7 +61,7 @@ class CamDriven(LawMotion):
     def _by_series(self, x: Coefficient, order: int) -> tuple[Jet, Jet]:
         """Near mid-motion both sines vanish: each is divided by phi first, as a series of it."""
         t = Jet.variable(radians(x), order)
-        c = self.motion(0.0, 5).c
+        c = self.motion(0.0, TERMS if self.law.analytic else SPLINE_TERMS).c
         slope = t * 0.0
         for a in reversed(c[1:]):
             slope = slope * t + a  # psi / phi

@@ -46,7 +46,7 @@ def plan(spec: Spec) -> Plan:
     c = 1.0 + teeth if keys.fixed == "sun" else 1.0 - teeth
     l, cos_b = step.sin_cos
     rp = l / (c * c - 1.0) if keys.planet_ratio == "shockless" else float(keys.planet_ratio)
-    _refuse_reach(l, rp, c)
+    _refuse_reach(l, rp, teeth, c)
     R0 = l + rp
     half = half_motion_deg("external", *step)
 
@@ -89,15 +89,17 @@ def _anchor(
     return Anchor(input_deg, wheel, along, displacement)
 
 
-def _refuse_reach(l: float, rp: float, c: float) -> None:
-    """Raise GenevaError where the roller would pass the wheel's centre, or turn back."""
-    least, most = -0.9 * l / 2.0, 0.45 * (1.0 - l)
-    forward = l + rp + c * rp  # speed across the line of centres at mid-motion
-    if not least < rp < most or forward <= 0.0:
-        at_least = max(least, -l / (1.0 + c)) if c > 0.0 else least
-        at_most = most if c > 0.0 else min(most, l / (-1.0 - c)) if c < -1.0 else most
+def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
+    """Raise GenevaError where the wheel would start backwards or the roller leave its slot.
+
+    Forward from rest: R0 >= c² rp. Into the slot at entry: R0 > c rp. Forward at mid-motion:
+    R0 + c rp > 0, where R0 = l + rp.
+    """
+    most = l / (c * c - 1.0)
+    least = -l / (1.0 + c) if c > 0.0 else -l / teeth
+    if not least < rp <= most:
         raise GenevaError(
-            f"planet_ratio = {rp:.6g}: the roller would turn back or reach the wheel's axis; it "
-            f"must be above {at_least:.6g} and below {at_most:.6g}",
+            f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot; it "
+            f"must be above {least:.6g} and at most {most:.6g} (shockless)",
             ("drive", "planet_ratio"),
         )
