@@ -85,7 +85,8 @@ def sine_group(shape: float) -> Law:
         return _from_velocity(position, velocity)
 
     about = "four sines; no jump up to snap; lambda tilts it, |lambda| <= 1/8"
-    return Law("sine-group", half(shape), half(-shape), (), about)
+    first = half(shape)
+    return Law("sine-group", first, half(-shape) if shape else first, (), about)
 
 
 def cycloidal() -> Law:

@@ -17,6 +17,8 @@ from geneva_cli.layout import Place, places, refuse_layout
 from geneva_cli.many import acceleration_peak
 from geneva_cli.station import Anchor, LawDriven, LawMotion, SlotDriven, SphereDriven, Station
 
+MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
+
 
 class Mechanism(NamedTuple):
     """A Geneva mechanism.
@@ -187,7 +189,7 @@ def matched_ratio_of(mechanism: Mechanism) -> float | None:
 def _refuse_alpha0(spec: Spec, natural_deg: float) -> None:
     low, high = natural_deg - 360.0, natural_deg
     alpha0 = spec.motion.alpha0_deg
-    if not low < alpha0 < high:
+    if not low + MOTION_MIN < alpha0 < high - MOTION_MIN:
         raise GenevaError(
             f"alpha0_deg = {alpha0:.12g} leaves no motion angle between 0 and 360 degrees; "
             f"it must be above {low:.12g} and below {high:.12g}",

@@ -27,13 +27,16 @@ NAMES = (
     "pressure_deg",
     "curvature_radius_mm",
 )
-ROWS_MAX = 1_000_000
+ROWS_MAX = 200_000  # in a half motion
+BLOCK = 4096  # chords that are measured at once, so that memory stays flat
 ATTEMPTS = 20
+MANY = 5_000  # nodes past which the first attempt that serves is kept
 SPARE = 0.02  # share of the nodes that is not worth another attempt
 ROUNDS = 6  # of moving a given number of nodes to where they are needed
 SURVEY = 2048  # intervals on which the curve's density is integrated
 FLOOR = 0.05  # least density, as a share of its mean: an inflection needs nodes too
 INSIDE = np.arange(1, 16) / 16.0  # where a chord's distance from the curve is measured
+MIDDLE = np.array([0.25, 0.5, 0.75])  # the same for many short chords, which are parabolas
 
 
 class Slot(NamedTuple):
@@ -153,6 +156,7 @@ def _smooth(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Ar
     grid = np.linspace(a, b, SURVEY + 1)
     share, total = _integrated_density(mechanism, grid)
     count = max(1, int(np.ceil(total / np.sqrt(8.0 * tolerance_mm) if total else 1.0)))
+    count += count // 50 if count > MANY else 0  # to serve at the first attempt
     best, too_few = None, 0
     for _ in range(ATTEMPTS):
         if not count < ROWS_MAX:
@@ -175,7 +179,7 @@ def _smooth(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Ar
         else:
             too_few = count
             count = max(enough, count + 1) if best is None else (too_few + good + 1) // 2
-        if best is not None and (count >= good or good - too_few <= SPARE * good):
+        if best is not None and (count >= good or good - too_few <= SPARE * good or good > MANY):
             return best
     if best is not None:
         return best
@@ -211,14 +215,23 @@ def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float
 
 def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
     """For each chord between samples, how far pitch curve or flanks stray from it, mm."""
+    places = INSIDE if len(input_deg) < MANY else MIDDLE
+    blocks = [
+        _chord_errors(mechanism, input_deg[start : start + BLOCK + 1], places)
+        for start in range(0, len(input_deg) - 1, BLOCK)
+    ]
+    return np.concatenate(blocks)
+
+
+def _chord_errors(mechanism: Mechanism, input_deg: Array, places: Array) -> Array:
     steps = np.diff(input_deg)
-    inner = input_deg[:-1, None] + steps[:, None] * INSIDE
+    inner = input_deg[:-1, None] + steps[:, None] * places
     ends, between = slot(mechanism, input_deg), slot(mechanism, inner.ravel())
     worst = np.zeros(len(steps))
     for name in ("centre", "left", "right"):
         knots, points = getattr(ends, name), getattr(between, name)
         chord = np.diff(knots, axis=0)[:, None, :]
-        way = points.reshape(len(steps), len(INSIDE), 2) - knots[:-1, None, :]
+        way = points.reshape(len(steps), len(places), 2) - knots[:-1, None, :]
         # To the nearest point of the chord itself: an undercut flank folds back beyond its ends.
         square = np.maximum((chord * chord).sum(axis=2), 1e-300)
         share = np.clip((way * chord).sum(axis=2) / square, 0.0, 1.0)

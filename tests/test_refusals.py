@@ -211,7 +211,7 @@ PAIRS = [
     case("first-2", WHEEL + drive("geneva-pair", "first_z = @"), "2", 5, "first_z = 2", "least 3"),
     case("short", "[wheel]\nz = @\n" + drive("geneva-pair", "first_z = 4"), "8", 2, "67.5", "45"),
     case("rollers", WHEEL + drive("geneva-pair", "first_z = 3\nrollers = @"), "2", 6, "one roller"),
-    case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "270", "120"),
+    case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "135", "60"),
 ]
 
 GROUPS = {

@@ -25,6 +25,7 @@ from geneva_cli.units import radians
 # terms are exact to a double (a spline's series ends at its fifth).
 NEAR_DEG, TERMS = 3.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
+MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
 class Keys(NamedTuple):
@@ -133,7 +134,7 @@ def plan(spec: Spec) -> Plan:
     law = law_of(spec)
     natural = 2.0 * half_motion_deg(spec.wheel.gearing, *step)
     motion = natural - spec.motion.alpha0_deg
-    if not 0.0 < motion < 360.0:
+    if not MOTION_MIN < motion < 360.0 - MOTION_MIN:
         raise GenevaError(
             f"alpha0_deg = {spec.motion.alpha0_deg:.12g} leaves no motion angle between 0 and 360 "
             f"degrees; it must be above {natural - 360.0:.12g} and below {natural:.12g}",

@@ -1,0 +1,167 @@
+"""Bounded in memory and time: what would take too much is refused at once, in clear words."""
+
+import json
+import os
+import resource
+import subprocess
+import sys
+
+import pytest
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+WHEEL = "[wheel]\nz = 6\n"
+CURVED = WHEEL + '[motion]\nlaw = "cycloidal"\n'
+MEGABYTE = 1 << 20
+# "At once": a run takes 0.1 s; the rest is a guard for a busy machine, not a promise.
+AT_ONCE = 30.0
+# CPU time is what the program takes itself, however busy the machine is.
+CPU = 2.0
+LONGEST = 20  # CPU seconds after which a run is ended
+# The measuring child: the limit on address space catches what an endless run would take.
+CHILD = """
+import json, resource, subprocess, sys
+out = open(sys.argv[1], "w")
+run = subprocess.run(sys.argv[2:], stdout=out, stderr=subprocess.PIPE, text=True)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+seconds = used.ru_utime + used.ru_stime
+print(json.dumps([run.returncode, run.stderr, used.ru_maxrss / 1024, seconds]))
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    put("spec.toml", WHEEL)
+    put("curved.toml", CURVED)
+
+
+def put(name, text):
+    with open(name, "w") as file:
+        file.write(text)
+
+
+def limited():
+    resource.setrlimit(resource.RLIMIT_AS, (4096 * MEGABYTE, 4096 * MEGABYTE))
+    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))  # nothing runs on after a test
+
+
+def run(*arguments, timeout=AT_ONCE):
+    """Exit status, standard error, peak memory in MB, CPU seconds; output goes to out.txt."""
+    found = subprocess.run(
+        [sys.executable, "-c", CHILD, "out.txt", GENEVA, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        preexec_fn=limited,
+    )
+    return json.loads(found.stdout)
+
+
+def refused(arguments, *wants):
+    status, said, megabytes, seconds = run(*arguments)
+    assert status == 2, said
+    assert os.path.getsize("out.txt") == 0
+    assert len(said.splitlines()) == 1, said
+    for want in wants:
+        assert want in said
+    assert megabytes < 200.0
+    assert seconds < CPU
+    return said
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["motion", "spec.toml", "--samples", "1000000000000"],
+        ["motion", "spec.toml", "--samples", "9" * 4000],
+        ["motion", "curved.toml", "--samples", "10000001"],
+        ["profile", "spec.toml", "--samples", "1000000000000"],
+        ["profile", "curved.toml", "--samples", "1000001"],
+        ["profile", "curved.toml", "--tolerance", "1e-300"],
+        ["profile", "curved.toml", "--tolerance", "5e-324"],
+        ["profile", "curved.toml", "--tolerance", "1e-30"],
+        ["table", "--z", "3..1000000000"],
+        ["table", "--z", "3..1000000"],
+        ["table", "--z", "3..9999," * 1000 + "6"],
+        ["table", "--z", "9" * 4000],
+    ],
+    ids=lambda words: " ".join(words)[:50],
+)
+def test_too_much_is_refused_at_once(arguments):
+    option = next(a for a in arguments if a.startswith("--"))
+    refused(arguments, option)
+
+
+def test_a_range_of_slots_that_is_refused_says_how_many_go():
+    said = refused(["table", "--z", "3..1000000000"], "--z")
+    assert "at most" in said or "more than" in said
+
+
+@pytest.mark.parametrize("L", [1.0, 1e6], ids="L={:g}".format)
+@pytest.mark.parametrize("share", [1e-9, 1e-12, 1e-16], ids="{:g}L".format)
+def test_the_finest_tolerances_end_soon(L, share):
+    """Written or refused, but not after minutes, nor with a gigabyte."""
+    put("large.toml", CURVED + f"[size]\ncenter_distance_mm = {L!r}\n")
+    status, said, megabytes, seconds = run(
+        "profile", "large.toml", "--format", "csv", "--tolerance", repr(L * share), timeout=300
+    )
+    assert status in (0, 2), f"ended by signal {-status} after {seconds:.0f} s: {said}"
+    if status:
+        assert said.startswith("--tolerance ")
+    # a million rows of ten columns, three times over; and a run that is still at hand
+    assert megabytes < 500.0
+
+
+def test_a_spec_of_a_gigabyte():
+    with open("huge.toml", "wb") as file:
+        file.truncate(1 << 30)  # sparse: it takes no room on the disk
+    refused(["peaks", "huge.toml"], "huge.toml: ", "larger than")
+
+
+def test_a_law_of_a_gigabyte():
+    with open("law.csv", "wb") as file:
+        file.truncate(1 << 30)
+    put("spec.toml", WHEEL + '[motion]\nlaw = "table"\nfile = "law.csv"\n')
+    refused(["peaks", "spec.toml"], "law.csv: ", "larger than")
+
+
+def test_a_law_of_too_many_points():
+    rows = "".join(f"{i / 200_000!r},{i / 200_000!r}\n" for i in range(200_001))
+    put("law.csv", rows)
+    put("spec.toml", WHEEL + '[motion]\nlaw = "table"\nfile = "law.csv"\n')
+    refused(["peaks", "spec.toml"], "law.csv:100001: ", "more than")
+
+
+def test_too_many_rollers_and_slots():
+    put("spec.toml", "[wheel]\nz = 1000000\n[drive]\nrollers = 1000000\n")
+    refused(["peaks", "spec.toml"], "spec.toml:4: ")
+
+
+@pytest.mark.parametrize("command", ["peaks", "motion", "profile", "report", "check"])
+def test_the_most_slots_are_no_trouble(command):
+    put("spec.toml", "[wheel]\nz = 1000000\n")
+    status, said, megabytes, seconds = run(command, "spec.toml", "--format", "csv")
+    assert status == 0, said
+    assert megabytes < 200.0
+    assert seconds < CPU
+
+
+@pytest.mark.parametrize("spec", ["spec.toml", "curved.toml"])
+def test_a_million_rows_in_flat_memory(spec):
+    # The columns are 48 MB; the text, some 110 MB, never exists as a whole.
+    status, said, megabytes, _ = run(
+        "motion", spec, "--samples", "1000000", "-o", "motion.csv", timeout=120
+    )
+    assert status == 0, said
+    assert megabytes < 300.0
+    with open("motion.csv") as file:
+        assert sum(1 for _ in file) == 1_000_001
+
+
+def test_many_specs_at_once():
+    for i in range(200):
+        put(f"{i}.toml", WHEEL)
+    names = [f"{i}.toml" for i in range(200)]
+    status, said, megabytes, _ = run("check", *names, "--format", "csv", timeout=120)
+    assert status in (0, 1), said
+    assert megabytes < 200.0
