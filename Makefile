@@ -6,9 +6,10 @@ BIN = .venv/bin
 .PHONY: demo test lint stress bench bench-start clean
 
 demo: .venv/demo
+	@mkdir -p build
 	$(BIN)/geneva table --z 6 --internal
-	$(BIN)/geneva profile designs/press-curved.toml -o build/press-curved-slot.csv
-	@echo "the slot of designs/press-curved.toml is in build/press-curved-slot.csv"
+	$(BIN)/geneva profile designs/modified-sine-matched.toml -o build/modified-sine-slot.csv
+	@echo "the slot of designs/modified-sine-matched.toml is in build/modified-sine-slot.csv"
 
 test: .venv/dev lint
 	$(BIN)/pytest -n auto
@@ -39,7 +40,6 @@ bench-start: .venv/dev
 
 .venv/demo: .venv/python pyproject.toml
 	$(BIN)/pip install --quiet --editable .
-	@mkdir -p build
 	@touch $@
 
 .venv/dev: .venv/demo

@@ -95,7 +95,6 @@ def invoke(*words):
 
 
 def test_command_and_plot(tmp_path):
-    pytest.importorskip("matplotlib")
     folder = tmp_path / "plots"
     folder.mkdir()
     words = ("peaks", "--quick", "--format", "json", "--plots", str(folder))
@@ -110,7 +109,6 @@ def test_command_and_plot(tmp_path):
 
 
 def test_the_same_rows_give_the_same_plot(measured):
-    pytest.importorskip("matplotlib")
     from geneva_cli.accuracy.plot import svg
 
     for name in ("start", "slot"):
@@ -142,7 +140,6 @@ def test_plots_without_matplotlib(monkeypatch, tmp_path):
 
 
 def test_plots_into_no_folder():
-    pytest.importorskip("matplotlib")
     found = invoke("peaks", "--quick", "--plots", "/no/such/folder")
     assert found.exit_code == 2
     assert "/no/such/folder" in found.output

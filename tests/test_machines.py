@@ -246,8 +246,8 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
 def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
     for i in range(len(machine(case).stations)):
         w = witness(case)[i]
-        if w.closed is None:
-            pytest.skip("no hand-derived form")
+        if w.closed is None:  # a law or a linkage: nobody derived it by hand
+            continue
         x, reference = exact(case, i)
         for j in range(0, len(x), 5):
             for k, value in enumerate(w.closed(to_radians(x[j])), 1):
