@@ -181,12 +181,28 @@ class SlotDriven(Station):
         out = Kernel(*self.classic).derivatives(input_deg, orders, is_mirrored(input_deg))
         first = int(input_deg.searchsorted(self.entry_deg + END_DEG))
         last = int(input_deg.searchsorted(self.exit_deg - END_DEG))
-        for part in (slice(0, first), slice(last, None)):
-            if len(input_deg[part]):
-                values = self.motion(input_deg[part], max(orders)).derivatives()
-                for k, o in zip(orders, out, strict=True):
-                    o[part] = values[k]
+        for part, side in ((slice(0, first), -1.0), (slice(last, None), 1.0)):
+            for k, o in zip(orders, out, strict=True):
+                if k < 2 and len(o[part]):
+                    o[part] = self._near_end(input_deg[part], side, k)
         return out
+
+    def _near_end(self, input_deg: Array, side: float, order: int) -> Array:
+        """Angle or velocity of a classic wheel near exit (side 1) or entry (-1), from there."""
+        import numpy as np
+
+        assert self.classic is not None
+        sign, l, _ = self.classic
+        tau = radians(self.exit_deg - side * input_deg)
+        along = self.anchors[0].along - sign * l * np.sin(tau)
+        across = 2.0 * l * np.sin(0.5 * tau) ** 2
+        if order == 0:
+            angle: Array = side * (self.half_step - np.arctan2(across, along))
+            return angle
+        half = radians(self.exit_deg) - 0.5 * tau
+        speed = 2.0 * l * np.sin(0.5 * tau) * np.sin(half)
+        velocity: Array = speed / (along * along + across * across)
+        return velocity
 
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
