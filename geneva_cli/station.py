@@ -170,9 +170,9 @@ class SlotDriven(Station):
         return sqrt(along * along + across * (across - 2.0 * self.offset))
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """As of any station; a plain crank's in closed form, but for the ends.
+        """As of any station; a plain crank's in closed form.
 
-        There the anchors keep the relative accuracy of what goes to zero.
+        Near the ends angle and velocity are written from there, and keep their relative accuracy.
         """
         if self.classic is None:
             return super().derivatives(input_deg, orders)
