@@ -57,7 +57,9 @@ class Motion(NamedTuple):
 class Size(NamedTuple):
     """``[size]``."""
 
-    center_distance_mm: Annotated[float, POSITIVE, "centre distance L"] = 100.0
+    center_distance_mm: Annotated[
+        float, POSITIVE, "centre distance L (spherical: the sphere's radius)"
+    ] = 100.0
     roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; L/20 if not given"] = None
     slot_clearance_mm: Annotated[float, NOT_NEGATIVE, "per side, roller to slot"] = 0.0
     lock_clearance_mm: Annotated[float, NOT_NEGATIVE, "per side, locking disc to wheel"] = 0.0

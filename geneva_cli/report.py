@@ -59,11 +59,8 @@ def words(mechanism: Mechanism) -> str:
             f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."
         )
     else:
-        text += (
-            f" It {turn} {len(each)} times in a turn of the input, never twice alike: in "
-            + ", ".join(f"{t.motion_s:.4g}" for t in each)
-            + " s."
-        )
+        lasting = sorted({f"{t.motion_s:.4g}" for t in each}, key=float)
+        text += f" It {turn} {len(each)} times in a turn of the crank, in {' or '.join(lasting)} s."
     return text
 
 
@@ -145,6 +142,8 @@ def _sizes(mechanism: Mechanism) -> dict[str, Any]:
     R = mechanism.ratio * L
     station = mechanism.stations[0]
     mouth, bottom = _distance(station, station.entry_deg) * L, _distance(station, 0.0) * L
+    if spec.wheel.gearing == "spherical":
+        return _sphere_sizes(mechanism, L, r)
     inside = spec.wheel.gearing == "internal"
     values: dict[str, Any] = {
         "sizes.center_distance_mm": L,
@@ -165,3 +164,18 @@ def _sizes(mechanism: Mechanism) -> dict[str, Any]:
 def _distance(station: Station, input_deg: float) -> float:
     x, y = station.pin(input_deg, 0)
     return math.hypot(x.c[0], y.c[0])
+
+
+def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> dict[str, Any]:
+    """Sizes of a spherical wheel: the slot is a meridian between two polar angles."""
+    station = mechanism.stations[0]
+    mouth, bottom = (station.pitch(x, 0)[0].c[0] for x in (station.entry_deg, 0.0))
+    return {
+        "sizes.axes_deg": mechanism.spec.wheel.axes_deg,
+        "sizes.sphere_radius_mm": L,
+        "sizes.crank_arm_mm": mechanism.ratio * L,
+        "sizes.roller_radius_mm": r,
+        "sizes.slot_mouth_polar_deg": math.degrees(mouth),
+        "sizes.slot_bottom_polar_deg": math.degrees(bottom),
+        "sizes.rollers_max": mechanism.rollers_max,
+    }

@@ -600,7 +600,10 @@ def straight_one(table, z, gearing, kind, values, m):
         crank = [w.half * (mp.mpf(i) / 24 - 1) for i in range(49)]
         if j == 0:
             crank = crank[:25]  # the second half mirrors the first
-        grid = [w.from_crank(f) for f in crank]
+        # where a crank runs away, it does so beyond 90 degrees (inside) or evenly in the input
+        crank += [s * (mp.pi / 2 + w.b * k / 9) for k in range(9) for s in (-1, 1) if w.g < 0]
+        grid = {w.from_crank(f) for f in crank} | {w.ends[0] * k / 12 for k in range(12)}
+        grid = sorted(x for x in grid if j or x <= 0)
         for name in PEAKS:
             found = candidates(w.at, name, grid)
             # a power's extrema lie between those of velocity and acceleration
@@ -625,7 +628,8 @@ def straight_one(table, z, gearing, kind, values, m):
         book = w.textbook(x)
         compare(table, machine, station, x, exact, size, condition, place, book)
         got = strictly(peaks, station)
-        compare_peaks(table, machine, got, peak_of, w.ends[1], place, more)
+        farthest = max(abs(e) for e in w.ends)
+        compare_peaks(table, machine, got, peak_of, farthest, place, more)
 
 
 def _with_values(w, name, found, values, h, mid_deg):
@@ -652,6 +656,9 @@ def _size_condition(w, name, peak, values, h):
                 at = other.from_crank(sign * w.half)
         by = (pick(other.at(at))[0] - pick(w.at(x))[0]) / h
         out = max(out, abs(float(by)) * math.ulp(v) / unit(size))
+    if x in w.ends:  # and is rounded, as is the place of mid-motion
+        turned = max(unit(mp.degrees(v)) for v in (*w.ends, w.mid))
+        out = max(out, abs(float(pick(w.at(x))[1])) * math.radians(turned) / unit(size))
     return out
 
 
