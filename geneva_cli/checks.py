@@ -154,12 +154,6 @@ def _below(pick: Callable[[Peaks], float], limit: float) -> Callable[[Mechanism]
 
 
 def _load(mechanism: Mechanism, key: str) -> float:
-    if key == "contact_stress_max_MPa" and mechanism.spec.size.face_width_mm is None:
-        raise GenevaError(
-            "contact_stress_max_MPa needs the length of the line of contact: set face_width_mm "
-            "in [size]",
-            ("limits", key),
-        )
     return loads.greatest(mechanism, _LOADS[key]).max
 
 

@@ -11,6 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Spec
 
 AXES_MIN = 1e-6  # degrees
+A_MAX = 1.0 - 0.999e-12
 
 
 class Place(NamedTuple):
@@ -118,6 +119,18 @@ def refuse_layout(spec: Spec) -> None:
         raise GenevaError(
             'axes_deg goes with gearing = "spherical": other wheels have parallel shafts',
             ("wheel", "axes_deg"),
+        )
+    if spec.limits.contact_stress_max_MPa is not None and spec.size.face_width_mm is None:
+        raise GenevaError(
+            "contact_stress_max_MPa needs the length of the line of contact: set face_width_mm "
+            "in [size]",
+            ("limits", "contact_stress_max_MPa"),
+        )
+    A = getattr(spec.kind, "A", None)
+    if A is not None and abs(A) > A_MAX:
+        raise GenevaError(
+            f"A = {A!r}: so near to 1 the motion is rounding; its size must be at most 1 - 1e-12",
+            ("drive", "A"),
         )
     if not AXES_MIN <= wheel.axes_deg <= 180.0 - AXES_MIN:
         raise GenevaError(

@@ -9,6 +9,20 @@ from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Size, Spec
 
+LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
+
+
+def refuse_proportions(**lengths: float) -> None:
+    """Raise GenevaError for links so unlike in length that no wheel can be solved for."""
+    name = max(lengths, key=lengths.__getitem__)
+    limit = LENGTHS * min(lengths.values())
+    if lengths[name] > limit:
+        raise GenevaError(
+            f"{name} = {lengths[name]:g}: links differ by more than {LENGTHS:g} times; it must be "
+            f"at most {limit:g}",
+            ("drive", name),
+        )
+
 
 def plan_on(spec: Spec, path: path_wheel.Path, entry_deg: float | None) -> Plan:
     """The station of the wheel that a closed roller path can drive.

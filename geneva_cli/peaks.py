@@ -76,6 +76,8 @@ def peak(station: Station, quantity: str) -> Peak:
             size = abs(curve(x)[0])
             if size > best.max * (1.0 + _TIE):
                 best = Peak(size, a if x == start else x)
+            elif size > best.max:  # the same peak again, a rounding larger
+                best = Peak(size, best.at_deg)
     return best
 
 

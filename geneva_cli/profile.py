@@ -57,7 +57,7 @@ class Slot(NamedTuple):
 
 def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     """The slot of a mechanism at ascending input angles of its first station."""
-    station, size = mechanism.stations[0], mechanism.spec.size
+    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
     L = size.center_distance_mm
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     back = retraces(station)
@@ -112,7 +112,7 @@ def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
-    station = mechanism.stations[0]
+    station = mechanism.stations[0].slot_station
     cusps = _flank_cusps(mechanism)
     ends = [station.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
     if not station.symmetric:
@@ -126,7 +126,7 @@ def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
     """Where a flank stops and turns back, the roller being as large as the curve is sharp."""
-    station, size = mechanism.stations[0], mechanism.spec.size
+    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     offset /= size.center_distance_mm
 
@@ -197,7 +197,7 @@ def _respread(found: Array, root: Array) -> Array:
 
 def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float]:
     """The integral of the node density over the grid as a share of one, and its total."""
-    station, size = mechanism.stations[0], mechanism.spec.size
+    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
     L = size.center_distance_mm
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     at = _pitch(station, grid, retraces(station))
@@ -242,7 +242,7 @@ def _chord_errors(mechanism: Mechanism, input_deg: Array, places: Array) -> Arra
 
 def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """The slot as ``geneva profile`` writes it: for a chord tolerance, or ``samples`` evenly."""
-    station = mechanism.stations[0]
+    station = mechanism.stations[0].slot_station
     if samples is None:
         input_deg = nodes(mechanism, tolerance_mm)
     else:

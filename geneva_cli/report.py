@@ -73,7 +73,7 @@ def _timing(mechanism: Mechanism, i: int, where: str) -> dict[str, Any]:
     motion = mechanism.stations[i].motion_deg
     fastest = loads.fastest_rpm(mechanism) or mechanism.spec.drive.n_rpm
     values[f"{where}timing.shortest_motion_s"] = motion / (6.0 * fastest)
-    values[f"{where}timing.k_r"] = motion / (360.0 - motion)
+    values[f"{where}timing.k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
     return values
 
 

@@ -29,7 +29,7 @@ TABLES: dict[str, Any] = {
 LIST = tuple[float, ...]
 LIST_MAX = 1000
 # words that stand for a number
-WORDS = {"ratio": ("matched",), "planet_ratio": ("shockless",)}
+WORDS = {"ratio": ("matched",), "planet_ratio": ("shockless",), "gear_ratio": ("shockless",)}
 _NAMES: dict[Any, str] = {
     LIST: "a list of numbers",
     str: "text",
@@ -236,7 +236,12 @@ def _value(field: Field, value: Any, table: str) -> Any:
             raise GenevaError(
                 f"{field.key} = {_shown(value)} must be {field.rule} ({field.meaning})", place
             )
-        return value if numeric[0] is int else float(value)
+        try:
+            return value if numeric[0] is int else float(value)
+        except OverflowError:
+            raise GenevaError(
+                f"{field.key} = {_shown(value)}... is too large a number ({field.meaning})", place
+            ) from None
     if isinstance(value, list) and LIST in field.types:
         if not value or len(value) > LIST_MAX:
             raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)

@@ -99,6 +99,11 @@ class Station(ABC):
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's centre (x, y) in the fixed frame."""
 
+    @property
+    def slot_station(self) -> Station:
+        """The station whose roller runs through the whole slot: this one, as a rule."""
+        return self
+
     def rail(self, input_deg: float) -> tuple[float, float] | None:
         """Of a straight slot: the lever of its normal about the wheel's axis, and the pin's speed
         along it. None for a curved one.

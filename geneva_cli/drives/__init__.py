@@ -26,6 +26,7 @@ KINDS = {
     "four-bar": "four_bar",
     "slider-crank": "slider_crank",
     "epicyclic": "epicyclic",
+    "gear-sector": "gear_sector",
     "cam": "cam",
 }
 

@@ -14,7 +14,7 @@ from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet, sin_cos, sqrt
 from geneva_cli.keys import Spec
-from geneva_cli.linkage import plan_on
+from geneva_cli.linkage import plan_on, refuse_proportions
 from geneva_cli.rules import POSITIVE, OneOf, Range
 
 
@@ -37,6 +37,13 @@ def plan(spec: Spec) -> Plan:
     """The one station of a four-bar Geneva, its wheel's centre solved for."""
     keys = spec.kind
     assert isinstance(keys, Keys)
+    refuse_proportions(
+        crank_mm=keys.crank_mm,
+        ground_mm=keys.ground_mm,
+        coupler_mm=keys.coupler_mm,
+        rocker_mm=keys.rocker_mm,
+        point_mm=keys.point_mm,
+    )
     _refuse_linkage(keys)
     a, g, b, c = keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm
     side = 1.0 if keys.branch == "+" else -1.0

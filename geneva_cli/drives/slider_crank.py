@@ -14,7 +14,7 @@ from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet, sin_cos, sqrt
 from geneva_cli.keys import Spec
-from geneva_cli.linkage import plan_on
+from geneva_cli.linkage import plan_on, refuse_proportions
 from geneva_cli.rules import LENGTH, POSITIVE, Range
 
 
@@ -36,6 +36,7 @@ def plan(spec: Spec) -> Plan:
     keys = spec.kind
     assert isinstance(keys, Keys)
     a, b, h = keys.crank_mm, keys.rod_mm, keys.height_mm
+    refuse_proportions(crank_mm=a, rod_mm=b, point_mm=keys.point_mm)
     if a + abs(h) >= b:
         raise GenevaError(
             f"crank_mm = {a:g}: the crank cannot turn all round; crank and height together must "
