@@ -207,6 +207,9 @@ NONCIRCULAR = [
     case("both", WHEEL + drive("@", 'A = 0.2\nratio_file = "x"'), "noncircular-gears", 4, "both"),
 ]
 
+SECTORS = [
+    case("long", WHEEL + drive("gear-sector", "sector_deg = @"), "331", 5, "331", "at most 330"),
+]
 PAIRS = [
     case("first-2", WHEEL + drive("geneva-pair", "first_z = @"), "2", 5, "first_z = 2", "least 3"),
     case("short", "[wheel]\nz = @\n" + drive("geneva-pair", "first_z = 4"), "8", 2, "67.5", "45"),
@@ -227,6 +230,7 @@ GROUPS = {
     "slides": SLIDES,
     "noncircular": NONCIRCULAR,
     "pairs": PAIRS,
+    "sectors": SECTORS,
 }
 
 OWN_ARM = PLANET.replace("0.01", "@")
