@@ -15,9 +15,9 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 # here; a name that is written out elsewhere keeps its own row.
 ROWS = [
     ["geneva_cli"],
-    ["errors", "jet", "roots", "rules", "table", "units"],
+    ["drawing", "errors", "jet", "roots", "rules", "table", "units"],
     ["points"],
-    ["classic", "kernel", "keys", "laws"],
+    ["classic", "kernel", "keys", "laws", "measure"],
     ["gearing", "law_table", "many", "station", "synthesis_closed"],
     ["drives", "law_of", "path_wheel", "synthesis_limit"],
     ["coulisse", "linkage"],

@@ -1,0 +1,112 @@
+"""The drawing: contours of lines, arcs and cubics on named layers, in millimetres.
+
+What every command that makes a shape hands to the output. Points are (x, y).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple, TypeAlias
+
+Point: TypeAlias = tuple[float, float]
+
+
+class Line(NamedTuple):
+    """A straight piece."""
+
+    start: Point
+    end: Point
+
+
+class Arc(NamedTuple):
+    """An arc of a circle; ``bulge`` is tan(sweep / 4), positive counterclockwise, as in DXF."""
+
+    start: Point
+    end: Point
+    bulge: float
+
+    @property
+    def sweep(self) -> float:
+        """The angle it turns through, radians; positive counterclockwise."""
+        return 4.0 * math.atan(self.bulge)
+
+    @property
+    def radius(self) -> float:
+        """Its radius: half the chord over the sine of half the sweep."""
+        return 0.5 * math.dist(self.start, self.end) / abs(math.sin(0.5 * self.sweep))
+
+    @property
+    def centre(self) -> Point:
+        """Its centre, on the chord's perpendicular at half the chord over tan(sweep / 2)."""
+        (x0, y0), (x1, y1) = self.start, self.end
+        away = 0.25 * (1.0 - self.bulge * self.bulge) / self.bulge
+        return 0.5 * (x0 + x1) - away * (y1 - y0), 0.5 * (y0 + y1) + away * (x1 - x0)
+
+
+class Cubic(NamedTuple):
+    """A cubic Bézier curve."""
+
+    start: Point
+    first: Point  # control points
+    second: Point
+    end: Point
+
+
+Segment: TypeAlias = Line | Arc | Cubic
+
+
+class Contour(NamedTuple):
+    """Segments end to end; where ``closed``, the last ends exactly where the first starts."""
+
+    layer: str
+    segments: tuple[Segment, ...]
+    closed: bool = True
+
+
+class Circle(NamedTuple):
+    """A full circle: a bore, a roller."""
+
+    layer: str
+    centre: Point
+    radius: float
+
+
+Shape: TypeAlias = Contour | Circle
+
+
+class Drawing(NamedTuple):
+    """Shapes and a title; ``scale_bar`` asks for one beside them, where the format has one."""
+
+    title: str
+    shapes: tuple[Shape, ...]
+    scale_bar: bool = False
+
+    @property
+    def layers(self) -> tuple[str, ...]:
+        """The layers in use, in the order of their first shape."""
+        return tuple(dict.fromkeys(shape.layer for shape in self.shapes))
+
+
+def about(centre: Point, radius: float, start: float, sweep: float) -> Arc:
+    """The arc about a centre from the direction ``start`` on, both angles in radians."""
+    (x, y), end = centre, start + sweep
+    return Arc(
+        (x + radius * math.cos(start), y + radius * math.sin(start)),
+        (x + radius * math.cos(end), y + radius * math.sin(end)),
+        math.tan(0.25 * sweep),
+    )
+
+
+def joined(segments: Iterable[Segment]) -> tuple[Segment, ...]:
+    """Segments end to end, each made to start exactly where the one before it ends."""
+    out: list[Segment] = []
+    for segment in segments:
+        out.append(segment._replace(start=out[-1].end) if out else segment)
+    return tuple(out)
+
+
+def closed(layer: str, segments: Iterable[Segment]) -> Contour:
+    """A closed contour: ends that differ by rounding are made the same point."""
+    found = joined(segments)
+    return Contour(layer, (*found[:-1], found[-1]._replace(end=found[0].start)))
