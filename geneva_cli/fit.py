@@ -1,0 +1,28 @@
+"""A smooth parametric curve in as few pieces as a tolerance allows: arcs.
+
+A curve is a function of an array of n parameters: its points (n, 2) in millimetres and its unit
+tangents (n, 2) in the direction of rising parameters. It is smooth between its ends, inflections
+and all; callers split it at corners and cusps. Its speed may go to zero at an end, where the
+tangent is given as the limit.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geneva_cli.fit_arcs import fitted_arcs
+from geneva_cli.fit_path import Path
+
+if TYPE_CHECKING:
+    from geneva_cli.drawing import Arc, Line
+    from geneva_cli.fit_path import Curve
+
+
+def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
+    """Arcs that stray from the curve by at most ``tolerance`` mm, and lines where it is straight.
+
+    Neighbours share their tangent, and the first and the last one have the curve's own.
+
+    Raises GenevaError for a tolerance that double precision cannot show.
+    """
+    return fitted_arcs(Path(curve, a, b, tolerance))
