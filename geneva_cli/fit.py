@@ -1,4 +1,4 @@
-"""A smooth parametric curve in as few pieces as a tolerance allows: arcs.
+"""A smooth parametric curve in as few pieces as a tolerance allows: chords, arcs or cubics.
 
 A curve is a function of an array of n parameters: its points (n, 2) in millimetres and its unit
 tangents (n, 2) in the direction of rising parameters. It is smooth between its ends, inflections
@@ -11,11 +11,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geneva_cli.fit_arcs import fitted_arcs
+from geneva_cli.fit_chords import fitted_chords
+from geneva_cli.fit_cubics import fitted_cubics
 from geneva_cli.fit_path import Path
 
 if TYPE_CHECKING:
-    from geneva_cli.drawing import Arc, Line
+    from geneva_cli.drawing import Arc, Cubic, Line
     from geneva_cli.fit_path import Curve
+
+
+def chords(curve: Curve, a: float, b: float, tolerance: float) -> list[Line]:
+    """Chords that stray from the curve by at most ``tolerance`` mm, their ends on it.
+
+    Raises GenevaError for a tolerance that double precision cannot show.
+    """
+    return fitted_chords(Path(curve, a, b, tolerance))
 
 
 def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
@@ -26,3 +36,13 @@ def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]
     Raises GenevaError for a tolerance that double precision cannot show.
     """
     return fitted_arcs(Path(curve, a, b, tolerance))
+
+
+def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
+    """Cubic Béziers that stray from the curve by at most ``tolerance`` mm.
+
+    They meet on the curve and have its tangents there.
+
+    Raises GenevaError for a tolerance that double precision cannot show.
+    """
+    return fitted_cubics(Path(curve, a, b, tolerance))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.drawing import Arc, Line
-from geneva_cli.fit_path import PIECES_MAX, Path, inside, peaks, respread
+from geneva_cli.fit_path import PIECES_MAX, TARGET, Path, inside, peaks, points_of, respread
 
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
@@ -23,9 +23,8 @@ ASYMPTOTIC = 72.0 * np.sqrt(3.0)  # k' h³ over the best miss: B3 has its peaks 
 EVEN = 0.02  # share of the first knots that is spread evenly: the density may vanish
 SAMPLES = 12  # in an arc, while searching
 DENSE = 48  # in an arc, for the verdict: a lobe's peak is seen to 0.3 %
-TARGET = 0.995  # of the tolerance, while searching
-ROUNDS = 8  # of moving the knots and solving for their offsets
-HOPELESS = 1.5  # times the target after half the rounds
+ROUNDS = 16  # of moving the knots and solving for their offsets
+HOPELESS = 1.3  # times the target after half the rounds
 FLOOR = 0.3  # of the mean weight, in moving knots
 ATTEMPTS = 40
 SPARE = 0.01  # share of the arcs that is not worth another attempt
@@ -37,10 +36,10 @@ class Biarcs(NamedTuple):
 
     start: Array  # (2 n,) complex
     end: Array
-    bulge: Array
-    miss: Array  # (2 n, samples)
-    length: Array  # (2 n,) of the curve beside them
-    along: Array  # (2 n, samples) the samples' arc lengths from their arc's start
+    half: Array  # (2 n,) half the sweeps, radians
+    points: Array  # (2 n, samples + 1) complex: of the curve
+    tangents: Array
+    miss: Array  # (2 n, samples + 1)
 
 
 class Knots(NamedTuple):
@@ -94,13 +93,14 @@ def _attempt(path: Path, places: Array, target: float) -> tuple[Biarcs | None, f
             knots = _solved(knots, found)
             found = _biarcs(path, knots, SAMPLES)
         worst = peaks(found.miss)
-        least = min(least, float(worst.max()))
-        if worst.max() <= target:
-            # A hair above the tolerance when seen densely: go on.
-            least = float(np.abs(_biarcs(path, knots, DENSE).miss).max())
-            if least <= path.tolerance:
-                return found, least
-        if not least < HOPELESS * target and turn >= ROUNDS // 2:
+        error = float(worst.max())
+        if error <= target:
+            dense = _biarcs(path, knots, DENSE)
+            error = max(error, _stray(dense))
+            if error <= path.tolerance:
+                return dense, error
+        least = min(least, error)
+        if least > HOPELESS * target and turn >= ROUNDS // 2:
             break
         # Half the step that would do if an arc's miss were its own: its neighbours share it.
         weight = np.cbrt(np.sqrt(worst / target))
@@ -127,15 +127,39 @@ def _biarcs(path: Path, knots: Knots, samples: int) -> Biarcs:
     half = np.empty(len(start))
     half[::2] = np.angle(chord[::2] / way[:-1])
     half[1::2] = np.angle(way[1:] / chord[1::2])
-    # Seen from an arc's start, along its tangent, a point (x, y) lies off it by the root of
-    # k d² / 2 - d + y - k (x² + y²) / 2 = 0, without a radius that may be infinite.
-    curvature = (2.0 * np.sin(half) / np.abs(chord))[:, None]
-    seen = (z - start[:, None]) * (np.exp(1j * half) / (chord / np.abs(chord)))[:, None]
+    curvature, seen = _seen(start, chord, half, z)
+    # A point (x, y) lies off the arc by the root of k d² / 2 - d + y - k (x² + y²) / 2 = 0.
     off = seen.imag - 0.5 * curvature * (seen.real**2 + seen.imag**2)
     miss = -2.0 * off / (1.0 + np.sqrt(np.maximum(1.0 - 2.0 * curvature * off, 0.0)))
-    along = np.zeros(z.shape)
-    np.cumsum(np.abs(np.diff(z, axis=1)), axis=1, out=along[:, 1:])
-    return Biarcs(start, end, np.tan(0.5 * half), miss, along[:, -1], along)
+    return Biarcs(start, end, half, z, tangent, miss)
+
+
+def _seen(start: Array, chord: Array, half: Array, points: Array) -> tuple[Array, Array]:
+    """Curvatures, and points seen from the arcs' starts along their tangents.
+
+    So nothing is measured from a centre, which may be at infinity.
+    """
+    size = np.abs(chord)
+    turned = np.exp(1j * half) * chord.conj() / size
+    return (2.0 * np.sin(half) / size)[:, None], (points - start[:, None]) * turned[:, None]
+
+
+def _stray(found: Biarcs) -> float:
+    """The greatest distance from the samples to their arcs, ends and all, mm.
+
+    Infinite where the curve runs against its arc: as it does not, the samples' feet run along the
+    arc from end to end, and no place on it is further from the curve.
+    """
+    chord = found.end - found.start
+    curvature, seen = _seen(found.start, chord, found.half, found.points)
+    turned = np.exp(1j * found.half) * chord.conj() / np.abs(chord)
+    at_foot = 1.0 - curvature * seen.imag + 1j * curvature * seen.real
+    if not ((found.tangents * turned[:, None] * at_foot.conj()).real > 0.0).all():
+        return np.inf
+    past = found.points - found.end[:, None]
+    beyond = (past * (chord.conj() * np.exp(-1j * found.half))[:, None]).real > 0.0
+    distance = np.where(seen.real < 0.0, np.abs(seen), np.abs(found.miss))
+    return float(np.where(beyond, np.abs(past), distance).max())
 
 
 def _solved(knots: Knots, found: Biarcs) -> Knots:
@@ -143,10 +167,12 @@ def _solved(knots: Knots, found: Biarcs) -> Knots:
     count = len(knots.offset) - 1
     if count == 1:
         return knots  # both ends are held
-    length = found.length.reshape(count, 2).sum(axis=1)
-    joint = (found.length[::2] / length)[:, None]
-    along = found.along.reshape(count, 2, -1).copy()
-    along[:, 1] += found.length[::2, None]
+    step = np.abs(np.diff(found.points, axis=1)).reshape(count, 2, -1)
+    first, length = step[:, 0].sum(axis=1), step.sum(axis=(1, 2))
+    joint = (first / length)[:, None]
+    along = np.zeros((count, 2, step.shape[2] + 1))
+    np.cumsum(step, axis=2, out=along[:, :, 1:])
+    along[:, 1] += first[:, None]
     x = along.reshape(count, -1) / length[:, None]
     before, after = x <= joint, 1.0 - x
     shapes = []
@@ -202,7 +228,7 @@ def _block_tridiagonal(diagonal: Array, upper: Array, right: Array) -> Array:
 def _joined(found: Biarcs, rounding: float) -> list[Arc | Line]:
     """The pieces; neighbours on the same circle, up to half of it, or on the same line made one."""
     chord = np.abs(found.end - found.start)
-    half = 2.0 * np.arctan(found.bulge)
+    half = found.half
     bend = np.abs(np.diff(2.0 * np.sin(half) / chord))
     # How far from their joint one arc in place of two would pass
     same = bend * chord[1:] * chord[:-1] <= 4.0 * rounding
@@ -216,9 +242,5 @@ def _joined(found: Biarcs, rounding: float) -> list[Arc | Line]:
     start, end = found.start[first], found.end[last]
     bulge = np.tan(0.5 * np.add.reduceat(half, first))
     straight = np.abs(bulge) * np.abs(end - start) <= 2.0 * rounding
-    rows = zip(_points(start), _points(end), bulge.tolist(), straight, strict=True)
+    rows = zip(points_of(start), points_of(end), bulge.tolist(), straight, strict=True)
     return [Line(p, q) if line else Arc(p, q, b) for p, q, b, line in rows]
-
-
-def _points(z: Array) -> list[tuple[float, float]]:
-    return list(zip(z.real.tolist(), z.imag.tolist(), strict=True))

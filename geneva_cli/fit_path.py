@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 CELLS = 1024  # of the survey
 FINEST = 64  # tolerances below that many last digits of the coordinates cannot be shown
 PIECES_MAX = 200_000
+TARGET = 0.995  # of the tolerance, while searching
 LEAST_TURN = 0.1  # radians; below, the places on a curve are told by its length alone
 
 
@@ -112,3 +113,8 @@ def peaks(values: Array) -> Array:
     near = np.abs(after - before) <= np.abs(2.0 * bend)
     found: Array = np.maximum(best, np.where(near, here + rise, 0.0))
     return found
+
+
+def points_of(z: Array) -> list[tuple[float, float]]:
+    """Complex numbers as points."""
+    return list(zip(z.real.tolist(), z.imag.tolist(), strict=True))
