@@ -133,24 +133,28 @@ def vertices(shape: Shape, tolerance: float) -> list[Point]:
     return points
 
 
-def mapped(shape: S, point: Callable[[Point], Point], factor: float = 1.0) -> S:
-    """A shape with its points moved by a similarity that keeps the sense of turning.
+def mapped(
+    shape: S,
+    point: Callable[[Point], Point],
+    radius: Callable[[float], float] = lambda r: r,
+) -> S:
+    """A shape moved by a similarity that keeps the sense of turning.
 
-    ``factor`` is how much the similarity enlarges.
+    ``point`` maps its points, and ``radius`` a circle's radius.
     """
     if isinstance(shape, Circle):
-        return shape._replace(centre=point(shape.centre), radius=factor * shape.radius)
+        return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
     return shape._replace(segments=tuple(_mapped(s, point) for s in shape.segments))
 
 
 def scaled(drawing: Drawing, factor: float) -> Drawing:
     """The drawing enlarged from the origin; ``factor`` above 0."""
-    return drawing._replace(
-        shapes=tuple(
-            mapped(shape, lambda p: (factor * p[0], factor * p[1]), factor)
-            for shape in drawing.shapes
-        )
-    )
+
+    def point(p: Point) -> Point:
+        return factor * p[0], factor * p[1]
+
+    shapes = (mapped(shape, point, lambda r: factor * r) for shape in drawing.shapes)
+    return drawing._replace(shapes=tuple(shapes))
 
 
 def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:

@@ -16,8 +16,8 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 ROWS = [
     ["geneva_cli"],
     ["drawing", "errors", "jet", "roots", "rules", "table", "units"],
-    ["fit_path", "points"],
-    ["classic", "fit_arcs", "fit_balance", "kernel", "keys", "laws", "measure"],
+    ["fit_path", "measure", "points"],
+    ["classic", "fit_arcs", "fit_balance", "kernel", "keys", "laws", "pieces"],
     ["fit_chords", "fit_cubics", "gearing", "law_table", "many", "station", "synthesis_closed"],
     ["drives", "fit", "law_of", "path_wheel", "synthesis_limit"],
     ["coulisse", "linkage"],

@@ -5,6 +5,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from drawing_witness import POINT, contours
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
@@ -26,29 +27,8 @@ from geneva_cli.measure import (
 )
 
 FINE = 1e-5  # mm, of the witnesses' polygons
-NUMBER = st.floats(-100.0, 100.0).map(lambda x: round(x, 3))
-POINT = st.tuples(NUMBER, NUMBER)
-BULGE = st.one_of(st.floats(0.05, 8.0), st.floats(-8.0, -0.05))  # sweeps of 11 to 331 degrees
 # Few examples: the whole file stays within seconds, and each is compared in several ways.
 QUICK = settings(max_examples=60, deadline=None, derandomize=True)
-
-
-@st.composite
-def contours(draw):
-    """Closed contours of lines, arcs and cubics through random points at least 1 mm apart."""
-    points = draw(st.lists(POINT, min_size=2, max_size=6))
-    pairs = list(zip(points, [*points[1:], points[0]], strict=True))
-    assume(all(math.dist(p, q) > 1.0 for p, q in pairs))
-    segments = []
-    for p, q in pairs:
-        kind = draw(st.sampled_from("lac"))
-        if kind == "l":
-            segments.append(Line(p, q))
-        elif kind == "a":
-            segments.append(Arc(p, q, draw(BULGE)))
-        else:
-            segments.append(Cubic(p, draw(POINT), draw(POINT), q))
-    return closed("WHEEL", segments)
 
 
 def winding_area(points):

@@ -1,19 +1,23 @@
-"""From a table to text, on standard output or in a file; one file a format."""
+"""From a table or a drawing to text, on standard output or in a file; one file a format."""
 
 from __future__ import annotations
 
 import importlib
 import os
 import sys
-from collections.abc import Iterable, Iterator
-from typing import Protocol, cast
+from collections.abc import Collection, Iterable, Iterator
+from typing import TYPE_CHECKING, Protocol, cast
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.table import Table
 
+if TYPE_CHECKING:
+    from geneva_cli.drawing import Drawing
+
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
-EXTENSIONS = {"txt": "table", "csv": "csv", "json": "json", "md": "md"}
+DRAWN = {"dxf": "dxf", "svg": "svg"}  # of drawings only; they are written in FORMATS as tables
+EXTENSIONS = {"txt": "table", **{name: name for name in ("csv", "json", "md", "dxf", "svg")}}
 
 
 class Format(Protocol):
@@ -23,39 +27,83 @@ class Format(Protocol):
         """The text, in pieces; ``terminal`` is true where a person looks."""
 
 
+class DrawnFormat(Protocol):
+    """What the module of a drawing's format offers."""
+
+    def chunks(self, drawing: Drawing, units: str) -> Iterator[str]:
+        """The text, in pieces; ``units`` is mm or inch."""
+
+
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
-    """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten."""
+    """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten.
+
+    Raises GenevaError where the format is none of a table's or the file cannot be written.
+    """
     name = format or format_of(output)
     if name not in FORMATS:
-        raise GenevaError(f"--format {name}: it must be one of {', '.join(FORMATS)}")
+        raise GenevaError(f"--format {name}: {_wrong(name)}it must be one of {', '.join(FORMATS)}")
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
-    if output == "-":
-        for chunk in module.chunks(table, sys.stdout.isatty()):
-            sys.stdout.write(chunk)
-        return
-    from geneva_cli.output.files import write
+    _put(module.chunks(table, output == "-" and sys.stdout.isatty()), output, inputs)
 
-    write(output, module.chunks(table, False), inputs)
+
+def draw(
+    drawing: Drawing,
+    output: str = "-",
+    format: str = "",
+    units: str = "mm",
+    inputs: Iterable[str] = (),
+) -> None:
+    """Print the drawing, or write it to the file ``output``; ``inputs`` are never overwritten.
+
+    The formats of tables get the drawing's pieces. ``units`` is mm or inch. Raises GenevaError
+    where a format or a unit is unknown, nothing is drawn or the file cannot be written.
+    """
+    formats = {**DRAWN, **FORMATS}
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(f"--format {name}: it must be one of {', '.join(formats)}")
+    if name in FORMATS:
+        from geneva_cli.pieces import pieces_table
+
+        show(pieces_table(drawing, units), output, name, inputs)
+        return
+    module = cast(DrawnFormat, importlib.import_module(f"geneva_cli.output.{DRAWN[name]}"))
+    _put(module.chunks(drawing, units), output, inputs)
 
 
 def show_text(text: str, output: str = "-") -> None:
     """Print a text as it is, or write it to a file."""
-    if output == "-":
-        sys.stdout.write(text)
-        return
-    from geneva_cli.output.files import write
-
-    write(output, [text])
+    _put([text], output, ())
 
 
-def format_of(output: str) -> str:
-    """The format that a file's extension names; for standard output, the one for people."""
+def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
+    """The format that a file's extension names; for standard output, the one for people.
+
+    Raises GenevaError where that is none of ``formats``, by default a table's.
+    """
     if output == "-":
         return "table"
     extension = os.path.splitext(output)[1].lower().lstrip(".")
-    if extension not in EXTENSIONS:
-        known = ", ".join(f".{e}" for e in EXTENSIONS)
+    name = EXTENSIONS.get(extension, "")
+    if name not in formats:
+        known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
+        if name:
+            raise GenevaError(f'-o "{output}": {_wrong(name)}it must end in {known}')
         raise GenevaError(
             f'-o "{output}": the extension names no format ({known}); add one, or --format'
         )
-    return EXTENSIONS[extension]
+    return name
+
+
+def _wrong(name: str) -> str:
+    return f"{name} holds a drawing, and this is a table; " if name in DRAWN else ""
+
+
+def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:
+    if output == "-":
+        for chunk in chunks:
+            sys.stdout.write(chunk)
+        return
+    from geneva_cli.output.files import write
+
+    write(output, chunks, inputs)

@@ -1,0 +1,34 @@
+"""How layers look: colours that read on white and on black alike."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Ink(NamedTuple):
+    """A colour twice: by its number in AutoCAD's palette, and as hexadecimal RGB."""
+
+    number: int
+    rgb: str
+
+
+# All have a contrast above 3.9 to white and to black.
+INKS = {
+    "WHEEL": Ink(142, "#007ca5"),
+    "CRANK": Ink(94, "#007f00"),
+    "ROLLER": Ink(200, "#bf00ff"),
+    "BORE": Ink(1, "#ff0000"),
+    "PITCH": Ink(8, "#808080"),
+    "GROOVE": Ink(54, "#7f7f00"),
+}
+OTHERS = (Ink(134, "#007f7f"), Ink(240, "#ff003f"), Ink(84, "#1f7f00"))
+CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
+DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
+
+
+def inks(layers: tuple[str, ...]) -> dict[str, Ink]:
+    """The ink of each layer; layers without one of their own take turns."""
+    unknown = [layer for layer in layers if layer not in INKS]
+    return {
+        layer: INKS.get(layer) or OTHERS[unknown.index(layer) % len(OTHERS)] for layer in layers
+    }
