@@ -70,7 +70,7 @@ def fitted_arcs(path: Path) -> list[Arc | Line]:
             count = max(min(enough, good - 2), too_few + 2)
         else:
             too_few = count
-            count = max(count + 2, min(enough, 2 * count))
+            count = max(count + 2, _even(count * (1.0 + SPARE)), min(enough, 2 * count))
             if best is not None:
                 count = min(_even(0.5 * (too_few + good)), good)
         if best is not None and (count >= good or good - too_few <= max(2.0, SPARE * good)):
@@ -97,7 +97,7 @@ def _attempt(path: Path, places: Array, target: float) -> tuple[Biarcs | None, f
         if error <= target:
             dense = _biarcs(path, knots, DENSE)
             error = max(error, _stray(dense))
-            if error <= path.tolerance:
+            if error <= target:
                 return dense, error
         least = min(least, error)
         if least > HOPELESS * target and turn >= ROUNDS // 2:
@@ -159,7 +159,7 @@ def _stray(found: Biarcs) -> float:
     past = found.points - found.end[:, None]
     beyond = (past * (chord.conj() * np.exp(-1j * found.half))[:, None]).real > 0.0
     distance = np.where(seen.real < 0.0, np.abs(seen), np.abs(found.miss))
-    return float(np.where(beyond, np.abs(past), distance).max())
+    return float(peaks(np.where(beyond, np.abs(past), distance)).max())
 
 
 def _solved(knots: Knots, found: Biarcs) -> Knots:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 ROUNDS = 10  # of moving the places of one count
 ATTEMPTS = 40
 ALIKE = 1.02  # the worst weight over the mean, below which moving places is no use
-HOPELESS = 1.25  # the same, where the mean is too large anyway
+HOPELESS = 1.25  # the same, where there are too few anyway
 FLOOR = 0.05  # of the mean weight: an inflection needs pieces too
 NEEDED = 0.5  # a number of pieces whose weights add up to less is tried with one piece less
 MANY = 1000  # pieces past which the last half per cent is not worth another attempt
@@ -40,7 +40,7 @@ def balanced(
 
     Raises GenevaError where no number of pieces that is allowed serves.
     """
-    best, count, good, too_few = None, 1, PIECES_MAX + 1, 0
+    best, count, good, too_few, more = None, 1, PIECES_MAX + 1, 0, 1
     for _ in range(ATTEMPTS):
         if count > PIECES_MAX:
             break
@@ -53,9 +53,10 @@ def balanced(
             count = min(max(int(np.ceil(need)), too_few + 1), good - 1)
         else:
             too_few = count
-            count = min(max(int(np.ceil(need)), count + 1), good - 1)
+            count = max(int(np.ceil(need)), count + more)
+            count, more = min(count, (too_few + good) // 2 if best else count), 2 * more
         spare = SPARE * good if good > MANY else NEEDED
-        if best is not None and (good - too_few <= 1 or need > good - spare):
+        if best is not None and (good - too_few <= max(1.0, spare) or need > good - spare):
             break
     if best is None:
         raise path.too_fine()
@@ -75,8 +76,11 @@ def _spread(
         worst, mean = root.max(), root.mean()
         if worst < least:
             best, least = (places, root), worst
-        alike = HOPELESS if mean > 1.0 else ALIKE
-        if worst <= alike * mean or (last and worst <= 1.0):
+        if worst <= 1.0:
+            done = last or worst <= ALIKE * mean
+        else:
+            done = mean > 1.0 and worst <= HOPELESS * mean
+        if done:
             break
         places = respread(places, root, FLOOR)
     return best

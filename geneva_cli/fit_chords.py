@@ -25,7 +25,7 @@ def fitted_chords(path: Path) -> list[Line]:
         return peaks(_misses(path, places, SAMPLES))
 
     def proof(places: Array) -> list[Line] | None:
-        if not _misses(path, places, DENSE).max() <= path.tolerance:
+        if not peaks(_misses(path, places, DENSE)).max() <= path.tolerance:
             return None
         points = points_of(path.at(places)[0])
         return [Line(*ends) for ends in zip(points, points[1:], strict=False)]

@@ -13,16 +13,17 @@ import numpy as np
 
 from geneva_cli.drawing import Cubic
 from geneva_cli.fit_balance import balanced
-from geneva_cli.fit_path import Path, inside, points_of
+from geneva_cli.fit_path import Path, inside, peaks, points_of
 
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
 
 SAMPLES = 16  # in a piece, while searching
 DENSE = 64  # in a piece, for the verdict
-STEPS = 6  # of least squares
+STEPS = 4  # of least squares
 FEET = 6  # steps of Newton's to the places nearest to the samples
-DAMPING = 1e-3  # of the first step: on an almost straight piece the handles hardly matter
+DAMPING = 1e-3  # of the first step in the handles' difference
+STIFF = 1e9  # the damping that leaves their difference as it is
 SHORTEST, LONGEST = 1e-4, 1.0  # handles, in lengths of the piece: none is lost, none loops
 ORDER = 6.0
 
@@ -95,6 +96,7 @@ def _handles(wanted: Wanted, known: Array) -> Array:
     damping = np.full(len(even), DAMPING)
     for _ in range(STEPS):
         trial = _seen(wanted, _improved(wanted, state, damping), state.v)
+        trial = _seen(wanted, _improved(wanted, trial, STIFF), trial.v)
         damping *= np.where(trial.left < state.left, 0.02, 10.0)
         state = trial.better(state)
     return state.handles
@@ -105,7 +107,7 @@ def _misses(wanted: Wanted, handles: Array) -> Array:
     v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     for _ in range(FEET):
         v = _projected(wanted, handles, v)
-    miss = np.abs(wanted.points - _bezier(wanted, handles, v)[0]).max(axis=1)
+    miss = peaks(np.abs(wanted.points - _bezier(wanted, handles, v)[0]))
     # Feet that run back and forth are no proof that the whole cubic is near.
     miss[(np.diff(v, axis=1) < 0.0).any(axis=1)] = 1.0
     out: Array = wanted.length * miss
@@ -130,15 +132,17 @@ def _first_handles(wanted: Wanted, v: Array) -> Array:
     u = 1.0 - v
     fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
     first, second = 3.0 * v * u * u * wanted.ahead, -3.0 * v * v * u * wanted.behind
-    return np.clip(_least_squares(first, second, fixed, np.zeros(len(v))), 0.05, 0.8)
+    return np.clip(_least_squares(first, second, fixed, 0.0), 0.05, 0.8)
 
 
-def _least_squares(first: Array, second: Array, wanted: Array, damping: Array) -> Array:
-    """The real factors of two columns that are nearest to what is wanted, in each row."""
+def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | float) -> Array:
+    """The real factors of two columns that are nearest to what is wanted, in each row.
+
+    The second one is held back by the damping.
+    """
     a, d = (np.abs(first) ** 2).sum(axis=1), (np.abs(second) ** 2).sum(axis=1)
     b = (first * second.conj()).real.sum(axis=1)
-    more = damping * (a + d) + 1e-30
-    a, d = a + more, d + more
+    a, d = a + 1e-30, d * (1.0 + damping) + 1e-30
     p, q = (first * wanted.conj()).real.sum(axis=1), (second * wanted.conj()).real.sum(axis=1)
     solved: Array = np.stack((d * p - b * q, a * q - b * p), axis=1) / (a * d - b * b)[:, None]
     return solved
@@ -163,13 +167,19 @@ def _seen(wanted: Wanted, handles: Array, v: Array) -> State:
     return State(handles, v, (np.abs(off) ** 2).sum(axis=1))
 
 
-def _improved(wanted: Wanted, state: State, damping: Array) -> Array:
-    """Handles with smaller squares of the distances along the normals."""
+def _improved(wanted: Wanted, state: State, damping: Array | float) -> Array:
+    """Handles with smaller squares of the distances along the normals.
+
+    On a short piece both handles bow it in the same way, and their difference matters much less:
+    the valley is narrow and bent. Only the difference is damped.
+    """
     v, u = state.v, 1.0 - state.v
     point, rate, _ = _bezier(wanted, state.handles, v)
     turned = -1j * rate.conj() / np.maximum(np.abs(rate), 1e-300)
     off = ((wanted.points - point) * turned).real
     first = 3.0 * v * u * u * (wanted.ahead * turned).real
     second = -3.0 * v * v * u * (wanted.behind * turned).real
-    step = _least_squares(first, second, off, damping)
-    return np.clip(state.handles + step, SHORTEST, LONGEST)
+    both, apart = _least_squares(first + second, first - second, off, damping).T
+    step = np.stack((both + apart, both - apart), axis=1)
+    out: Array = np.clip(state.handles + step, SHORTEST, LONGEST)
+    return out

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CELLS = 1024  # of the survey
 FINEST = 64  # tolerances below that many last digits of the coordinates cannot be shown
 PIECES_MAX = 200_000
-TARGET = 0.995  # of the tolerance, while searching
+TARGET = 0.995  # of the tolerance: what lies between samples is allowed for
 LEAST_TURN = 0.1  # radians; below, the places on a curve are told by its length alone
 
 
