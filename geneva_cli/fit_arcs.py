@@ -24,7 +24,7 @@ EVEN = 0.02  # share of the first knots that is spread evenly: the density may v
 SAMPLES = 12  # in an arc, while searching
 DENSE = 48  # in an arc, for the verdict: a lobe's peak is seen to 0.3 %
 ROUNDS = 16  # of moving the knots and solving for their offsets
-HOPELESS = 1.3  # times the target after half the rounds
+LEG = 4  # rounds after which it is seen what they have gained
 FLOOR = 0.3  # of the mean weight, in moving knots
 ATTEMPTS = 40
 SPARE = 0.01  # share of the arcs that is not worth another attempt
@@ -87,7 +87,7 @@ def _attempt(path: Path, places: Array, target: float) -> tuple[Biarcs | None, f
     nothing = np.zeros(len(places) // 2 + 1)
     knots = Knots(places, nothing, nothing)
     found = _biarcs(path, knots, SAMPLES)
-    least = np.inf
+    least = before = np.inf
     for turn in range(ROUNDS):
         for _ in range(2 if turn == 0 else 1):
             knots = _solved(knots, found)
@@ -99,9 +99,12 @@ def _attempt(path: Path, places: Array, target: float) -> tuple[Biarcs | None, f
             error = max(error, _stray(dense))
             if error <= target:
                 return dense, error
+        if turn % LEG == 0:
+            # As gains only dwindle, too little of them is the end.
+            gain, before = before - min(least, error), min(least, error)
+            if before - gain * (ROUNDS - turn) / LEG > target:
+                return None, before
         least = min(least, error)
-        if least > HOPELESS * target and turn >= ROUNDS // 2:
-            break
         # Half the step that would do if an arc's miss were its own: its neighbours share it.
         weight = np.cbrt(np.sqrt(worst / target))
         knots = knots._replace(places=respread(knots.places, weight, FLOOR))

@@ -36,7 +36,8 @@ class Path:
         self.curve, self.tolerance = curve, tolerance
         self.t = np.linspace(a, b, CELLS + 1)
         points, tangents = self._complex(self.t)
-        self.ends = self._complex(np.array([a, b]))
+        # One by one, as a caller would ask: sums over an array may round otherwise.
+        self.ends = [self._complex(np.array([t])) for t in (a, b)]
         size = float(np.abs(points).max())
         if not tolerance > FINEST * np.spacing(size):
             raise self.too_fine()
@@ -74,9 +75,9 @@ class Path:
     def at(self, w: Array) -> tuple[Array, Array]:
         """Points and unit tangents at places, complex, in the shape of ``w``; exact at the ends."""
         points, tangents = self._complex(np.interp(w.ravel(), self.w, self.t))
-        for side, (point, tangent) in enumerate(zip(*self.ends, strict=True)):
+        for side, end in enumerate(self.ends):
             there = w.ravel() == side
-            points[there], tangents[there] = point, tangent
+            points[there], tangents[there] = end
         return points.reshape(w.shape), tangents.reshape(w.shape)
 
     def _complex(self, t: Array) -> tuple[Array, Array]:
