@@ -36,7 +36,7 @@ ROWS = [
     ["output.*"],
     ["output"],
     ["accuracy", "accuracy.formulas", "accuracy.method", "accuracy.timing_pairs"],
-    ["accuracy.plot", "accuracy.truth"],
+    ["accuracy.flank", "accuracy.plot", "accuracy.truth"],
     ["accuracy.bench_peaks"],
     ["accuracy.*"],
     ["accuracy.bench"],

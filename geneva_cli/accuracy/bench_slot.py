@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli import fit
+from geneva_cli.accuracy import flank
 from geneva_cli.accuracy.method import Method, Subject, Task
 from geneva_cli.keys import Motion, Size, Spec, Wheel
 from geneva_cli.mechanism import Mechanism, build
@@ -68,8 +70,12 @@ def greedy(mechanism: Mechanism, tolerance: float) -> Array:
 
 
 class Pieces(NamedTuple):
-    """A way to write a slot in pieces: from a tolerance to an answer, its count and its error."""
+    """A way to write a slot in pieces: from a tolerance to an answer, its count and its error.
 
+    Those of the same ``shape`` compete.
+    """
+
+    shape: str
     name: str
     run: Callable[[Mechanism, float], Any]
     pieces: Callable[[Any], int]
@@ -102,12 +108,27 @@ def chord_error(mechanism: Mechanism, found: Array) -> float:
     return worst
 
 
-# The registry: arcs and splines enter by one line each.
+def on_flank(fitted: Callable[..., list[Any]]) -> Callable[[Mechanism, float], list[Any]]:
+    """The left flank in pieces that are fitted to a curve."""
+    return lambda mechanism, tolerance: fitted(*flank.left_flank(mechanism), tolerance)
+
+
+def flank_error(mechanism: Mechanism, found: list[Any]) -> float:
+    """How far the left flank strays from such pieces, mm."""
+    return flank.stray(*flank.left_flank(mechanism), found)
+
+
+SLOT, ARCS, CUBICS = "", ": left flank in arcs", ": left flank in cubics"
+# The registry: each way by one line.
 PIECES = [
-    Pieces("even input angles", even, chords, chord_error),
-    Pieces("recursive bisection", bisection, chords, chord_error),
-    Pieces("greedy longest chords", greedy, chords, chord_error, finest=GREEDY_FINEST),
-    Pieces("ours: polyline", nodes, chords, chord_error, True),
+    Pieces(SLOT, "even input angles", even, chords, chord_error),
+    Pieces(SLOT, "recursive bisection", bisection, chords, chord_error),
+    Pieces(SLOT, "greedy longest chords", greedy, chords, chord_error, finest=GREEDY_FINEST),
+    Pieces(SLOT, "ours: polyline", nodes, chords, chord_error, True),
+    Pieces(ARCS, "biarcs by bisection", on_flank(flank.biarcs), len, flank_error),
+    Pieces(ARCS, "ours: arcs", on_flank(fit.arcs), len, flank_error, True),
+    Pieces(CUBICS, "Hermite cubics by bisection", on_flank(flank.hermite_cubics), len, flank_error),
+    Pieces(CUBICS, "ours: cubics", on_flank(fit.cubics), len, flank_error, True),
 ]
 
 
@@ -117,7 +138,23 @@ def subject(quick: bool) -> Subject:
     mechanism = build(Spec(Wheel(8), motion=Motion("cycloidal", ratio="matched"), size=size))
     station = mechanism.stations[0]
     angles = np.linspace(station.entry_deg, station.exit_deg, 1000)
-    methods = [
+    tasks = [
+        Task(
+            f"slot of z = 8, cycloidal, matched R/L, L = 200 mm{shape}",
+            "pitch curve and flanks at 1000 angles",
+            lambda: slot(mechanism, angles),
+            lambda answer: answer[0].error(mechanism, answer[1]),
+            _methods(mechanism, shape, quick),
+        )
+        for shape in dict.fromkeys(way.shape for way in PIECES)
+    ]
+    return Subject(
+        "A curved slot in pieces", "greatest distance from the curve, mm", tasks, floor=0.0
+    )
+
+
+def _methods(mechanism: Mechanism, shape: str, quick: bool) -> list[Method]:
+    return [
         Method(
             way.name,
             tolerance,
@@ -127,18 +164,8 @@ def subject(quick: bool) -> Subject:
         )
         for way in PIECES
         for tolerance in TOLERANCES[: QUICK if quick else None]
-        if tolerance >= way.finest and not (quick and way.run is greedy)
+        if way.shape == shape and tolerance >= way.finest and not (quick and way.run is greedy)
     ]
-    task = Task(
-        "slot of z = 8, cycloidal, matched R/L, L = 200 mm",
-        "pitch curve and flanks at 1000 angles",
-        lambda: slot(mechanism, angles),
-        lambda answer: answer[0].error(mechanism, answer[1]),
-        methods,
-    )
-    return Subject(
-        "A curved slot in pieces", "greatest distance from the curve, mm", [task], floor=0.0
-    )
 
 
 def _run(way: Pieces, mechanism: Mechanism, tolerance: float) -> tuple[Pieces, Any]:
