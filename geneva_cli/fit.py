@@ -1,7 +1,7 @@
 """A smooth parametric curve in as few pieces as a tolerance allows: chords, arcs or cubics.
 
 A curve is a function of an array of n parameters: its points (n, 2) in millimetres and its unit
-tangents (n, 2) in the direction of rising parameters. It is smooth between its ends, inflections
+tangents (n, 2) in the direction of rising parameters. It is smooth from a to b > a, inflections
 and all; callers split it at corners and cusps. Its speed may go to zero at an end, where the
 tangent is given as the limit.
 """
