@@ -110,3 +110,16 @@ def closed(layer: str, segments: Iterable[Segment]) -> Contour:
     """A closed contour: ends that differ by rounding are made the same point."""
     found = joined(segments)
     return Contour(layer, (*found[:-1], found[-1]._replace(end=found[0].start)))
+
+
+def backwards(contour: Contour) -> Contour:
+    """The same contour, run the other way."""
+    found: list[Segment] = []
+    for piece in reversed(contour.segments):
+        if isinstance(piece, Cubic):
+            found.append(Cubic(piece.end, piece.second, piece.first, piece.start))
+        elif isinstance(piece, Arc):
+            found.append(Arc(piece.end, piece.start, -piece.bulge))
+        else:
+            found.append(Line(piece.end, piece.start))
+    return contour._replace(segments=tuple(found))

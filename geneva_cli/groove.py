@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import math
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
 
 NAMES = (
     "input_deg",
@@ -22,6 +28,36 @@ NAMES = (
     "curvature_radius_mm",
 )
 SAMPLES = 721
+
+
+def distance(station: CamDriven, input_deg: Array) -> Array:
+    """The roller's distance from the crank's axis over a whole turn, in units of L.
+
+    In the dwell the groove goes back from exit to entry by the polynomial of degree 5 in the
+    crank's angle that has both ends' distance, slope and curvature.
+    """
+    at = (input_deg - station.entry_deg) % 360.0 + station.entry_deg
+    moving = at <= station.exit_deg
+    out = np.empty(len(at))
+    if moving.any():
+        out[moving] = station.distances(at[moving], 0)[1].c[0]
+    span = math.radians(360.0 - station.motion_deg)
+    ends = [station.distances(x, 2)[1].derivatives() for x in (station.exit_deg, station.entry_deg)]
+    conditions, values = [], []
+    for u, end in zip((0.0, 1.0), ends, strict=True):
+        for order, value in enumerate(end):
+            conditions.append([_power(k, order, u) for k in range(6)])
+            values.append(value * span**order)
+    shape = np.linalg.solve(np.array(conditions), np.array(values))
+    rest = np.radians(at[~moving] - station.exit_deg) / span
+    out[~moving] = np.polynomial.polynomial.polyval(rest, shape)
+    return out
+
+
+def _power(k: int, order: int, u: float) -> float:
+    """A derivative of u^k."""
+    factor = math.prod(range(k - order + 1, k + 1))
+    return factor * u ** (k - order) if k >= order else 0.0
 
 
 def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:

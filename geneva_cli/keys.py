@@ -66,6 +66,44 @@ class Size(NamedTuple):
     face_width_mm: Annotated[float | None, POSITIVE, "length of the roller's line of contact"] = (
         None
     )
+    wheel_radius_mm: Annotated[
+        float | None, POSITIVE, "rim of the wheel (inside: of its opening); where a roller enters"
+    ] = None
+    wheel_outer_radius_mm: Annotated[
+        float | None,
+        POSITIVE,
+        "internal: the outside of the wheel; a roller's width past the slots",
+    ] = None
+    slot_bottom_clearance_mm: Annotated[
+        float | None, NOT_NEGATIVE, "straight slots: deepest roller to the slot's end; r/20"
+    ] = None
+    lock_radius_mm: Annotated[
+        float | None,
+        NOT_NEGATIVE,
+        "locking disc, 0 for none; leaves a horn as thick as r if it can",
+    ] = None
+    relief: Annotated[
+        str | None, OneOf(("arc", "sector")), "cut of the locking disc; what clears"
+    ] = None
+    relief_clearance_mm: Annotated[
+        float | None, NOT_NEGATIVE, "wheel to the bottom of the relief; L/200"
+    ] = None
+    wall_min_mm: Annotated[
+        float | None, NOT_NEGATIVE, "least wall that `check` lets pass; L/200"
+    ] = None
+    wheel_bore_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the wheel's bore"] = None
+    wheel_hub_mm: Annotated[
+        float | None, NOT_NEGATIVE, "diameter of the wheel's hub on the roller's side"
+    ] = None
+    crank_bore_mm: Annotated[
+        float | None,
+        NOT_NEGATIVE,
+        "diameter of the crank's bore; 0: no shaft through the wheel's plane",
+    ] = None
+    crank_hub_mm: Annotated[
+        float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
+    ] = None
+    pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; r"] = None
 
 
 class Load(NamedTuple):

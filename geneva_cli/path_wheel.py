@@ -87,7 +87,9 @@ def station(path: Path, fit: Fit, step: gearing.Step, crank: complex) -> tuple[S
         _anchor(path, fit, 0.0, middle, wheel, rays[1], L),
         _anchor(path, fit, fit.exit - middle, fit.exit, step.b, rays[2], L),
     )
-    return SlotDriven(0.0, step.b, anchors, ahead=ahead, mirrored=False), L
+    out = SlotDriven(0.0, step.b, anchors, ahead=ahead, mirrored=False)
+    out.crank_sense = -fit.sense
+    return out, L
 
 
 def _anchor(

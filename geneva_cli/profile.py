@@ -61,7 +61,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     L = size.center_distance_mm
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     back = retraces(station)
-    at = _pitch(station, input_deg, back)
+    at = pitch_at(station, input_deg, back)
     # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
     # flanks keep the sides they had on the way in.
     straight = station.rail(station.entry_deg) is not None
@@ -87,7 +87,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     )
 
 
-def _pitch(station: Station, input_deg: Array, back: bool) -> Pitch:
+def pitch_at(station: Station, input_deg: Array, back: bool) -> Pitch:
     """The pitch curve, with its limit put in at a retracing mid-motion."""
     middle = np.flatnonzero(input_deg == 0.0) if back else np.array([], dtype=int)
     safe = input_deg.copy()
@@ -200,7 +200,7 @@ def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float
     station, size = mechanism.stations[0].slot_station, mechanism.spec.size
     L = size.center_distance_mm
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
-    at = _pitch(station, grid, retraces(station))
+    at = pitch_at(station, grid, retraces(station))
     turning = np.abs(at.turning)
     # sqrt(k) ds for the outer flank: its curve is longer by turning * offset
     density = np.sqrt(turning * (L * at.speed + offset * turning))

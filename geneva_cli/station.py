@@ -59,6 +59,9 @@ class Station(ABC):
     classic: tuple[float, float, float] | None = None
     # size and angle (degrees) of the peak acceleration, where there is a quicker way to it
     known_peak: Callable[[], tuple[float, float]] | None = None
+    # which way the crank turns where the roller is not on its arm: with the wheel (-1) or against
+    # it (1); 0 where it is, and the pin's direction is the crank's
+    crank_sense = 0.0
 
     def __init__(self, mid_deg: float, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.mid_deg = mid_deg  # the machine's input angle at this station's mid-motion

@@ -59,7 +59,9 @@ def plan(spec: Spec) -> Plan:
         _anchor(0.0, 0.0, gap("external", *step) - 2.0 * rp, 0.0, 1.0, both(1.0, 1.0, rp), c),
         _anchor(half, step.b, cos_b, 1.0, 0.0, both(1.0, -1.0, -rp), c),
     )
-    return Plan(SlotDriven(0.0, step.b, anchors), R0 + rp, spec.size)
+    station = SlotDriven(0.0, step.b, anchors)
+    station.crank_sense = 1.0
+    return Plan(station, R0 + rp, spec.size)
 
 
 def _anchor(

@@ -1,0 +1,131 @@
+"""Gaps between the parts at given positions: rollers against the wheel, the crank against it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.drawing import Contour, backwards
+from geneva_cli.plane import Plane
+from geneva_cli.polyarc import Polyarc
+from geneva_cli.sizes import Sizes
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.jet import Array
+
+NEAR = 0.02  # of the centre distance: wider gaps are not told apart; they are given as this
+SAGITTA = 2e-6  # of the centre distance: how far an arc's samples may miss it
+TOUCH = 1e-7  # of the locking disc: what lies in it by less touches it
+LONGEST = 0.02  # of the centre distance, between samples of a line
+
+
+class Clash:
+    """The parts of one machine, ready to be turned against each other."""
+
+    def __init__(self, plane: Plane, sizes: Sizes, wheel: Contour, crank: list[Contour]):
+        self.plane, self.sizes = plane, sizes
+        self.wheel = Polyarc([wheel if plane.sign > 0.0 else backwards(wheel)])
+        self.near = NEAR * plane.L
+        sagitta, longest = SAGITTA * plane.L, LONGEST * plane.L
+        self.crank = Polyarc(crank) if crank else None
+        self.wheel_points = self.wheel.samples(sagitta, longest)
+        # The wheel's points find smooth contacts; of the crank its corners are what they miss.
+        self.crank_points = self.crank.samples(plane.L, 0.1 * plane.L) if self.crank else None
+
+    def collides(self, input_deg: Array, lead: Array, close: float) -> NDArray[np.bool_]:
+        """Whether parts overlap by more than ``close`` with the wheel turned on by ``lead``."""
+        here = np.flatnonzero(self.locking(input_deg, lead, 0.0) >= -close)
+        out = np.ones(len(input_deg), dtype=bool)
+        out[here] = self.rollers(input_deg[here], lead[here], 0.0).min(axis=1) < -close
+        return out
+
+    def rollers(
+        self, input_deg: Array, lead: Array | float = 0.0, near: float | None = None
+    ) -> Array:
+        """The gap of each roller, (n, m), at input angles with the wheel turned on by ``lead``.
+
+        ``lead`` is in radians; gaps wider than ``near``, NEAR * L as a rule, are given as that.
+        """
+        near = self.near if near is None else near
+        turn = -(self.plane.wheel(input_deg) + lead)
+        columns: list[Array] = [
+            self._roller(_turned(self.plane.pin(i, input_deg), turn), near)
+            for i in range(len(self.plane.rollers))
+        ]
+        out: Array = np.column_stack(columns)
+        return out
+
+    def _roller(self, centres: Array, near: float) -> Array:
+        """The gap of a roller at places in the wheel's frame."""
+        r, sign = self.sizes.roller, self.plane.sign
+        far = sign * (np.hypot(*centres.T) - self.sizes.rim) - r
+        out: Array = np.minimum(far, near)
+        close = far < near
+        if close.any():
+            boundary = self.wheel.near(centres[close], r + near)
+            out[close] = np.minimum(boundary.signed(centres[close]) - r, near)
+        return out
+
+    def locking(
+        self, input_deg: Array, lead: Array | float = 0.0, near: float | None = None
+    ) -> Array:
+        """The gap between the crank's outline and the wheel's, (n,); see ``rollers``."""
+        near = self.near if near is None else near
+        if self.crank is None or self.crank_points is None:
+            return np.full(len(input_deg), near)
+        turn = self.plane.wheel(input_deg) + lead
+        pose = self.plane.crank(input_deg)
+        axis = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
+        # The wheel's corners and arcs against the crank ...
+        reach = self.sizes.lock + near
+        px, py = self.wheel_points.T
+        inside = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < reach * reach
+        owner, which = np.nonzero(inside)
+        seen = _turned(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+        out = _least(len(turn), owner, self.crank.signed(seen), near)
+        # ... and the crank's against the wheel.
+        x, y = self.crank_points.T
+        angle = pose - turn
+        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
+        inward = self.plane.sign * (np.hypot(qx, qy) - self.sizes.rim)
+        owner, which = np.nonzero(inward < near)
+        points = np.column_stack((qx[owner, which], qy[owner, which]))
+        if len(points):
+            signed = self.wheel.near(points, near).signed(points)
+            out = np.minimum(out, _least(len(turn), owner, signed, near))
+        return out
+
+    def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
+        """Where on the crank the wheel's points come within the locking disc in one motion.
+
+        Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
+        """
+        station, behind = self.plane.rollers[number]
+        count = max(2, math.ceil(station.motion_deg / step_deg)) + 1
+        at = behind + np.linspace(station.entry_deg, station.exit_deg, count)
+        turn, pose = self.plane.wheel(at), self.plane.crank(at)
+        axis = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
+        px, py = self.wheel_points.T
+        most = self.sizes.lock * (1.0 - TOUCH)
+        near = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < most * most
+        owner, which = np.nonzero(near)
+        seen = _turned(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+        return np.hypot(*seen.T), np.arctan2(seen[:, 1], seen[:, 0])
+
+
+def _turned(points: Array, angle: Array) -> Array:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack(
+        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
+    )
+
+
+def _least(count: int, owner: NDArray[np.intp], values: Array, most: float) -> Array:
+    out = np.full(count, most)
+    np.minimum.at(out, owner, values)
+    return out

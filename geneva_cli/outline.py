@@ -1,0 +1,103 @@
+"""The outlines of a machine's parts, and the relief of the crank that clears the wheel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.clash import Clash
+from geneva_cli.crank import crank_contours, is_whole, without_lock
+from geneva_cli.curved_walls import curved_walls
+from geneva_cli.drawing import Contour
+from geneva_cli.mechanism import Mechanism
+from geneva_cli.plane import Plane, plane
+from geneva_cli.sizes import Sizes, sizes
+from geneva_cli.station import LawDriven, Station
+from geneva_cli.straight_walls import straight_walls
+from geneva_cli.wheel import wheel_contour
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
+
+EXACT = 1e-9  # of the centre distance: rounding of outlines that are lines and arcs by nature
+CURVED = 2e-6  # of the centre distance: how nearly curved walls are known
+SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
+
+
+class Outlines(NamedTuple):
+    """Wheel and crank, ready to be drawn and to be turned against each other.
+
+    ``slots`` has the walls of each kind of slot; ``close`` is the overlap in mm that is rounding,
+    or the walls' tolerance.
+    """
+
+    plane: Plane
+    sizes: Sizes
+    slots: dict[Station, Contour]
+    wheel: Contour
+    crank: list[Contour]
+    relief: str
+    clash: Clash
+    close: float
+
+
+def outlines(mechanism: Mechanism) -> Outlines:
+    """The outlines in lines and arcs, as nearly as they are known: what the full turn is made with.
+
+    Raises GenevaError where the machine has no flat parts, or its sizes leave none.
+    """
+    where = plane(mechanism)
+    size = sizes(where)
+    kinds = dict.fromkeys(station for station, _ in where.slots)
+    curved = any(isinstance(station, LawDriven) for station in kinds)
+    fine = 0.5 * CURVED * where.L
+    walls = {station: slot_walls(where, size, station, fine) for station in kinds}
+    close = (CURVED if curved else EXACT) * where.L
+    wheel = wheel_contour(where, size, walls)
+    crank, relief, clash = _relieved(Clash(where, size, wheel, []), wheel, close)
+    return Outlines(where, size, walls, wheel, crank, relief, clash, close)
+
+
+def _sweep(bare: Clash) -> Callable[[int], tuple[Array, Array]]:
+    return lambda i: bare.swept(i, SWEPT_DEG)
+
+
+def slot_walls(
+    plane: Plane, sizes: Sizes, station: Station, tolerance: float, curves: str = "arcs"
+) -> Contour:
+    """The walls of one slot, straight or curved; see ``curved_walls`` for ``curves``."""
+    if isinstance(station, LawDriven):
+        return curved_walls(plane, sizes, station, tolerance, curves)
+    return straight_walls(plane, sizes, station)
+
+
+def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour], str, Clash]:
+    """The crank with the relief that the spec asks for, or else the first that clears the wheel.
+
+    The arc leaves the most of the disc and is one cut; where it collides, as at many slots, the
+    whole sector is cut down to where the wheel never comes.
+    """
+    plane, sizes, swept = bare.plane, bare.sizes, _sweep(bare)
+    if not sizes.lock:
+        return [], "none", bare
+    asked = plane.mechanism.spec.size.relief
+    arcs = is_whole(plane, sizes) and not without_lock(plane)
+    kinds = [asked] if asked else ["arc", "sector"] if arcs else ["sector"]
+    for kind in kinds:
+        crank = crank_contours(plane, sizes, kind, swept)
+        clash = Clash(plane, sizes, wheel, crank)
+        if kind == kinds[-1] or _clears(clash, close):
+            return crank, kind, clash
+    raise AssertionError
+
+
+def _clears(clash: Clash, close: float) -> bool:
+    """Whether the crank clears the wheel in all its motions."""
+    for station, behind in clash.plane.rollers:
+        count = 2 + int(station.motion_deg / SWEPT_DEG)
+        at = behind + np.linspace(station.entry_deg, station.exit_deg, count)
+        if clash.locking(at).min() < -close:
+            return False
+    return True

@@ -1,0 +1,145 @@
+"""A machine in its own plane: where wheel, crank and rollers stand through a whole cycle.
+
+What outlines and the full turn are made from. Lengths in millimetres, angles in radians, the
+wheel's axis the origin and the crank's at (L, 0). A drive in front of the crank changes only when
+the crank is where, so behind one the crank itself is turned.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli import kinds
+from geneva_cli.classic import SIGN
+from geneva_cli.drives.cam import CamDriven
+from geneva_cli.errors import GenevaError
+from geneva_cli.keys import Drive
+from geneva_cli.mechanism import Mechanism, build
+from geneva_cli.station import Station
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
+
+
+class Plane(NamedTuple):
+    """The machine as its outlines see it.
+
+    ``rollers`` has for each roller its station and the input angle, degrees, by which its
+    mid-motion follows the first roller's; ``slots`` for each slot of the wheel, counterclockwise
+    from the first, its station and direction; ``rests`` the directions of the crank's axis while
+    the wheel rests, seen from the wheel, each half-way between two slots.
+    """
+
+    mechanism: Mechanism
+    L: float
+    sign: float  # +1 external, -1 internal
+    turn_deg: float  # input angle in a whole turn of the crank
+    rollers: tuple[tuple[Station, float], ...]
+    slots: tuple[tuple[Station, float], ...]
+    rests: tuple[float, ...]
+
+    def pin(self, number: int, input_deg: Array) -> Array:
+        """A roller's centre at input angles, (n, 2)."""
+        station, behind = self.rollers[number]
+        at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
+        if isinstance(station, CamDriven):
+            return self.L * _on_cam(station, at)
+        x, y = station.pin(at, 0)
+        return self.L * np.column_stack((x.c[0], y.c[0]))
+
+    def crank(self, input_deg: Array) -> Array:
+        """The direction of the crank in the fixed frame, that of its first roller at input 0."""
+        station = self.rollers[0][0]
+        if station.crank_sense:
+            return self._ahead - self.sign * station.crank_sense * np.radians(input_deg)
+        x, y = (self.pin(0, input_deg) - (self.L, 0.0)).T
+        angle: Array = np.arctan2(y, x)
+        return angle
+
+    @property
+    def _ahead(self) -> float:
+        """Where the crank points at input 0: at the wheel's axis outside, away from it inside."""
+        return math.pi if self.sign > 0.0 else 0.0
+
+    def lock(self, input_deg: float) -> float:
+        """Where on the crank the line of centres is: the direction that locks the wheel."""
+        return self._ahead - float(self.crank(np.array([input_deg]))[0])
+
+    def wheel(self, input_deg: Array) -> Array:
+        """The wheel's angle at input angles of a whole turn from the first station's entry on."""
+        out = np.empty(len(input_deg))
+        turned = 0.0
+        for i, (station, mid) in enumerate(self.rollers):
+            begins = mid + station.entry_deg
+            after = self.rollers[i + 1] if i + 1 < len(self.rollers) else None
+            ends = after[1] + after[0].entry_deg if after else np.inf
+            here = (input_deg >= begins) & (input_deg < ends)
+            at = np.minimum(input_deg[here] - mid, station.exit_deg)
+            out[here] = turned + station.motion(at, 0).c[0]
+            turned += station.half_step + (after[0].half_step if after else 0.0)
+        return out
+
+    @property
+    def start_deg(self) -> float:
+        """Input angle of the first station's entry, from which a whole turn is counted."""
+        return self.rollers[0][0].entry_deg
+
+
+def plane(mechanism: Mechanism) -> Plane:
+    """The plane of a mechanism.
+
+    Raises GenevaError for a machine whose parts are not flat outlines.
+    """
+    spec = mechanism.spec
+    if spec.wheel.gearing == "spherical":
+        raise GenevaError(
+            'gearing = "spherical": its wheel is no flat part; `--part wheel` writes its slots as '
+            "a table (-o wheel.csv), and `--part slot` the flat development of one",
+            ("wheel", "gearing"),
+        )
+    if spec.drive.kind == "gear-sector":
+        raise GenevaError(
+            'kind = "gear-sector": its toothed sectors are no outline to cut; `--part slot` writes '
+            "its slots",
+            ("drive", "kind"),
+        )
+    if mechanism.law is None and not kinds.own_path(spec.drive.kind):
+        keep = spec.drive
+        crank = Drive("crank", keep.n_rpm, keep.rollers, keep.roller_angles_deg)
+        mechanism = build(spec._replace(drive=crank, kind=None))
+    turn = 360.0 * kinds.turns(mechanism.spec)
+    each = round(turn / mechanism.period_deg)
+    rollers = tuple(
+        (station, station.mid_deg + k * mechanism.period_deg)
+        for k in range(each)
+        for station in mechanism.stations
+    )
+    L = spec.size.center_distance_mm
+    sign = SIGN[spec.wheel.gearing]
+    return Plane(mechanism, L, sign, turn, rollers, *_around(mechanism))
+
+
+def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Station, float], ...], tuple[float, ...]]:
+    """Slots and rests around the wheel, counterclockwise: those that come later lie behind."""
+    stations, z = mechanism.stations, mechanism.spec.wheel.z
+    steps = mechanism.spec.wheel.steps_deg
+    kinds_ = [stations[k % len(stations)] if steps else stations[0] for k in range(z)]
+    slots, rests, at = [], [], 0.0
+    for k, station in enumerate(kinds_):
+        slots.append((station, at % math.tau))
+        rests.append((at - station.half_step) % math.tau)
+        at -= station.half_step + kinds_[(k + 1) % z].half_step
+    order = sorted(range(z), key=lambda k: slots[k][1])
+    return tuple(slots[k] for k in order), tuple(sorted(rests))
+
+
+def _on_cam(station: CamDriven, input_deg: Array) -> Array:
+    """The roller of a cam-Geneva, in units of L: its groove closed on the way back."""
+    from geneva_cli.groove import distance
+
+    R = distance(station, input_deg)
+    angle = np.radians(input_deg)
+    return np.column_stack((1.0 - station.sign * R * np.cos(angle), R * np.sin(angle)))
