@@ -18,11 +18,14 @@ from geneva_cli.station import LawDriven, LawMotion
 from geneva_cli.table import Table, rows_table
 
 STEPS = 60  # tried on the way to a motion of a whole turn
-NAMES = ("spec", "check", "value", "must_be", "limit", "passes", "nearest")
+NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
 
 
 class Check(NamedTuple):
-    """One check; ``nearest`` names the smallest change found that passes, where it fails."""
+    """One check; ``nearest`` names the smallest change found that passes, where it fails.
+
+    ``at_deg`` is the input angle at which the value occurs, where it is of one place.
+    """
 
     name: str
     value: float
@@ -30,16 +33,19 @@ class Check(NamedTuple):
     limit: float
     passes: bool
     nearest: str = ""
+    at_deg: float | None = None
 
 
 def checks(mechanism: Mechanism) -> list[Check]:
-    """Every check of one design: its motion, then its own ``[limits]``."""
-    return [*_motion(mechanism), *_limits(mechanism)]
+    """Every check of one design: its motion, its parts, then its own ``[limits]``."""
+    return [*_motion(mechanism), *_parts(mechanism), *_limits(mechanism)]
 
 
 def checks_table(mechanisms: list[Mechanism]) -> Table:
     """One row a check, spec after spec."""
-    rows = [(m.spec.path, *check) for m in mechanisms for check in checks(m)]
+    rows = [
+        (m.spec.path, c.name, c.value, c.at_deg, *c[2:6]) for m in mechanisms for c in checks(m)
+    ]
     return rows_table(NAMES, rows)
 
 
@@ -73,6 +79,33 @@ def _motion(mechanism: Mechanism) -> list[Check]:
         out.append(_pressure(mechanism, pressure, 90.0))
     out.append(_undercut(mechanism))
     return out
+
+
+def _parts(mechanism: Mechanism) -> list[Check]:
+    """Walls, shafts and the full turn, where the machine has flat parts."""
+    from geneva_cli.clearances import clearances
+    from geneva_cli.full_turn import full_turn
+    from geneva_cli.outline import outlines
+    from geneva_cli.plane import is_flat
+
+    if not is_flat(mechanism.spec):
+        return []
+    try:
+        found = outlines(mechanism)
+    except GenevaError as error:
+        return [Check("parts", 0.0, "at least", 1.0, False, str(error))]
+    return [
+        Check(
+            c.name,
+            c.value,
+            "at least" if c.at_least else "at most",
+            c.limit,
+            c.passes,
+            c.nearest,
+            c.at_deg,
+        )
+        for c in clearances(found, full_turn(found))
+    ]
 
 
 def _pressure(mechanism: Mechanism, value: float, limit: float) -> Check:

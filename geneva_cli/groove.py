@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,16 +32,42 @@ SAMPLES = 721
 
 
 def distance(station: CamDriven, input_deg: Array) -> Array:
-    """The roller's distance from the crank's axis over a whole turn, in units of L.
+    """The roller's distance from the crank's axis over a whole turn, in units of L."""
+    return _distances(station, input_deg)[0]
+
+
+def groove_curve(
+    station: CamDriven, L: float, offset: float
+) -> Callable[[Array], tuple[Array, Array]]:
+    """The groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
+
+    By the input angle over a whole turn, in the frame of the groove's table.
+    """
+
+    def curve(t: Array) -> tuple[Array, Array]:
+        R, slope, _ = _distances(station, t)
+        c, s = -station.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
+        x1, y1 = slope * c + station.sign * R * s, slope * s - station.sign * R * c
+        tangents = np.column_stack((x1, y1)) / np.hypot(x1, y1)[:, None]
+        normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
+        return L * np.column_stack((R * c, R * s)) + offset * normals, tangents
+
+    return curve
+
+
+def _distances(station: CamDriven, input_deg: Array) -> list[Array]:
+    """The roller's distance from the crank's axis, with two derivatives by the input in radians.
 
     In the dwell the groove goes back from exit to entry by the polynomial of degree 5 in the
     crank's angle that has both ends' distance, slope and curvature.
     """
     at = (input_deg - station.entry_deg) % 360.0 + station.entry_deg
     moving = at <= station.exit_deg
-    out = np.empty(len(at))
+    out = [np.empty(len(at)) for _ in range(3)]
     if moving.any():
-        out[moving] = station.distances(at[moving], 0)[1].c[0]
+        found = station.distances(at[moving], 2)[1].derivatives()
+        for column, values in zip(out, found, strict=True):
+            column[moving] = values
     span = math.radians(360.0 - station.motion_deg)
     ends = [station.distances(x, 2)[1].derivatives() for x in (station.exit_deg, station.entry_deg)]
     conditions, values = [], []
@@ -48,9 +75,10 @@ def distance(station: CamDriven, input_deg: Array) -> Array:
         for order, value in enumerate(end):
             conditions.append([_power(k, order, u) for k in range(6)])
             values.append(value * span**order)
-    shape = np.linalg.solve(np.array(conditions), np.array(values))
+    shape = np.polynomial.Polynomial(np.linalg.solve(np.array(conditions), np.array(values)))
     rest = np.radians(at[~moving] - station.exit_deg) / span
-    out[~moving] = np.polynomial.polynomial.polyval(rest, shape)
+    for order, column in enumerate(out):
+        column[~moving] = shape.deriv(order)(rest) / span**order
     return out
 
 

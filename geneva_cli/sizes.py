@@ -66,7 +66,8 @@ def sizes(plane: Plane) -> Sizes:
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
-    bore = _crank_bore(given.crank_bore_mm, min(room, depth - relief), L)
+    linkage = spec.drive.kind in UNLOCKED
+    bore = 0.0 if linkage else _crank_bore(given.crank_bore_mm, min(room, depth - relief), L)
     wheel_bore = _or(_half(given.wheel_bore_mm), min(L / 12.0, 0.4 * end) if outside else 0.0)
     out = Sizes(
         roller=r,

@@ -6,9 +6,10 @@ import math
 import os
 import re
 import sys
+from collections.abc import Callable
 from itertools import islice
 from types import UnionType
-from typing import Any, NamedTuple, get_args, get_type_hints
+from typing import Any, NamedTuple, TypeVar, get_args, get_type_hints
 
 import tomli
 
@@ -16,6 +17,7 @@ from geneva_cli import drives, keys, kinds
 from geneva_cli.errors import GenevaError, clean, nearest
 from geneva_cli.mechanism import Mechanism, build
 
+T = TypeVar("T")
 TRIES = 10  # lines that look like setting a key, before its table is named instead
 BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
 TABLES: dict[str, Any] = {
@@ -43,6 +45,14 @@ def load(path: str) -> Mechanism:
 
     Raises GenevaError, with the message ready to print, for anything wrong with the file.
     """
+    return load_and(path, lambda mechanism: mechanism)
+
+
+def load_and(path: str, make: Callable[[Mechanism], T]) -> T:
+    """What is made of a spec's mechanism; what is wrong with it is said with the spec's line too.
+
+    Raises GenevaError as ``load`` does.
+    """
     name = "<stdin>" if path == "-" else path
     text = _read(path, name)
     try:
@@ -55,7 +65,7 @@ def load(path: str) -> Mechanism:
     except ValueError as error:  # a whole number of thousands of digits
         raise GenevaError(f"{name}: not a spec: {error}") from None
     try:
-        return build(_spec(tree, name))
+        return make(build(_spec(tree, name)))
     except GenevaError as error:
         if not error.key:
             raise

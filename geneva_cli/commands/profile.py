@@ -2,35 +2,88 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import sys
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, SpecPath, warn
+from geneva_cli.commands.options import Output, SpecPath, warn
+from geneva_cli.errors import GenevaError, clean
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.mechanism import Mechanism
+    from geneva_cli.outline import Outlines
+
+CURVES = {"arcs": "arcs", "spline": "cubics"}
 
 
 def run(
     spec: SpecPath,
-    part: Annotated[str, typer.Option(metavar="PART", help="slot, gears or groove.")] = "slot",
+    part: Annotated[
+        str,
+        typer.Option(metavar="PART", help="slot, wheel, crank, assembly, gears or groove."),
+    ] = "slot",
     tolerance: Annotated[
         float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
     ] = 0.001,
     samples: Annotated[
-        int | None, typer.Option(metavar="N", help="This many rows instead, evenly.")
+        int | None, typer.Option(metavar="N", help="This many rows instead, evenly (tables).")
     ] = None,
+    curves: Annotated[
+        str, typer.Option(metavar="KIND", help="Curved walls as arcs, or as spline for CAD.")
+    ] = "arcs",
+    units: Annotated[str, typer.Option(metavar="UNIT", help="Of drawings: mm or inch.")] = "mm",
+    force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
     output: Output = "-",
-    format: Format = "",
+    format: Annotated[
+        str,
+        typer.Option("--format", metavar="FORMAT", help="table, csv, json, md, dxf or svg."),
+    ] = "",
 ) -> None:
-    """The slot: pitch curve, both flanks, pressure angle and radius of curvature.
+    """A part as points, or as a drawing to cut: the slot, the wheel, the crank, or all together.
 
-    In the wheel's frame, x towards the crank's axis at mid-motion. Left and right are the flanks
-    as the pin travels in; the radius is positive where its centre lies to the left.
+    Drawings are dxf and svg; a slot is a table of its pitch curve and flanks elsewhere. The slot is
+    in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
+    the pin travels in. Before a drawing is written its machine is turned through a whole turn.
     """
-    from geneva_cli.output import show
-    from geneva_cli.part import part_table
-    from geneva_cli.spec import load
+    from geneva_cli.output import draw, is_drawn, show
+    from geneva_cli.part import is_table, part_drawing, part_table
+    from geneva_cli.spec import load_and
 
-    mechanism = load(spec)
-    table = part_table(mechanism, part, tolerance, samples)
-    show(table, output, format, mechanism.spec.files)
+    if curves not in CURVES:
+        raise GenevaError(f"--curves {curves}: it must be arcs or spline")
+    if not tolerance > 0.0:
+        raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
+    drawn = is_drawn(output, format)
+
+    def make(mechanism: Mechanism) -> Table | Outlines:
+        if is_table(mechanism, part, drawn):
+            return part_table(mechanism, part, tolerance, samples)
+        from geneva_cli.outline import outlines
+
+        return outlines(mechanism)
+
+    mechanism, found = load_and(spec, lambda m: (m, make(m)))
+    if isinstance(found, Table):
+        show(found, output, format, mechanism.spec.files)
+    else:
+        _refuse_jam(found, force)
+        drawing = part_drawing(found, part, tolerance, CURVES[curves])
+        draw(drawing, output, format, units, mechanism.spec.files)
     warn(mechanism)
+
+
+def _refuse_jam(found: Outlines, force: bool) -> None:
+    """Exit status 1 for a machine that does not turn; forced, a warning only."""
+    from geneva_cli.clearances import jam
+    from geneva_cli.full_turn import full_turn
+
+    why = jam(found, full_turn(found))
+    if not why:
+        return
+    path = found.plane.mechanism.spec.path
+    text = f"warning: {why}" if force else f"not written: {why}; --force writes it all the same"
+    print(clean(f"{path}: {text}"), file=sys.stderr)
+    if not force:
+        raise typer.Exit(1)

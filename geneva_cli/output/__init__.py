@@ -71,6 +71,11 @@ def draw(
     _put(module.chunks(drawing, units), output, inputs)
 
 
+def is_drawn(output: str, format: str) -> bool:
+    """Whether this file or format takes a drawing as lines and arcs, and no table."""
+    return (format or format_of(output, {**DRAWN, **FORMATS})) in DRAWN
+
+
 def show_text(text: str, output: str = "-") -> None:
     """Print a text as it is, or write it to a file."""
     _put([text], output, ())
