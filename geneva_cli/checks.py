@@ -11,6 +11,7 @@ from geneva_cli.cautions import SHOWN_UNDERCUT, turns_back
 from geneva_cli.drives import GEARED
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Z_USUAL, Spec
+from geneva_cli.kinds import is_flat
 from geneva_cli.mechanism import Mechanism, build, matched_ratio_of
 from geneva_cli.peaks import Peaks, worst
 from geneva_cli.pitch import retraces
@@ -83,13 +84,12 @@ def _motion(mechanism: Mechanism) -> list[Check]:
 
 def _parts(mechanism: Mechanism) -> list[Check]:
     """Walls, shafts and the full turn, where the machine has flat parts."""
+    if not is_flat(mechanism.spec):
+        return []
     from geneva_cli.clearances import clearances
     from geneva_cli.full_turn import full_turn
     from geneva_cli.outline import outlines
-    from geneva_cli.plane import is_flat
 
-    if not is_flat(mechanism.spec):
-        return []
     try:
         found = outlines(mechanism)
     except GenevaError as error:

@@ -37,3 +37,8 @@ def refuse_reach(spec: Spec, farthest_deg: float) -> None:
             "on either side; fewer slots here, or fewer on the first wheel",
             ("wheel", "z"),
         )
+
+
+def is_flat(spec: Spec) -> bool:
+    """Whether wheel and crank of a machine are flat outlines."""
+    return spec.wheel.gearing != "spherical" and spec.drive.kind != "gear-sector"

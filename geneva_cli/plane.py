@@ -16,7 +16,7 @@ from geneva_cli import kinds
 from geneva_cli.classic import SIGN
 from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
-from geneva_cli.keys import Drive, Spec
+from geneva_cli.keys import Drive
 from geneva_cli.mechanism import Mechanism, build
 from geneva_cli.station import Station
 
@@ -86,11 +86,6 @@ class Plane(NamedTuple):
     def start_deg(self) -> float:
         """Input angle of the first station's entry, from which a whole turn is counted."""
         return self.rollers[0][0].entry_deg
-
-
-def is_flat(spec: Spec) -> bool:
-    """Whether wheel and crank of a machine are flat outlines."""
-    return spec.wheel.gearing != "spherical" and spec.drive.kind != "gear-sector"
 
 
 def plane(mechanism: Mechanism) -> Plane:

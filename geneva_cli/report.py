@@ -7,6 +7,8 @@ from typing import Any
 
 from geneva_cli import loads
 from geneva_cli.cautions import cautions
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinds import is_flat
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.peaks import Peaks, peaks, worst
 from geneva_cli.station import LawDriven, Station
@@ -26,6 +28,7 @@ def report_table(mechanism: Mechanism) -> Table:
     values |= _loads(mechanism)
     values |= _drive(mechanism)
     values |= _sizes(mechanism)
+    values |= _parts(mechanism)
     found = cautions(mechanism)
     values |= {f"warnings.{i}": text for i, text in enumerate(found, 1)} or {"warnings": "none"}
     title = mechanism.spec.title
@@ -158,6 +161,41 @@ def _sizes(mechanism: Mechanism) -> dict[str, Any]:
     if isinstance(station, LawDriven):
         values["sizes.pressure_angle_max_deg"] = loads.greatest(mechanism, "pressure_deg").max
     values["sizes.rollers_max"] = mechanism.rollers_max
+    return values
+
+
+def _parts(mechanism: Mechanism) -> dict[str, Any]:
+    """Sizes that the parts are cut to, and what a whole turn of them shows."""
+    if not is_flat(mechanism.spec):
+        return {}
+    from geneva_cli.full_turn import full_turn
+    from geneva_cli.outline import outlines
+
+    try:
+        found = outlines(mechanism)
+    except GenevaError as error:
+        return {"parts": f"none: {error}"}
+    size, turn = found.sizes, full_turn(found)
+    values: dict[str, Any] = {
+        "parts.rim_radius_mm": size.rim,
+        "parts.slot_end_radius_mm": size.slot_end,
+        "parts.lock_radius_mm": size.lock or "none",
+    }
+    if found.crank:
+        values |= {
+            "parts.recess_radius_mm": size.recess,
+            "parts.relief": found.relief,
+            "parts.horn_mm": size.horn,
+        }
+    for name, radius in (("wheel_bore", size.wheel_bore), ("crank_bore", size.crank_bore)):
+        values[f"parts.{name}_mm"] = 2.0 * radius or "none"
+    values["parts.smallest_gap_mm"] = turn.smallest.mm if turn.smallest.mm > found.close else 0.0
+    values["parts.smallest_gap_at_deg"] = turn.smallest.at_deg
+    if turn.smallest.mm < -found.close:
+        values["parts.smallest_gap_mm"] = turn.smallest.mm
+    if found.crank:
+        values["parts.dwell_play_deg"] = turn.dwell_play_deg
+        values["parts.hand_over_play_deg"] = turn.hand_over_deg
     return values
 
 

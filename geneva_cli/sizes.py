@@ -68,7 +68,9 @@ def sizes(plane: Plane) -> Sizes:
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     linkage = spec.drive.kind in UNLOCKED
     bore = 0.0 if linkage else _crank_bore(given.crank_bore_mm, min(room, depth - relief), L)
-    wheel_bore = _or(_half(given.wheel_bore_mm), min(L / 12.0, 0.4 * end) if outside else 0.0)
+    wheel_bore = _or(
+        _half(given.wheel_bore_mm), _even(min(L / 12.0, 0.4 * end)) if outside else 0.0
+    )
     out = Sizes(
         roller=r,
         half_width=w,
@@ -82,9 +84,9 @@ def sizes(plane: Plane) -> Sizes:
         relief=relief,
         wall_min=_or(given.wall_min_mm, L / 200.0),
         wheel_bore=wheel_bore,
-        wheel_hub=_or(_half(given.wheel_hub_mm), min(1.6 * wheel_bore, 0.75 * end)),
+        wheel_hub=_or(_half(given.wheel_hub_mm), _even(min(1.6 * wheel_bore, 0.75 * end))),
         crank_bore=bore,
-        crank_hub=_or(_half(given.crank_hub_mm), 1.5 * bore),
+        crank_hub=_or(_half(given.crank_hub_mm), _even(1.5 * bore)),
         pin=_or(_half(given.pin_mm), r / 2.0),
     )
     _refuse(plane, out)
@@ -130,7 +132,15 @@ def _crank_bore(given: float | None, room: float, L: float) -> float:
     """Half the room between axis and relief; too thin a shaft ends below the wheel instead."""
     if given is not None:
         return 0.5 * given
-    return 0.45 * room if 0.45 * room >= L / 40.0 else 0.0
+    return _even(0.45 * room) if 0.45 * room >= L / 40.0 else 0.0
+
+
+def _even(radius: float) -> float:
+    """A radius of which the diameter has two digits, rounded down; 0 where nothing is left."""
+    if radius <= 0.0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(2.0 * radius)) - 1)
+    return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
 
 
 def _pitch(plane: Plane, station: Station) -> Array:
