@@ -9,7 +9,9 @@ demo: .venv/demo
 	@mkdir -p build
 	$(BIN)/geneva table --z 6 --internal
 	$(BIN)/geneva profile designs/modified-sine-matched.toml -o build/modified-sine-slot.csv
-	@echo "the slot of designs/modified-sine-matched.toml is in build/modified-sine-slot.csv"
+	$(BIN)/geneva profile designs/modified-sine-matched.toml --part wheel -o build/wheel.dxf
+	$(BIN)/geneva profile designs/modified-sine-matched.toml --part assembly -o build/machine.svg
+	@echo "written to build/: modified-sine-slot.csv, wheel.dxf, machine.svg"
 
 test: .venv/dev lint
 	$(BIN)/pytest -n auto

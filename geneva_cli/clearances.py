@@ -34,7 +34,6 @@ FREE = (  # sizes that are put back to their defaults, one by one, to free a mac
     "roller_radius_mm",
 )
 SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
-NOTHING = 1e-6  # degrees: a play as small as this is rounding
 TRIES = 12  # halvings between a size that jams and one that does not
 
 
@@ -71,8 +70,7 @@ def turning(found: Outlines, turn: FullTurn) -> Iterator[Clearance]:
     limit = _finds_slot(found)
     held = turn.hand_over_deg <= limit
     advice = "" if held else freed(found)
-    play = turn.dwell_play_deg if turn.dwell_play_deg > NOTHING else 0.0
-    yield Clearance("dwell_play_deg", play, None, False, limit, True)
+    yield Clearance("dwell_play_deg", turn.dwell_play_deg, None, False, limit, True)
     name, at = "hand_over_play_deg", turn.hand_over_at_deg
     yield Clearance(name, turn.hand_over_deg, at, False, limit, held, advice)
     pushes = turn.push_deg <= PUSH_MAX_DEG

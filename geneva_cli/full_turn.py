@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
 NEAR = 1e-9  # degrees: positions nearer to each other are one
+NO_PLAY = 1e-6  # degrees: a play as small as this is rounding
 DIP = 1e-9  # mm: a gap that is less by less is not
 DIPS = 12  # smallest gaps that are looked at more closely
 FINER = 9  # positions put around each of them, each time
@@ -88,6 +89,7 @@ def full_turn(outlines: Outlines) -> FullTurn:
     middles = np.array([0.5 * (a + b) for a, b, rests in windows(outlines) if rests])
     dwell = float(np.degrees(np.maximum(*edges(outlines, middles)).max())) if len(middles) else 0.0
     push, push_at = _push(outlines, play)
+    dwell = dwell if dwell > NO_PLAY else 0.0
     return FullTurn(
         driving,
         idle,
@@ -138,9 +140,9 @@ def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
 
     several = len(outlines.plane.rollers) > 1
     return (
-        _least(own, at, "roller and slot"),
-        _least(others, at, "idle roller and wheel") if several else None,
-        _least(clash.locking, at, "locking disc and wheel"),
+        _least(own, at, outlines.close, "roller and slot"),
+        _least(others, at, outlines.close, "idle roller and wheel") if several else None,
+        _least(clash.locking, at, outlines.close, "locking disc and wheel"),
     )
 
 
@@ -155,7 +157,7 @@ def _drives(outlines: Outlines, x: Array) -> NDArray[np.bool_]:
     return np.column_stack(columns)
 
 
-def _least(gap: Callable[[Array], Array], at: Array, parts: str) -> Gap:
+def _least(gap: Callable[[Array], Array], at: Array, close: float, parts: str) -> Gap:
     """The smallest gap over a turn: around each place where it is smallest, ever closer."""
     values = gap(at)
     best = int(np.argmin(values))
@@ -177,7 +179,9 @@ def _least(gap: Callable[[Array], Array], at: Array, parts: str) -> Gap:
             row = int(np.argmin(v[rows, i]))
             found = float(v[row, i[row]]), float(x[row, i[row]])
         low, high = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, FINER - 1)]
-    return Gap(*found, parts)
+    # A gap that stays the same for a while is said to be where it begins.
+    early = np.flatnonzero(values <= found[0] + close)
+    return Gap(found[0], float(at[early[0]]) if len(early) else found[1], parts)
 
 
 def _play(outlines: Outlines) -> Play:

@@ -25,6 +25,7 @@ from geneva_cli.table import Table, rows_table
 
 UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one
 SUFFIX = {"mm": "mm", "inch": "in"}
+DECIMALS = 12  # beyond them is rounding
 STEP = 1e-9  # mm; what is shorter, or bends less from its chord, no file shows
 LENGTHS = (
     "x",
@@ -44,14 +45,22 @@ LENGTHS = (
 def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
     """One row a segment or circle, contours and their pieces counted from 1.
 
+    The columns of control points are there where there are cubics.
+
     ``units`` is mm or inch, and names the columns. Raises GenevaError as ``prepared`` does.
     """
     rows = []
     for number, shape in enumerate(prepared(drawing, units).shapes, 1):
         pieces = shape.segments if isinstance(shape, Contour) else (shape,)
-        rows += [(shape.layer, number, i, *_values(piece)) for i, piece in enumerate(pieces, 1)]
+        for i, piece in enumerate(pieces, 1):
+            kind, *values = _values(piece)
+            shown = [None if v is None else round(v, DECIMALS) + 0.0 for v in values]
+            rows.append((shape.layer, number, i, kind, *shown))
     lengths = [f"{name}_{SUFFIX[units]}" for name in LENGTHS]
-    names = ("layer", "contour", "piece", "kind", *lengths[:7], "sweep_deg", *lengths[7:])
+    names = ["layer", "contour", "piece", "kind", *lengths[:7], "sweep_deg", *lengths[7:]]
+    if not any(row[3] == "cubic" for row in rows):
+        names = names[:-4]
+        rows = [row[:-4] for row in rows]
     return rows_table(names, rows, drawing.title)
 
 

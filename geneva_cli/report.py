@@ -189,13 +189,11 @@ def _parts(mechanism: Mechanism) -> dict[str, Any]:
         }
     for name, radius in (("wheel_bore", size.wheel_bore), ("crank_bore", size.crank_bore)):
         values[f"parts.{name}_mm"] = 2.0 * radius or "none"
-    values["parts.smallest_gap_mm"] = turn.smallest.mm if turn.smallest.mm > found.close else 0.0
-    values["parts.smallest_gap_at_deg"] = turn.smallest.at_deg
-    if turn.smallest.mm < -found.close:
-        values["parts.smallest_gap_mm"] = turn.smallest.mm
+    gap = turn.smallest
+    values["parts.smallest_gap_mm"] = gap.mm if abs(gap.mm) > found.close else 0.0
+    values["parts.smallest_gap_at_deg"] = gap.at_deg
     if found.crank:
         values["parts.dwell_play_deg"] = turn.dwell_play_deg
-        values["parts.hand_over_play_deg"] = turn.hand_over_deg
     return values
 
 
