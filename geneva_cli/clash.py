@@ -30,11 +30,29 @@ class Clash:
         self.plane, self.sizes = plane, sizes
         self.wheel = Polyarc([wheel if plane.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * plane.L
+        self._sector()
         sagitta, longest = SAGITTA * plane.L, LONGEST * plane.L
         self.crank = Polyarc(crank) if crank else None
         self.wheel_points = self.wheel.samples(sagitta, longest)
         # The wheel's points find smooth contacts; of the crank its corners are what they miss.
         self.crank_points = self.crank.samples(plane.L, 0.1 * plane.L) if self.crank else None
+
+    def _sector(self) -> None:
+        """Where all slots are alike, one of them and its neighbours stand for the wheel."""
+        slots = self.plane.slots
+        self.pitch = math.tau / len(slots) if len({s for s, _ in slots}) == 1 else 0.0
+        middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
+        reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
+        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
+        self.around = self.wheel.subset(keep) if self.pitch else self.wheel
+
+    def _to_wheel(self, points: Array, reach: float) -> Array:
+        """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""
+        if not self.pitch:
+            return self.wheel.near(points, reach).signed(points)
+        at = np.arctan2(points[:, 1], points[:, 0])
+        folded = _turned(points, -self.pitch * np.round(at / self.pitch))
+        return self.around.near(folded, reach).signed(folded)
 
     def collides(self, input_deg: Array, lead: Array, close: float) -> NDArray[np.bool_]:
         """Whether parts overlap by more than ``close`` with the wheel turned on by ``lead``."""
@@ -66,8 +84,7 @@ class Clash:
         out: Array = np.minimum(far, near)
         close = far < near
         if close.any():
-            boundary = self.wheel.near(centres[close], r + near)
-            out[close] = np.minimum(boundary.signed(centres[close]) - r, near)
+            out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
         return out
 
     def locking(
@@ -96,7 +113,7 @@ class Clash:
         owner, which = np.nonzero(inward < near)
         points = np.column_stack((qx[owner, which], qy[owner, which]))
         if len(points):
-            signed = self.wheel.near(points, near).signed(points)
+            signed = self._to_wheel(points, near)
             out = np.minimum(out, _least(len(turn), owner, signed, near))
         return out
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,10 +32,13 @@ FREE = (  # sizes that are put back to their defaults, one by one, to free a mac
     "relief_clearance_mm",
     "slot_bottom_clearance_mm",
     "wheel_outer_radius_mm",
+    "lock_clearance_mm",
+    "slot_clearance_mm",
     "roller_radius_mm",
 )
 SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
-TRIES = 12  # halvings between a size that jams and one that does not
+NEARLY = 0.02  # of the way from what jams to the default, by which advice may be rounded
+TRIES = 8  # halvings between a size that jams and one that does not
 
 
 class Clearance(NamedTuple):
@@ -56,32 +60,35 @@ def clearances(found: Outlines, turn: FullTurn) -> list[Clearance]:
 
 def turning(found: Outlines, turn: FullTurn) -> Iterator[Clearance]:
     """What a whole turn shows: no parts overlap, the wheel is held and pushed into line."""
+    free = cache(lambda: freed(found))  # some seconds, and the same for every check that fails
     smallest = turn.smallest
     fits = smallest.mm >= -found.close
     value = 0.0 if abs(smallest.mm) <= found.close else smallest.mm
-    yield Clearance("gap_mm", value, smallest.at_deg, True, 0.0, fits, "" if fits else freed(found))
+    yield Clearance("gap_mm", value, smallest.at_deg, True, 0.0, fits, "" if fits else free())
     if turn.idle is not None:
         gap = max(turn.idle.mm, 0.0) if turn.idle.mm >= -found.close else turn.idle.mm
-        free = gap >= 0.0
-        advice = "" if free else f"roller_radius_mm = {found.sizes.roller + gap:.4g}"
-        yield Clearance("idle_roller_mm", gap, turn.idle.at_deg, True, 0.0, free, advice)
+        clears = gap >= 0.0
+        advice = "" if clears else f"roller_radius_mm = {_floor(found.sizes.roller + gap):.4g}"
+        yield Clearance("idle_roller_mm", gap, turn.idle.at_deg, True, 0.0, clears, advice)
     if not found.crank:
         return
     limit = _finds_slot(found)
     held = turn.hand_over_deg <= limit
-    advice = "" if held else freed(found)
+    advice = "" if held else free()
     yield Clearance("dwell_play_deg", turn.dwell_play_deg, None, False, limit, True)
     name, at = "hand_over_play_deg", turn.hand_over_at_deg
     yield Clearance(name, turn.hand_over_deg, at, False, limit, held, advice)
     pushes = turn.push_deg <= PUSH_MAX_DEG
     name, at = "hand_over_pressure_deg", turn.push_at_deg
-    advice = "" if pushes else freed(found)
+    advice = "" if pushes else free()
     yield Clearance(name, turn.push_deg, at, False, PUSH_MAX_DEG, pushes, advice)
 
 
 def jam(found: Outlines, turn: FullTurn) -> str:
     """Why a machine does not turn, where, and what would free it; nothing if it turns."""
     failing = [c for c in turning(found, turn) if not c.passes]
+    wall = next(iter(_walls(found)))
+    failing += [wall] if wall.value < 0.0 else []
     if not failing:
         return ""
     said = []
@@ -91,6 +98,8 @@ def jam(found: Outlines, turn: FullTurn) -> str:
             said.append(f"{turn.smallest.parts} overlap by {-c.value:.4g} mm{where}")
         elif c.name == "idle_roller_mm":
             said.append(f"an idle roller overlaps the wheel by {-c.value:.4g} mm{where}")
+        elif c.name == "wall_between_slots_mm":
+            said.append(f"neighbouring slots cut each other by {-c.value:.4g} mm")
         elif c.name == "hand_over_play_deg":
             said.append(
                 f"at rest the wheel can turn by {c.value:.4g} deg{where}, more than the "
@@ -114,7 +123,7 @@ def freed(found: Outlines) -> str:
         now = getattr(size, key)
         if now is None:
             continue
-        if _passes(_with(mechanism, key, getattr(defaults, key))):
+        if now != getattr(defaults, key) and _passes(_with(mechanism, key, getattr(defaults, key))):
             return _nearest(mechanism, key, now)
     now = found.sizes.roller
     for share in SHARES:
@@ -133,21 +142,27 @@ def _nearest(mechanism: Mechanism, key: str, now: float | str) -> str:
     """The value between one that jams and the default that is nearest to the one that jams."""
     default = _default(mechanism, key)
     if not isinstance(now, float) or not isinstance(default, float):
-        return f"without {key}" if default is None else f"{key} = {default}"
+        return f"leaving out {key}" if default is None else f"{key} = {default}"
     good, bad = default, now
     for _ in range(TRIES):
         middle = 0.5 * (good + bad)
         good, bad = (middle, bad) if _passes(_with(mechanism, key, middle)) else (good, middle)
-    for digits in range(5, 12):
-        shown = float(f"{good:.{digits}g}")
-        if _passes(_with(mechanism, key, shown)):
-            return f"{key} = {shown:.{digits}g}"
-    return f"without {key}"
+    # Rounded to where it passes, to as many digits as the distance needs.
+    for digits in range(4, 12):
+        step = 10.0 ** (math.floor(math.log10(abs(good) or 1.0)) + 1 - digits)
+        shown = step * (math.floor(good / step) if good < bad else math.ceil(good / step))
+        if abs(shown - good) <= NEARLY * abs(now - default):
+            break
+    return (
+        f"{key} = {shown:.{digits}g}"
+        if _passes(_with(mechanism, key, shown))
+        else f"{key} = {good!r}"
+    )
 
 
 def _default(mechanism: Mechanism, key: str) -> float | None:
     """What a size is when the spec does not say."""
-    without = _with(mechanism, key, None)
+    without = _with(mechanism, key, getattr(Size(), key))
     assert without is not None  # it was built before
     plain = outlines(without).sizes
     of: dict[str, float] = {
@@ -156,6 +171,8 @@ def _default(mechanism: Mechanism, key: str) -> float | None:
         "relief_clearance_mm": plain.relief,
         "slot_bottom_clearance_mm": plain.slot_bottom,
         "wheel_outer_radius_mm": plain.outer,
+        "lock_clearance_mm": 0.0,
+        "slot_clearance_mm": 0.0,
         "roller_radius_mm": plain.roller,
     }
     return of.get(key)
@@ -181,7 +198,7 @@ def _passes(mechanism: Mechanism | None) -> bool:
     held = not found.crank or (
         turn.hand_over_deg <= _finds_slot(found) and turn.push_deg <= PUSH_MAX_DEG
     )
-    return turn.smallest.mm >= -found.close and held
+    return turn.smallest.mm >= -found.close and held and _between_slots(found) >= 0.0
 
 
 def _finds_slot(found: Outlines) -> float:

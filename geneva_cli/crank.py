@@ -135,8 +135,9 @@ def _rings(
                 break
         else:
             raise GenevaError(
-                "the wheel sweeps over the whole locking sector; a smaller lock_radius_mm than "
-                f"{sizes.lock:.6g}, or a smaller roller, leaves room for one",
+                "the wheel sweeps over the whole locking sector: another lock_radius_mm than "
+                f"{sizes.lock:.6g}, or a smaller roller, may leave room for one; 0 leaves it out, "
+                "where the wheel is held in another way",
                 ("size", "lock_radius_mm"),
             )
     return found

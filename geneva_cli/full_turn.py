@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geneva_cli.jet import Array
 
 SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
+POSITIONS = 4000  # at most
 NEAR = 1e-9  # degrees: positions nearer to each other are one
 NO_PLAY = 1e-6  # degrees: a play as small as this is rounding
 DIP = 1e-9  # mm: a gap that is less by less is not
@@ -111,15 +112,14 @@ def positions(outlines: Outlines) -> Array:
     way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(plane.wheel(grid)))
     feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
     total = np.concatenate(([0.0], np.cumsum(way)))
-    count = min(math.ceil(total[-1] / feature), 20_000)
+    count = min(math.ceil(total[-1] / feature), POSITIONS)
     found = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
-    ends = [b + e for s, b in plane.rollers for e in (s.entry_deg, s.exit_deg)]
-    return np.unique(np.concatenate((found, [_wrapped(outlines, e) for e in ends])))
-
-
-def _wrapped(outlines: Outlines, input_deg: float) -> float:
-    plane = outlines.plane
-    return plane.start_deg + (input_deg - plane.start_deg) % plane.turn_deg
+    # A rim that is too large is fouled for less than a degree about entry and exit.
+    ends = np.array([b + e for s, b in plane.rollers for e in (s.entry_deg, s.exit_deg)])
+    beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
+    near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
+    near = plane.start_deg + (near - plane.start_deg) % plane.turn_deg
+    return np.unique(np.concatenate((found, near)))
 
 
 def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:

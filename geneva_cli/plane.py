@@ -23,6 +23,8 @@ from geneva_cli.station import Station
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
 
+Z_MAX = 360  # slots of a wheel that is drawn: one a degree
+
 
 class Plane(NamedTuple):
     """The machine as its outlines see it.
@@ -96,15 +98,19 @@ def plane(mechanism: Mechanism) -> Plane:
     spec = mechanism.spec
     if spec.wheel.gearing == "spherical":
         raise GenevaError(
-            'gearing = "spherical": its wheel is no flat part; `--part wheel` writes its slots as '
-            "a table (-o wheel.csv), and `--part slot` the flat development of one",
+            'gearing = "spherical": its parts are not flat; as tables (-o FILE.csv) `--part wheel` '
+            "writes the slots on the sphere, and `--part slot` the flat development of one",
             ("wheel", "gearing"),
         )
     if spec.drive.kind == "gear-sector":
         raise GenevaError(
             'kind = "gear-sector": its toothed sectors are no outline to cut; `--part slot` writes '
-            "its slots",
+            "its slots as a table (-o FILE.csv)",
             ("drive", "kind"),
+        )
+    if spec.wheel.z > Z_MAX:
+        raise GenevaError(
+            f"z = {spec.wheel.z}: parts are drawn for up to {Z_MAX} slots", ("wheel", "z")
         )
     if mechanism.law is None and not kinds.own_path(spec.drive.kind):
         keep = spec.drive

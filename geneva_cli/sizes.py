@@ -201,11 +201,39 @@ def _lock(plane: Plane, arm: float, w: float, rim: float) -> float:
 
 def _refuse(plane: Plane, found: Sizes) -> None:
     outside = plane.sign > 0.0
+    if found.lock and not abs(plane.L - found.rim) < found.recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {found.rim:g}: the rim lies beyond the locking disc, which opens "
+            f"it only where it is below {plane.L + found.recess:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
     if outside and found.slot_end <= 0.0:
         raise GenevaError(
-            f"roller_radius_mm = {found.roller:g}: the slots meet in the wheel's centre; below "
-            f"{found.roller + found.slot_end:.4g} they do not",
+            "the slots meet in the wheel's centre: roller_radius_mm, slot_clearance_mm and "
+            f"slot_bottom_clearance_mm must together be less by more than {-found.slot_end:.4g} mm",
             ("size", "roller_radius_mm"),
+        )
+    if outside and found.wheel_bore >= found.slot_end:
+        raise GenevaError(
+            f"wheel_bore_mm = {2.0 * found.wheel_bore:g}: the slots reach down to "
+            f"{found.slot_end:.6g} mm; it must be below {2.0 * found.slot_end:.6g}",
+            ("size", "wheel_bore_mm"),
+        )
+    if not outside and found.wheel_bore > 0.0:
+        raise GenevaError(
+            "wheel_bore_mm: an internal wheel is open in the middle; remove it, or set 0",
+            ("size", "wheel_bore_mm"),
+        )
+    if found.lock and found.crank_bore >= found.lock:
+        raise GenevaError(
+            f"crank_bore_mm = {2.0 * found.crank_bore:g}: it must be below the locking disc's "
+            f"{2.0 * found.lock:.6g}",
+            ("size", "crank_bore_mm"),
+        )
+    if found.pin >= found.roller:
+        raise GenevaError(
+            f"pin_mm = {2.0 * found.pin:g}: it must be below the roller's {2.0 * found.roller:g}",
+            ("size", "pin_mm"),
         )
     if not outside and found.outer <= max(found.slot_end, plane.L + found.recess):
         raise GenevaError(

@@ -49,17 +49,24 @@ def run(
     """
     from geneva_cli.output import draw, is_drawn, show
     from geneva_cli.part import is_table, part_drawing, part_table
+    from geneva_cli.pieces import UNITS
     from geneva_cli.spec import load_and
 
     if curves not in CURVES:
         raise GenevaError(f"--curves {curves}: it must be arcs or spline")
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
+    if units not in UNITS:
+        raise GenevaError(f"--units {units}: it must be one of {', '.join(UNITS)}")
     drawn = is_drawn(output, format)
 
     def make(mechanism: Mechanism) -> Table | Outlines:
         if is_table(mechanism, part, drawn):
+            if units != "mm":
+                raise GenevaError("--units is for drawings; tables of points are in millimetres")
             return part_table(mechanism, part, tolerance, samples)
+        if samples is not None:
+            raise GenevaError("--samples is for tables of points; drawings take --tolerance")
         from geneva_cli.outline import outlines
 
         return outlines(mechanism)
