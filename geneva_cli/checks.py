@@ -37,9 +37,10 @@ class Check(NamedTuple):
     at_deg: float | None = None
 
 
-def checks(mechanism: Mechanism) -> list[Check]:
-    """Every check of one design: its motion, its parts, then its own ``[limits]``."""
-    return [*_motion(mechanism), *_parts(mechanism), *_limits(mechanism)]
+def checks(mechanism: Mechanism, parts: bool = True) -> list[Check]:
+    """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
+    shown = _parts(mechanism) if parts else []
+    return [*_motion(mechanism), *shown, *_limits(mechanism)]
 
 
 def checks_table(mechanisms: list[Mechanism]) -> Table:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 NEAR = 0.02  # of the centre distance: wider gaps are not told apart; they are given as this
 SAGITTA = 2e-6  # of the centre distance: how far an arc's samples may miss it
+SAME = 1e-9  # of the centre distance: corners nearer to each other are one
 TOUCH = 1e-7  # of the locking disc: what lies in it by less touches it
 LONGEST = 0.02  # of the centre distance, between samples of a line
 
@@ -38,13 +39,25 @@ class Clash:
         self.crank_points = self.crank.samples(plane.L, 0.1 * plane.L) if self.crank else None
 
     def _sector(self) -> None:
-        """Where all slots are alike, one of them and its neighbours stand for the wheel."""
-        slots = self.plane.slots
-        self.pitch = math.tau / len(slots) if len({s for s, _ in slots}) == 1 else 0.0
+        """Where the outline repeats itself, one slot and its neighbours stand for the wheel."""
+        self.pitch = math.tau / len(self.plane.slots) if self._repeats() else 0.0
         middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
         reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
         keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
         self.around = self.wheel.subset(keep) if self.pitch else self.wheel
+
+    def _repeats(self) -> bool:
+        """Whether the wheel's outline is the same from slot to slot: its corners and its arcs."""
+        wheel, count = self.wheel, len(self.plane.slots)
+        if len(wheel) % count:
+            return False
+        each = len(wheel) // count
+        angle = math.tau / count * self.plane.sign  # inside, the outline runs clockwise
+        corners = np.column_stack((wheel.x0, wheel.y0))
+        after = _turned(np.roll(corners, each, axis=0), np.full(len(wheel), angle))
+        same = np.abs(after - corners).max() < SAME * self.plane.L
+        bends = wheel.sense * wheel.cos_half
+        return bool(same and np.abs(np.roll(bends, each) - bends).max() < SAME)
 
     def _to_wheel(self, points: Array, reach: float) -> Array:
         """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""

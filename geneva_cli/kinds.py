@@ -9,6 +9,8 @@ from geneva_cli.drives import KINDS
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Spec
 
+Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
+
 
 def module(kind: str) -> Any:
     """The module of a kind of drive."""
@@ -40,5 +42,6 @@ def refuse_reach(spec: Spec, farthest_deg: float) -> None:
 
 
 def is_flat(spec: Spec) -> bool:
-    """Whether wheel and crank of a machine are flat outlines."""
-    return spec.wheel.gearing != "spherical" and spec.drive.kind != "gear-sector"
+    """Whether wheel and crank of a machine are flat outlines, of a wheel that can be cut."""
+    toothed = spec.drive.kind == "gear-sector"
+    return spec.wheel.gearing != "spherical" and not toothed and spec.wheel.z <= Z_DRAWN

@@ -23,8 +23,6 @@ from geneva_cli.station import Station
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
 
-Z_MAX = 360  # slots of a wheel that is drawn: one a degree
-
 
 class Plane(NamedTuple):
     """The machine as its outlines see it.
@@ -108,9 +106,9 @@ def plane(mechanism: Mechanism) -> Plane:
             "its slots as a table (-o FILE.csv)",
             ("drive", "kind"),
         )
-    if spec.wheel.z > Z_MAX:
+    if spec.wheel.z > kinds.Z_DRAWN:
         raise GenevaError(
-            f"z = {spec.wheel.z}: parts are drawn for up to {Z_MAX} slots", ("wheel", "z")
+            f"z = {spec.wheel.z}: parts are drawn for up to {kinds.Z_DRAWN} slots", ("wheel", "z")
         )
     if mechanism.law is None and not kinds.own_path(spec.drive.kind):
         keep = spec.drive

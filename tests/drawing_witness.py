@@ -27,8 +27,11 @@ BULGE = st.tuples(SWEEP, st.sampled_from([1.0, -1.0])).map(
 
 @st.composite
 def contours(draw, kinds="lac"):
-    """Closed contours of lines, arcs and cubics through random points at least 1 mm apart."""
-    points = draw(st.lists(POINT, min_size=2, max_size=6))
+    """Closed contours of lines, arcs and cubics through random points at least 1 mm apart.
+
+    No point comes twice: a contour that runs over itself has doubled pieces, which are dropped.
+    """
+    points = draw(st.lists(POINT, min_size=2, max_size=6, unique=True))
     pairs = list(zip(points, [*points[1:], points[0]], strict=True))
     assume(all(math.dist(p, q) > 1.0 for p, q in pairs))
     segments = []

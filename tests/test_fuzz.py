@@ -135,7 +135,7 @@ FILES = [
 ]
 # a file, an option, an argument's name, or the usage of the whole
 FILE = r"(spec|other|gone)\.toml|law\.csv|\.:|/|<std\w+>|'a\\x00b'"
-PLACES = re.compile(rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}")
+PLACES = re.compile(rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}|\S+: cannot read")
 
 
 def parameters(name):

@@ -246,7 +246,9 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         file = tmp_path / f"{number}.toml"
         file.write_text(chosen(wish, found_ways, number)[1], encoding="utf-8")
         machine = load(str(file))
-        assert all(c.passes for c in checks(machine)), (way, checks(machine))
+        # the machine is chosen by its motion; the sizes of its parts come after that
+        found_checks = checks(machine, parts=False)
+        assert all(c.passes for c in found_checks), (way, found_checks)
         found, time, spec = worst(machine), timings(machine)[0], machine.spec
         wanted = (
             found.velocity.max,

@@ -72,8 +72,15 @@ def draw(
 
 
 def is_drawn(output: str, format: str) -> bool:
-    """Whether this file or format takes a drawing as lines and arcs, and no table."""
-    return (format or format_of(output, {**DRAWN, **FORMATS})) in DRAWN
+    """Whether this file or format takes a drawing as lines and arcs, and no table.
+
+    Raises GenevaError where it is neither.
+    """
+    formats = {**DRAWN, **FORMATS}
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(f"--format {name}: it must be one of {', '.join(formats)}")
+    return name in DRAWN
 
 
 def show_text(text: str, output: str = "-") -> None:
