@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 LAYER = "WHEEL"
 FINE = 1e-7  # of the centre distance: how finely the roller's ways are sampled
 COVERED = 1e-6  # of the centre distance: a wall passed over by less is not
-STEPS = 97  # samples of the roller's circle and of its own outline
+STEPS = 97  # samples of the roller's circle, at least, and of its own outline
 TURNS = 64  # walls a chain may have before it is lost
 SHORT = 1e-7  # of the centre distance: a shorter piece is rounding
 BACK = -0.999  # the cosine between two directions that are each other's reverse
@@ -362,7 +362,10 @@ def _circle(
     )
     gone = plane.sign * (np.hypot(*way.T) - sizes.rim) > 2.0 * sizes.half_width
     count = int(np.argmax(gone)) + 1 if gone.any() else len(way)
-    turn = np.linspace(0.0, turn[count - 1], STEPS)
+    # As finely as the way in the slot: chords lie inside the circle, where one of its walls is.
+    whole = float(turn[count - 1])
+    fine = math.ceil(abs(whole) / math.sqrt(8.0 * FINE * plane.L / radius)) + 1
+    turn = np.linspace(0.0, whole, max(STEPS, fine))
     way = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
     )
