@@ -473,8 +473,8 @@ CURVED_SLOTS = [
         "roller_radius_mm": 4.0,
         "lock_radius_mm": 0.0,
     },
-    # Refused, wrongly ("the walls of this slot do not close"): z = 17 internal, cycloidal, R/L 0.184,
-    # r = 8.64, c = 0.1; z = 5, 3-4-5, alpha0 = -25, r = 17.9. To be added when they are made.
+    # Refused, wrongly ("the walls of this slot do not close"), and to be added when they are made:
+    # z = 17 internal, cycloidal, R/L 0.184, r = 8.64, c = 0.1; z = 5, 3-4-5, alpha0 = -26, r = 17.9.
 ]
 
 
