@@ -56,8 +56,8 @@ class Clash:
         corners = np.column_stack((wheel.x0, wheel.y0))
         after = _turned(np.roll(corners, each, axis=0), np.full(len(wheel), angle))
         same = np.abs(after - corners).max() < SAME * self.plane.L
-        bends = wheel.sense * wheel.cos_half
-        return bool(same and np.abs(np.roll(bends, each) - bends).max() < SAME)
+        bends = np.column_stack((wheel.sense, wheel.cos_half))
+        return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME)
 
     def _to_wheel(self, points: Array, reach: float) -> Array:
         """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""

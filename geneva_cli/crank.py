@@ -64,19 +64,28 @@ def _lock_directions(plane: Plane, middle: float, ends: list[float]) -> list[flo
     return [centre + math.remainder(plane.lock(end) - centre, math.tau) for end in ends]
 
 
-def crank_contours(plane: Plane, sizes: Sizes, relief: str, swept: Swept) -> list[Contour]:
+def crank_contours(
+    plane: Plane, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
+) -> list[Contour]:
     """The locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
     ``swept(i)`` is where the wheel comes within the disc in the i-th motion: distances from the
     crank's axis and directions. Where the wheel sweeps over that axis, as inside it does, what is
-    left are the locking sectors, carried by the crank beside the wheel's plane.
+    left are the locking sectors, carried by the crank beside the wheel's plane; they keep
+    ``spare`` mm more from it.
     """
     around = reliefs(plane)
     if not is_whole(plane, sizes):
-        return _rings(plane, sizes, around, swept)
+        return _rings(plane, sizes, around, swept, spare)
     if relief == "sector":
         around = _merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector
+    if sum(one.end - one.start for one in around) > math.tau - SAME:
+        raise GenevaError(
+            "nothing is left of the locking disc: its reliefs go all the way round; a smaller "
+            f"roller than {sizes.roller:g} mm, or fewer, leave some",
+            ("size", "roller_radius_mm"),
+        )
     found: list[Segment] = []
     for i, one in enumerate(around):
         after = around[i + 1].start if i + 1 < len(around) else around[0].start + math.tau
@@ -111,10 +120,7 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
 
 
 def _rings(
-    plane: Plane,
-    sizes: Sizes,
-    around: list[Relief],
-    swept: Swept,
+    plane: Plane, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
 ) -> list[Contour]:
     """Locking sectors without a middle: outside of what the wheel sweeps in all motions."""
     points = [swept(i) for i in range(len(plane.rollers))]
@@ -129,7 +135,7 @@ def _rings(
         off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
         for share in SHARES:
             half = share * whole
-            edge, floor = _floor(sizes, half, radius, off)
+            edge, floor = _floor(sizes, half, radius, off, spare)
             if max(edge, floor) < (1.0 - THIN) * sizes.lock:
                 found.append(_ring(sizes, middle, half, edge, floor))
                 break
@@ -154,7 +160,9 @@ def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -
     )
 
 
-def _floor(sizes: Sizes, half: float, radius: Array, off: Array) -> tuple[float, float]:
+def _floor(
+    sizes: Sizes, half: float, radius: Array, off: Array, more: float
+) -> tuple[float, float]:
     """The inner arc of a locking sector: its distance at the edges and in the middle.
 
     ``off`` is the direction of the swept points from the sector's middle. Through each of them
@@ -163,7 +171,7 @@ def _floor(sizes: Sizes, half: float, radius: Array, off: Array) -> tuple[float,
     inside = np.abs(off) < half
     radius, off = radius[inside], off[inside]
     at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
-    spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0)
+    spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
     edge = at_edge + spare
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)

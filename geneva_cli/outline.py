@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 EXACT = 1e-9  # of the centre distance: rounding of outlines that are lines and arcs by nature
 CURVED = 2e-6  # of the centre distance: how nearly curved walls are known
+TRIES = 5
+SPARE = 3.0  # times an overlap that was found, kept more from the wheel
 SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
 
 
@@ -88,16 +90,26 @@ def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour],
     for kind in kinds:
         crank = crank_contours(plane, sizes, kind, swept)
         clash = Clash(plane, sizes, wheel, crank)
-        if kind == kinds[-1] or _clears(clash, close):
+        overlap = _overlap(clash)
+        if overlap <= close:
             return crank, kind, clash
-    raise AssertionError
+    spare = 0.0
+    for _ in range(0 if is_whole(plane, sizes) else TRIES):
+        # Between two of the places that were looked at the wheel came nearer still.
+        spare += SPARE * overlap
+        crank = crank_contours(plane, sizes, kind, swept, spare)
+        clash = Clash(plane, sizes, wheel, crank)
+        overlap = _overlap(clash)
+        if overlap <= close:
+            break
+    return crank, kind, clash
 
 
-def _clears(clash: Clash, close: float) -> bool:
-    """Whether the crank clears the wheel in all its motions."""
+def _overlap(clash: Clash) -> float:
+    """By how much the crank and the wheel overlap at most in all motions."""
+    least = 0.0
     for station, behind in clash.plane.rollers:
         count = 2 + int(station.motion_deg / SWEPT_DEG)
-        at = behind + np.linspace(station.entry_deg, station.exit_deg, count)
-        if clash.locking(at).min() < -close:
-            return False
-    return True
+        at = behind + np.linspace(station.entry_deg, station.exit_deg, count) + 0.3 * SWEPT_DEG
+        least = min(least, float(clash.locking(at).min()))
+    return -least

@@ -51,6 +51,12 @@ def _between(plane: Plane, start: float, end: float) -> float | None:
 def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float | None) -> list[Segment]:
     """From one slot's corner along the rim, through the recess, to the next slot's corner."""
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
+    if math.remainder(last - first, math.tau) <= 0.0:
+        raise GenevaError(
+            "the mouths of neighbouring slots cut each other; a smaller roller_radius_mm than "
+            f"{sizes.roller:g} leaves a rim between them",
+            ("size", "roller_radius_mm"),
+        )
     last = first + (last - first) % math.tau
     rims = math.hypot(*start), math.hypot(*end)
     if at is None or not sizes.lock:
