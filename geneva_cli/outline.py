@@ -96,7 +96,7 @@ def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour],
     spare = 0.0
     for _ in range(0 if is_whole(plane, sizes) else TRIES):
         # Between two of the places that were looked at the wheel came nearer still.
-        spare += SPARE * overlap
+        spare += SPARE * overlap + 10.0 * close
         crank = crank_contours(plane, sizes, kind, swept, spare)
         clash = Clash(plane, sizes, wheel, crank)
         overlap = _overlap(clash)
