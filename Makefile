@@ -26,9 +26,10 @@ bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
-# Numerical stress against mpmath, then random specs; half an hour.
+# Numerical stress against mpmath, random machines turned, then random specs; half an hour.
 stress: .venv/dev
 	$(BIN)/python tests/stress.py
+	$(BIN)/python tests/stress_outline.py
 	$(BIN)/python tests/fuzz_spec.py --runs 200000
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.

@@ -473,8 +473,21 @@ CURVED_SLOTS = [
         "roller_radius_mm": 4.0,
         "lock_radius_mm": 0.0,
     },
-    # Refused, wrongly ("the walls of this slot do not close"), and to be added when they are made:
-    # z = 17 internal, cycloidal, R/L 0.184, r = 8.64, c = 0.1; z = 5, 3-4-5, alpha0 = -26, r = 17.9.
+    # Large rollers, whose circle in the dwell is long.
+    {
+        "z": 5,
+        "motion": Motion("3-4-5", alpha0_deg=-26.0, ratio="matched"),
+        "roller_radius_mm": 17.9,
+        "slot_clearance_mm": 0.1,
+    },
+    {
+        "z": 24,
+        "gearing": "internal",
+        "motion": Motion("cycloidal", ratio=0.124),
+        "roller_radius_mm": 5.82,
+    },
+    # Refused, wrongly (the roller's way is followed into the next slot), to be added when it is
+    # made: z = 17 internal, cycloidal, R/L = 0.184, r = 8.64, slot clearance 0.1.
 ]
 
 
