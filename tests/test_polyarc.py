@@ -72,6 +72,17 @@ def test_no_nearest_piece_is_lost(contour: Contour, count: int, reach: float, st
     assert np.array_equal(wanted < -reach, found < -reach)
 
 
+@QUICK
+@given(contours("la"), st.floats(1.0, 60.0))
+def test_no_nearest_piece_is_lost_to_a_single_point(contour: Contour, reach: float) -> None:
+    """As of a way of points, whose spacing is allowed for; a point by itself has none to spare."""
+    whole = Polyarc([contour])
+    for point in GRID[:: len(GRID) // 150]:
+        wanted = whole.signed(point[None])
+        if abs(wanted) <= reach:
+            assert whole.near(point[None], reach).signed(point[None]) == wanted
+
+
 def test_no_piece_within_reach() -> None:
     whole = Polyarc([square()])
     far = np.array([[500.0, 300.0]])
