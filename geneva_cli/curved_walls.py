@@ -355,8 +355,11 @@ def _circle(
     t = station.entry_deg if end < 0.0 else station.exit_deg
     x, y = _pitch(plane, station, np.array([t]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
+    # To the middle of the dwell: from there on the way is that of the next slot.
+    ahead = math.atan2(-plane.sign * centre[1], -plane.sign * centre[0])
+    rest_of_turn = math.pi - abs(math.remainder(start - ahead, math.tau))
     # Seen from the resting wheel the crank turns against it outside, with it inside.
-    turn = -end * plane.sign * np.linspace(0.0, math.pi, 4 * STEPS)
+    turn = -end * plane.sign * np.linspace(0.0, rest_of_turn, 4 * STEPS)
     way = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
     )
