@@ -61,11 +61,16 @@ class Clash:
 
     def _to_wheel(self, points: Array, reach: float) -> Array:
         """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""
-        if not self.pitch:
-            return self.wheel.near(points, reach).signed(points)
-        at = np.arctan2(points[:, 1], points[:, 0])
-        folded = _turned(points, -self.pitch * np.round(at / self.pitch))
-        return self.around.near(folded, reach).signed(folded)
+        whole, at = self.wheel, points
+        if self.pitch:
+            slot = np.round(np.arctan2(points[:, 1], points[:, 0]) / self.pitch)
+            whole, at = self.around, _turned(points, -self.pitch * slot)
+        out = whole.near(at, reach).signed(at)
+        # Farther than that the nearest piece may be one that was left out, and the side wrong.
+        far = np.abs(out) > reach
+        if far.any():
+            out[far] = whole.signed(at[far])
+        return out
 
     def collides(self, input_deg: Array, lead: Array, close: float) -> NDArray[np.bool_]:
         """Whether parts overlap by more than ``close`` with the wheel turned on by ``lead``."""

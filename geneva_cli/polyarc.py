@@ -63,7 +63,10 @@ class Polyarc:
         return out
 
     def near(self, points: Array, reach: float) -> Polyarc:
-        """The pieces that may lie within ``reach`` of one of the points; all where none does."""
+        """The pieces that may lie within ``reach`` of one of the points; all where none does.
+
+        Of points farther away they tell that, but not on which side of the outline they are.
+        """
         grid = points[:: max(1, len(points) // COARSE)]
         mx, my = 0.5 * (self.x0 + self.x1), 0.5 * (self.y0 + self.y1)
         half = 0.5 * np.sqrt(self.square)
