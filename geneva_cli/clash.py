@@ -114,17 +114,12 @@ class Clash:
             return np.full(len(input_deg), near)
         turn = self.plane.wheel(input_deg) + lead
         pose = self.plane.crank(input_deg)
-        axis = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
         # The wheel's corners and arcs against the crank ...
-        reach = self.sizes.lock + near
-        px, py = self.wheel_points.T
-        inside = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < reach * reach
-        owner, which = np.nonzero(inside)
-        seen = _turned(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+        owner, seen = self._on_crank(turn, pose, self.sizes.lock + near)
         out = _least(len(turn), owner, self.crank.signed(seen), near)
         # ... and the crank's against the wheel.
         x, y = self.crank_points.T
-        angle = pose - turn
+        axis, angle = self._axis(turn), pose - turn
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
         qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
         inward = self.plane.sign * (np.hypot(qx, qy) - self.sizes.rim)
@@ -144,13 +139,23 @@ class Clash:
         count = max(2, math.ceil(station.motion_deg / step_deg)) + 1
         at = behind + np.linspace(station.entry_deg, station.exit_deg, count)
         turn, pose = self.plane.wheel(at), self.plane.crank(at)
-        axis = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
-        px, py = self.wheel_points.T
-        most = self.sizes.lock * (1.0 - TOUCH)
-        near = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < most * most
-        owner, which = np.nonzero(near)
-        seen = _turned(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+        _, seen = self._on_crank(turn, pose, self.sizes.lock * (1.0 - TOUCH))
         return np.hypot(*seen.T), np.arctan2(seen[:, 1], seen[:, 0])
+
+    def _on_crank(self, turn: Array, pose: Array, reach: float) -> tuple[NDArray[np.intp], Array]:
+        """The wheel's points within reach of the crank's axis, in the crank's frame.
+
+        With the wheel and the crank at n angles; which of the n each point is for comes first.
+        """
+        axis, (px, py) = self._axis(turn), self.wheel_points.T
+        inside = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < reach * reach
+        owner, which = np.nonzero(inside)
+        return owner, _turned(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+
+    def _axis(self, turn: Array) -> Array:
+        """The crank's axis in the wheel's frame, (n, 2)."""
+        out: Array = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
+        return out
 
 
 def _turned(points: Array, angle: Array) -> Array:

@@ -6,8 +6,7 @@ Each as a value, its limit, and where it fails a size that would pass.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -55,38 +54,47 @@ class Clearance(NamedTuple):
 
 def clearances(found: Outlines, turn: FullTurn) -> list[Clearance]:
     """All clearances of a machine's parts."""
-    return [*_walls(found), *_shafts(found), *_branches(found), *turning(found, turn)]
+    rows = [*_walls(found), *_shafts(found), *_branches(found)]
+    return [*rows, *_advised(found, turning(found, turn))]
 
 
-def turning(found: Outlines, turn: FullTurn) -> Iterator[Clearance]:
-    """What a whole turn shows: no parts overlap, the wheel is held and pushed into line."""
-    free = cache(lambda: freed(found))  # some seconds, and the same for every check that fails
+def turning(found: Outlines, turn: FullTurn) -> list[Clearance]:
+    """What a whole turn shows: no parts overlap, the wheel is held and pushed into line.
+
+    Without advice where only a whole turn of another size can tell what would help.
+    """
     smallest = turn.smallest
     fits = smallest.mm >= -found.close
     value = 0.0 if abs(smallest.mm) <= found.close else smallest.mm
-    yield Clearance("gap_mm", value, smallest.at_deg, True, 0.0, fits, "" if fits else free())
+    rows = [Clearance("gap_mm", value, smallest.at_deg, True, 0.0, fits)]
     if turn.idle is not None:
         gap = max(turn.idle.mm, 0.0) if turn.idle.mm >= -found.close else turn.idle.mm
         clears = gap >= 0.0
         advice = "" if clears else f"roller_radius_mm = {_floor(found.sizes.roller + gap):.4g}"
-        yield Clearance("idle_roller_mm", gap, turn.idle.at_deg, True, 0.0, clears, advice)
+        rows.append(Clearance("idle_roller_mm", gap, turn.idle.at_deg, True, 0.0, clears, advice))
     if not found.crank:
-        return
-    limit = _finds_slot(found)
-    held = turn.hand_over_deg <= limit
-    advice = "" if held else free()
-    yield Clearance("dwell_play_deg", turn.dwell_play_deg, None, False, limit, True)
-    name, at = "hand_over_play_deg", turn.hand_over_at_deg
-    yield Clearance(name, turn.hand_over_deg, at, False, limit, held, advice)
-    pushes = turn.push_deg <= PUSH_MAX_DEG
-    name, at = "hand_over_pressure_deg", turn.push_at_deg
-    advice = "" if pushes else free()
-    yield Clearance(name, turn.push_deg, at, False, PUSH_MAX_DEG, pushes, advice)
+        return rows
+    limit, play, push = _finds_slot(found), turn.hand_over_deg, turn.push_deg
+    held, pushes = play <= limit, push <= PUSH_MAX_DEG
+    return [
+        *rows,
+        Clearance("dwell_play_deg", turn.dwell_play_deg, None, False, limit, True),
+        Clearance("hand_over_play_deg", play, turn.hand_over_at_deg, False, limit, held),
+        Clearance("hand_over_pressure_deg", push, turn.push_at_deg, False, PUSH_MAX_DEG, pushes),
+    ]
+
+
+def _advised(found: Outlines, rows: list[Clearance]) -> list[Clearance]:
+    """Rows of ``turning`` with a size that would free the machine; it takes some seconds."""
+    if all(c.passes or c.nearest for c in rows):
+        return rows
+    advice = freed(found)
+    return [c if c.passes or c.nearest else c._replace(nearest=advice) for c in rows]
 
 
 def jam(found: Outlines, turn: FullTurn) -> str:
     """Why a machine does not turn, where, and what would free it; nothing if it turns."""
-    failing = [c for c in turning(found, turn) if not c.passes]
+    failing = [c for c in _advised(found, turning(found, turn)) if not c.passes]
     wall = next(iter(_walls(found)))
     failing += [wall] if wall.value < 0.0 else []
     if not failing:
@@ -194,11 +202,8 @@ def _passes(mechanism: Mechanism | None) -> bool:
         found = outlines(mechanism)
     except GenevaError:
         return False
-    turn = full_turn(found)
-    held = not found.crank or (
-        turn.hand_over_deg <= _finds_slot(found) and turn.push_deg <= PUSH_MAX_DEG
-    )
-    return turn.smallest.mm >= -found.close and held and _between_slots(found) >= 0.0
+    turns = all(c.passes for c in turning(found, full_turn(found)))
+    return turns and _between_slots(found) >= 0.0
 
 
 def _finds_slot(found: Outlines) -> float:
@@ -295,13 +300,9 @@ def _branches(found: Outlines) -> Iterator[Clearance]:
     )
     apart = 2.0 * found.plane.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi))
     limit = 2.0 * found.sizes.half_width
-    picks: list[tuple[str, Callable[[], int]]] = [
-        ("branches_apart_mm", lambda: int(np.argmax(apart))),
-        ("branches_crossed_mm", lambda: int(np.argmin(apart))),
-    ]
-    for name, pick in picks:
-        i = pick()
-        value = max(float(apart[i] if name == "branches_apart_mm" else -apart[i]), 0.0)
+    for name, gap in (("branches_apart_mm", apart), ("branches_crossed_mm", -apart)):
+        i = int(np.argmax(gap))
+        value = max(float(gap[i]), 0.0)
         roller = found.sizes.roller + 0.5 * (value - limit)
         advice = "" if value <= limit else f"roller_radius_mm = {-_floor(-roller):.4g}"
         yield Clearance(name, value, float(t[i]), False, limit, value <= limit, advice)

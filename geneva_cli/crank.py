@@ -87,8 +87,7 @@ def crank_contours(
             ("size", "roller_radius_mm"),
         )
     found: list[Segment] = []
-    for i, one in enumerate(around):
-        after = around[i + 1].start if i + 1 < len(around) else around[0].start + math.tau
+    for one, after in _followed(around):
         found += cut(plane, sizes, one)
         if after - one.end > SAME:
             found.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
@@ -102,9 +101,13 @@ def is_whole(plane: Plane, sizes: Sizes) -> bool:
 
 def without_lock(plane: Plane) -> bool:
     """Whether one motion follows another without a dwell, so that no disc is left between them."""
-    around = reliefs(plane)
-    after = [one.start for one in around[1:]] + [around[0].start + math.tau]
-    return any(b - a.end <= SAME for a, b in zip(around, after, strict=True))
+    return any(after - one.end <= SAME for one, after in _followed(reliefs(plane)))
+
+
+def _followed(around: list[Relief]) -> list[tuple[Relief, float]]:
+    """Each relief with where the next one starts; between them the disc locks."""
+    starts = [one.start for one in around[1:]] + [around[0].start + math.tau]
+    return list(zip(around, starts, strict=True))
 
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
@@ -127,8 +130,7 @@ def _rings(
     radius = np.concatenate([p[0] for p in points])
     direction = np.concatenate([p[1] for p in points])
     found = []
-    for i, one in enumerate(around):
-        after = around[i + 1].start if i + 1 < len(around) else around[0].start + math.tau
+    for one, after in _followed(around):
         if after - one.end <= SAME:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)

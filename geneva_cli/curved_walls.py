@@ -60,7 +60,7 @@ def _segments(piece: Piece, tolerance: float, curves: str) -> list[Segment]:
     wall, a, b = piece
     if wall.centre is not None:
         return [about(wall.centre, wall.radius, a, b - a)]
-    fitted = fit.cubics if curves == "cubics" else fit.arcs
+    fitted = fit.KINDS[curves]
     if a < b:
         return [*fitted(wall.curve, a, b, tolerance)]
 

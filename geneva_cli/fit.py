@@ -8,6 +8,7 @@ tangent is given as the limit.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.fit_arcs import fitted_arcs
@@ -16,7 +17,7 @@ from geneva_cli.fit_cubics import fitted_cubics
 from geneva_cli.fit_path import Path
 
 if TYPE_CHECKING:
-    from geneva_cli.drawing import Arc, Cubic, Line
+    from geneva_cli.drawing import Arc, Cubic, Line, Segment
     from geneva_cli.fit_path import Curve
 
 
@@ -46,3 +47,8 @@ def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
     Raises GenevaError for a tolerance that double precision cannot show.
     """
     return fitted_cubics(Path(curve, a, b, tolerance))
+
+
+# what curves may become, beside chords
+KINDS: dict[str, Callable[[Curve, float, float, float], Sequence[Segment]]]
+KINDS = {"arcs": arcs, "cubics": cubics}

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -126,17 +127,13 @@ def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
     """The smallest gaps: of rollers at their own slots, of others meanwhile, of the crank."""
     clash = outlines.clash
 
-    def own(x: Array) -> Array:
-        gaps, drives = clash.rollers(x), _drives(outlines, x)
+    def rollers(x: Array, idle: bool) -> Array:
+        drives = _drives(outlines, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
-        out: Array = np.where(meanwhile, np.inf, gaps).min(axis=1)
+        out: Array = np.where(meanwhile == idle, clash.rollers(x), np.inf).min(axis=1)
         return out
 
-    def others(x: Array) -> Array:
-        gaps, drives = clash.rollers(x), _drives(outlines, x)
-        meanwhile = drives.any(axis=1, keepdims=True) & ~drives
-        out: Array = np.where(meanwhile, gaps, np.inf).min(axis=1)
-        return out
+    own, others = partial(rollers, idle=False), partial(rollers, idle=True)
 
     several = len(outlines.plane.rollers) > 1
     return (

@@ -11,23 +11,13 @@ import numpy as np
 from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
 from geneva_cli.mechanism import Mechanism
+from geneva_cli.pitch import WALLED
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
 
-NAMES = (
-    "input_deg",
-    "radius_mm",
-    "x_mm",
-    "y_mm",
-    "left_x_mm",
-    "left_y_mm",
-    "right_x_mm",
-    "right_y_mm",
-    "pressure_deg",
-    "curvature_radius_mm",
-)
+NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
 
 
@@ -102,8 +92,7 @@ def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:
     size = mechanism.spec.size
     L, offset = size.center_distance_mm, mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     x = np.linspace(station.entry_deg, station.exit_deg, samples or SAMPLES)
-    R = L * station.distances(x, 2)[1].c[0]
-    slope = station.distances(x, 2)[1].c[1] * L
+    R, slope = (L * c for c in station.distances(x, 2)[1].c[:2])
     px, py = station.groove(x, 2)
     (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
     speed = np.hypot(x1, y1)

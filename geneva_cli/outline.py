@@ -52,10 +52,9 @@ def outlines(mechanism: Mechanism) -> Outlines:
     """
     where = plane(mechanism)
     size = sizes(where)
-    kinds = dict.fromkeys(station for station, _ in where.slots)
-    curved = any(isinstance(station, LawDriven) for station in kinds)
+    curved = any(isinstance(station, LawDriven) for station in where.kinds)
     fine = 0.5 * CURVED * where.L
-    walls = {station: slot_walls(where, size, station, fine) for station in kinds}
+    walls = {station: slot_walls(where, size, station, fine) for station in where.kinds}
     close = (CURVED if curved else EXACT) * where.L
     wheel = wheel_contour(where, size, walls)
     crank, relief, clash = _relieved(Clash(where, size, wheel, []), wheel, close)

@@ -14,11 +14,8 @@ if TYPE_CHECKING:
     from geneva_cli.drawing import Drawing
     from geneva_cli.outline import Outlines
 
-TABLES = (
-    "slot",
-    "gears",
-    "groove",
-)  # parts that are tables of points, when no drawing is asked for
+# parts that are tables of points, where no drawing is asked for, and parts that are drawn
+TABLES = ("slot", "gears", "groove")
 DRAWINGS = ("slot", "wheel", "crank", "assembly", "groove")
 PARTS = ("slot", "wheel", "crank", "assembly", "gears", "groove")
 SAMPLES_MAX = 1_000_000

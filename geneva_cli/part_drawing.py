@@ -6,8 +6,6 @@ Layers: WHEEL, CRANK, GROOVE are cut; ROLLER and BORE are circles; PITCH is wher
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,14 +16,10 @@ from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
 from geneva_cli.measure import mapped, turned
 from geneva_cli.outline import Outlines, slot_walls
-from geneva_cli.pitch import retraces
 from geneva_cli.plane import Plane
-from geneva_cli.profile import pitch_at
+from geneva_cli.slot_ways import beside
 from geneva_cli.station import LawDriven, Station
 from geneva_cli.wheel import wheel_circles, wheel_contour
-
-if TYPE_CHECKING:
-    from geneva_cli.jet import Array
 
 PITCH = "PITCH"
 
@@ -77,7 +71,7 @@ def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
         curve = groove_curve(station, found.plane.L, side * found.sizes.half_width)
         pieces: list[Segment] = []
         for a, b in zip(ends, ends[1:], strict=False):
-            pieces += _fitted(curves)(curve, a, b, tolerance)
+            pieces += fit.KINDS[curves](curve, a, b, tolerance)
         shapes.append(closed(layer, pieces))
     return Drawing(_title(found, "groove"), tuple(shapes))
 
@@ -96,10 +90,6 @@ def _wheel(found: Outlines, tolerance: float, curves: str) -> list[Shape]:
 
 def _crank(found: Outlines) -> list[Shape]:
     return [*found.crank, *crank_circles(found.plane, found.sizes)]
-
-
-def _fitted(curves: str) -> Callable[..., list[Any]]:
-    return fit.cubics if curves == "cubics" else fit.arcs
 
 
 def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
@@ -127,18 +117,5 @@ def _pitch(plane: Plane, station: Station, tolerance: float, curves: str) -> Con
         return Contour(PITCH, (Line(*ends),), closed=False)
     pieces: list[Segment] = []
     for a, b in ((station.entry_deg, 0.0), (0.0, station.exit_deg)):
-        pieces += _fitted(curves)(_way(plane, station, b > 0.0), a, b, tolerance)
+        pieces += fit.KINDS[curves](beside(plane, station, 0.0, b > 0.0), a, b, tolerance)
     return Contour(PITCH, joined(pieces), closed=False)
-
-
-def _way(plane: Plane, station: LawDriven, outward: bool) -> Callable[[Array], tuple[Array, Array]]:
-    """The roller's way in, or out again: where it stands still, the limit is that of the way in."""
-    back = retraces(station)
-
-    def curve(t: Array) -> tuple[Array, Array]:
-        p = pitch_at(station, t, back)
-        sign = np.where(back & outward & (t == 0.0), -1.0, 1.0)
-        tangents = np.column_stack((p.tangent_x * sign, p.tangent_y * sign))
-        return plane.L * np.column_stack((p.x, p.y)), tangents
-
-    return curve

@@ -10,6 +10,17 @@ from typing import NamedTuple
 from geneva_cli.jet import Coefficient, library
 from geneva_cli.station import Station
 
+# the columns of a table of a pitch curve with a wall on either side
+WALLED = (
+    "x_mm",
+    "y_mm",
+    "left_x_mm",
+    "left_y_mm",
+    "right_x_mm",
+    "right_y_mm",
+    "pressure_deg",
+    "curvature_radius_mm",
+)
 RETRACE = 1e-9  # |M'| at mid-motion, below which the pin leaves on the way it came
 
 

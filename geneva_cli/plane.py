@@ -83,6 +83,11 @@ class Plane(NamedTuple):
         return out
 
     @property
+    def kinds(self) -> tuple[Station, ...]:
+        """The kinds of slots, each once: most wheels have one."""
+        return tuple(dict.fromkeys(station for station, _ in self.slots))
+
+    @property
     def start_deg(self) -> float:
         """Input angle of the first station's entry, from which a whole turn is counted."""
         return self.rollers[0][0].entry_deg

@@ -8,25 +8,14 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.pitch import Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.pitch import WALLED, Pitch, pitch, pitch_at_retrace, retraces
 from geneva_cli.station import Station
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
 
-NAMES = (
-    "input_deg",
-    "wheel_deg",
-    "x_mm",
-    "y_mm",
-    "left_x_mm",
-    "left_y_mm",
-    "right_x_mm",
-    "right_y_mm",
-    "pressure_deg",
-    "curvature_radius_mm",
-)
+NAMES = ("input_deg", "wheel_deg", *WALLED)
 ROWS_MAX = 200_000  # in a half motion
 BLOCK = 4096  # chords that are measured at once, so that memory stays flat
 ATTEMPTS = 20

@@ -58,10 +58,10 @@ def sizes(plane: Plane) -> Sizes:
     given, r = spec.size, spec.roller_radius_mm
     w = r + given.slot_clearance_mm
     outside = plane.sign > 0.0
-    rim = _or(given.wheel_radius_mm, max(mouth(plane, s, r) for s, _ in plane.slots))
+    rim = _or(given.wheel_radius_mm, max(mouth(plane, s, r) for s in plane.kinds))
     bottom = _or(given.slot_bottom_clearance_mm, max(given.slot_clearance_mm, r / 20.0))
-    end = min(_end(plane, s, w, bottom) * plane.sign for s, _ in plane.slots) * plane.sign
-    arm = min(_arm(plane), *[_to_slot(plane, s) for s, _ in plane.slots])
+    end = min(_end(plane, s, w, bottom) * plane.sign for s in plane.kinds) * plane.sign
+    arm = min(_arm(plane), *[_to_slot(plane, s) for s in plane.kinds])
     lock = _lock(plane, arm, w, rim)
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))

@@ -119,11 +119,11 @@ def _arc(
     return Wall(curve, angles, points, _free(points, path, w, L), centre, radius)
 
 
-def _flank(
-    plane: Plane, station: LawDriven, path: Array, t: Array, side: float, back: bool
-) -> Wall:
-    """One side of the way in, or of the way out; ``side`` is the offset to the left."""
-    outward = t[-1] > 0.0
+def beside(
+    plane: Plane, station: LawDriven, side: float, outward: bool
+) -> Callable[[Array], tuple[Array, Array]]:
+    """The curve ``side`` mm to the left of the roller's way in, or out: points and tangents."""
+    back = retraces(station)
 
     def curve(t: Array) -> tuple[Array, Array]:
         at = pitch_at(station, t, back)
@@ -131,9 +131,16 @@ def _flank(
         turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
         tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
         normal = np.column_stack((-tangent[:, 1], tangent[:, 0]))
-        points = plane.L * np.column_stack((at.x, at.y)) + side * normal
-        return points, tangent
+        return plane.L * np.column_stack((at.x, at.y)) + side * normal, tangent
 
+    return curve
+
+
+def _flank(
+    plane: Plane, station: LawDriven, path: Array, t: Array, side: float, back: bool
+) -> Wall:
+    """One side of the way in, or of the way out; ``side`` is the offset to the left."""
+    curve = beside(plane, station, side, outward=bool(t[-1] > 0.0))
     if back:
         t = _unfolded(curve, t, pitch_at(station, t, back), plane.L, side)
     points = curve(t)[0]

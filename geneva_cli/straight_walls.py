@@ -73,7 +73,7 @@ def _rim(
 
     A rim that the spec sets is moved everywhere by as much as where it is widest.
     """
-    largest = max(mouth(plane, s, sizes.roller) for s, _ in plane.slots)
+    largest = max(mouth(plane, s, sizes.roller) for s in plane.kinds)
     own = mouth(plane, station, sizes.roller)
     if level:
         x, y = rest(plane, station, -1.0)
