@@ -12,17 +12,17 @@ import gc
 gc.disable()  # nothing that is imported is garbage; looking for it costs 5 % of the start
 
 import importlib
-import io
 import os
 import sys
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from geneva_cli import __version__
-from geneva_cli.errors import GenevaError, clean
+from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.streams import leave, open_streams
 
 # The registry: module in geneva_cli.commands -> the line that --help shows.
 COMMANDS = {
@@ -37,6 +37,9 @@ COMMANDS = {
     "new": "Write a commented spec to start from.",
     "bench": "Run time against error: ours beside what else is in use.",
 }
+
+
+MESSAGE_MAX = 2000  # characters
 
 
 class LazyGroup(TyperGroup):
@@ -64,19 +67,11 @@ class LazyGroup(TyperGroup):
         """Run the command; what a user can put right becomes a line and an exit code."""
         gc.enable()
         try:
-            result = super().invoke(ctx)
-            sys.stdout.flush()
-            return result
+            return super().invoke(ctx)
         except GenevaError as error:
             _fail(str(error))
-        except BrokenPipeError:
-            _abandon_stdout()
-            raise typer.Exit(128 + 13) from None  # as a shell reports SIGPIPE
         except OSError as error:
-            _abandon_stdout()
-            _fail(f"<stdout>: cannot write: {error.strerror}; free some space, or use -o FILE")
-        except KeyboardInterrupt:
-            raise typer.Exit(130) from None
+            _fail(f"{error.filename or 'system'}: {error.strerror}")
         except MemoryError:
             _fail("out of memory; ask for fewer samples or a coarser tolerance")
 
@@ -86,13 +81,8 @@ def _stub() -> None:
 
 
 def _fail(message: str) -> None:
-    print(clean(message), file=sys.stderr)
+    print(cut(clean(message), MESSAGE_MAX), file=sys.stderr)
     raise typer.Exit(2) from None
-
-
-def _abandon_stdout() -> None:
-    """Point standard output at nothing, so that the interpreter's last flush is silent."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _version(asked: bool) -> None:
@@ -118,38 +108,11 @@ def geneva(
 
 
 def main() -> None:
-    """The entry point ``geneva``."""
-    _open_streams()
+    """The command line of a process, which it ends."""
+    open_streams()
     try:
         app(prog_name="geneva")
         status = 0
     except SystemExit as stop:
         status = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
-    except KeyboardInterrupt:
-        status = 130
-    except OSError as error:  # help or version, to a full disk
-        print(f"<stdout>: cannot write: {error.strerror}", file=sys.stderr)
-        status = 2
-    _leave(status)
-
-
-def _open_streams() -> None:
-    """Stand-ins for streams that were closed before the start, as a daemon's may be.
-
-    Opened in this order they take the descriptors 0, 1 and 2, which no file then gets.
-    """
-    sys.stdin = sys.stdin or open(os.devnull)
-    sys.stdout = sys.stdout or open(os.devnull, "w")
-    sys.stderr = sys.stderr or open(os.devnull, "w")
-    if isinstance(sys.stdout, io.TextIOWrapper):  # a title in a script that the terminal has not
-        sys.stdout.reconfigure(errors="backslashreplace")
-
-
-def _leave(status: int) -> NoReturn:
-    """End the process at once; taking the interpreter apart would cost a sixth of the run."""
-    for stream in (sys.stdout, sys.stderr):
-        try:
-            stream.flush()
-        except OSError:  # reported before, or nobody left to report to
-            status = status or 2
-    os._exit(status)
+    leave(status)

@@ -49,10 +49,11 @@ ROWS = [
     ["accuracy.bench"],
     ["commands", "commands.options"],
     ["commands.*"],
+    ["streams"],
     ["app"],
     ["__main__"],
 ]
-STREAMS = ["app", "commands.*", "output", "output.*", "spec", "points"]
+STREAMS = ["app", "streams", "commands.*", "output", "output.*", "spec", "points"]
 TYPER = ["app", "commands.*"]
 
 

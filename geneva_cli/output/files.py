@@ -3,83 +3,184 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
+import re
 import signal
 import stat
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from types import FrameType
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 
-# Left behind only by kill -9 or a power cut; the name says whose it is.
+# Left behind only by kill -9 or a power cut, until the next run that writes the same file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
 NAME_MAX = 200  # bytes of the file's own name in it: a folder takes 255
+STDIN = "<stdin>"  # among the inputs, where the spec was read from there
+STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
     """Write text to ``path`` so that at every moment the old file or the new one is whole.
 
-    The text goes to a temporary file in the same folder, which then takes the old one's place and
-    permissions. A device or a pipe is written to directly. Raises GenevaError where the file
-    cannot be written, or is one of ``inputs``.
+    The text goes to a temporary file in the same folder, which then takes the old one's place,
+    owner and permissions. A device or a pipe is written to directly. Raises GenevaError where the
+    file cannot be written, is read-only, or is one of ``inputs``.
     """
     if not path or "\0" in path:
         raise GenevaError(f'-o "{path}": not a file\'s name')
-    path = os.path.realpath(path)
-    _refuse_input(path, inputs)
     try:
-        old = os.stat(path)
-    except OSError:
-        old = None
+        real = os.path.realpath(path)
+    except FileNotFoundError:
+        raise GenevaError(f'-o "{path}": the current folder is gone; change to another') from None
     try:
-        if old is not None and stat.S_ISDIR(old.st_mode):
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-        if old is not None and not stat.S_ISREG(old.st_mode):
-            with open(path, "w", encoding="utf-8", newline="") as device:
-                device.writelines(chunks)
+        old = _status(real)
+        if old is None:
+            _replace(real, chunks, None)
             return
-        _replace(path, chunks, old)
+        _refuse_input(path, old, inputs)
+        if stat.S_ISDIR(old.st_mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        if not old.st_mode & stat.S_IWUSR or not os.access(real, os.W_OK):
+            raise GenevaError(
+                f"{path}: this file is read-only; allow writing (chmod u+w), or give -o another "
+                "name"
+            )
+        if stat.S_ISREG(old.st_mode):
+            _replace(real, chunks, old)
+            return
+        with open(real, "w", encoding="utf-8", newline="") as device:
+            device.writelines(chunks)
     except OSError as error:
-        raise GenevaError(f"{path}: cannot write: {error.strerror}{_advice(error, path)}") from None
+        raise GenevaError(
+            f"{cut(path, 300)}: cannot write: {error.strerror}{_advice(error, real)}"
+        ) from None
+
+
+def _status(path: str) -> os.stat_result | None:
+    """The file's status, None where there is none yet; OSError for a place that has no files."""
+    try:
+        return os.stat(path)
+    except FileNotFoundError:
+        return None
 
 
 def _replace(path: str, chunks: Iterable[str], old: os.stat_result | None) -> None:
     folder, name = os.path.split(path)
     name = name.encode(errors="surrogateescape")[:NAME_MAX].decode(errors="replace")
+    _remove_stale(folder, name)
     number = os.getpid()
     while os.path.lexists(temporary := _temporary(folder, name, number)):
-        number += 1  # another run's, or one that was killed: not ours to touch
+        number += 1  # another run's: not ours to touch
+    with _stopping_cleanly():
+        try:
+            with open(temporary, "x", encoding="utf-8", newline="") as file:
+                _lock(file.fileno())
+                if old is not None:
+                    _take_after(file.fileno(), old)
+                file.writelines(chunks)
+                file.flush()
+                os.fsync(file.fileno())
+                os.replace(temporary, path)
+        finally:
+            with suppress(FileNotFoundError):
+                os.unlink(temporary)
+
+
+@contextmanager
+def _stopping_cleanly() -> Iterator[None]:
+    """Signals that end a run raise SystemExit, which unwinds; ignored ones (nohup) stay ignored."""
 
     def stop(number: int, frame: FrameType | None) -> None:
-        sys.exit(128 + number)  # unwinds through the finally below
+        sys.exit(128 + number)
 
-    handlers = {s: signal.signal(s, stop) for s in (signal.SIGTERM, signal.SIGHUP)}
+    handlers = {}
+    for number in STOPS:
+        # A thread of a program that imports this has no say over signals.
+        with suppress(ValueError):
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                handlers[number] = signal.signal(number, stop)
     try:
-        with open(temporary, "x", encoding="utf-8", newline="") as file:
-            if old is not None:
-                os.chmod(temporary, stat.S_IMODE(old.st_mode))
-            file.writelines(chunks)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
+        yield
     finally:
-        if os.path.lexists(temporary):
-            os.unlink(temporary)
         for number, handler in handlers.items():
             signal.signal(number, handler)
+
+
+def _take_after(descriptor: int, old: os.stat_result) -> None:
+    """Owner and permissions of the old file; who may not give a file away keeps it."""
+    new = os.fstat(descriptor)
+    if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
+        with suppress(PermissionError):
+            os.fchown(descriptor, old.st_uid, old.st_gid)
+    os.fchmod(descriptor, stat.S_IMODE(old.st_mode))
 
 
 def _temporary(folder: str, name: str, number: int) -> str:
     return os.path.join(folder, TEMPORARY.format(name=name, number=number))
 
 
-def _refuse_input(path: str, inputs: Iterable[str]) -> None:
+def _remove_stale(folder: str, name: str) -> None:
+    """Remove what killed runs left of this file.
+
+    The name holds the process's number, and a running process holds a lock on it: the number alone
+    may mean another process by now, or one on another machine that shares the folder.
+    """
+    before, after = (re.escape(x) for x in TEMPORARY.format(name=name, number="\0").split("\0"))
+    left = re.compile(rf"{before}(\d{{1,9}}){after}")
+    with suppress(OSError):  # a folder that can be written but not listed
+        for entry in os.listdir(folder):
+            found = left.fullmatch(entry)
+            if found and not _runs(int(found[1])):
+                _remove_unlocked(os.path.join(folder, entry))
+
+
+def _runs(number: int) -> bool:
+    """Whether another process of this number is running."""
+    if number == os.getpid():
+        return False
+    try:
+        os.kill(number, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:  # somebody else's
+        return True
+    return True
+
+
+def _remove_unlocked(path: str) -> None:
+    with suppress(OSError):
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if stat.S_ISREG(os.fstat(descriptor).st_mode):
+                os.unlink(path)
+        finally:
+            os.close(descriptor)
+
+
+def _lock(descriptor: int) -> None:
+    with suppress(OSError):  # a file system without locks
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def _refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
+    """Refuse to replace a regular file that the run has read; reading a terminal or a device is no
+    reason not to write to it.
+    """
+    if not stat.S_ISREG(old.st_mode):
+        return
     for given in inputs:
-        both = given != "-" and os.path.exists(given) and os.path.exists(path)
-        if both and os.path.samefile(given, path):
+        try:
+            read = os.fstat(0) if given == STDIN else os.stat(given)
+        except OSError:
+            continue
+        if os.path.samestat(read, old):
+            name = f"{path} (standard input)" if given == STDIN else given
             raise GenevaError(
-                f"{given}: this file is an input, and would be overwritten; give -o another name"
+                f"{name}: this file is an input, and would be overwritten; give -o another name"
             )
 
 

@@ -1,0 +1,85 @@
+"""The standard streams of a run, and what becomes of it where they cannot be written.
+
+Everybody writes to them: commands, Typer's help and error messages, the interpreter's last flush.
+So what a write may run into is settled in the streams themselves, whoever writes and whenever the
+buffer is emptied.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from typing import Any, NoReturn
+
+from geneva_cli.errors import cut
+
+SIGPIPE = 13
+LINE_MAX = 4000  # characters of a line on standard error
+
+
+def open_streams() -> None:
+    """Put streams as described here in the place of the interpreter's.
+
+    Those that were closed before the start, as a daemon's may be, get stand-ins first. Opened in
+    this order they take the descriptors 0, 1 and 2, which no file then gets.
+    """
+    sys.stdin = sys.stdin or open(os.devnull)
+    sys.stdout = sys.stdout or open(os.devnull, "w")
+    sys.stderr = sys.stderr or open(os.devnull, "w")
+    sys.stderr = _Messages(
+        io.BufferedWriter(_Letting(2, "w", closefd=False)),
+        encoding=sys.stderr.encoding,
+        errors="backslashreplace",
+        line_buffering=True,
+    )
+    sys.stdout = io.TextIOWrapper(
+        io.BufferedWriter(_Ending(1, "w", closefd=False)),
+        encoding=sys.stdout.encoding,
+        errors="backslashreplace",  # a title in a script that the terminal has not
+        line_buffering=sys.stdout.isatty(),
+    )
+
+
+def leave(status: int) -> NoReturn:
+    """End the process at once; taking the interpreter apart would cost a sixth of the run."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
+
+
+class _Ending(io.FileIO):
+    """Standard output: data that cannot be written ends the run.
+
+    Where the reader has left, as SIGPIPE would end it; else with a message and status 2.
+    """
+
+    def write(self, data: Any, /) -> int:
+        try:
+            return super().write(data)
+        except BrokenPipeError:
+            os._exit(128 + SIGPIPE)
+        except OSError as error:
+            print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
+            os._exit(2)
+
+
+class _Letting(io.FileIO):
+    """Standard error: a message that nobody can read is let go, and changes no exit status."""
+
+    def write(self, data: Any, /) -> int:
+        try:
+            return super().write(data)
+        except OSError:
+            return len(data)
+
+
+class _Messages(io.TextIOWrapper):
+    """Text of bounded lines: a message that quotes a megabyte hides what it says."""
+
+    def write(self, text: str, /) -> int:
+        if len(text) > LINE_MAX:
+            super().write("\n".join(cut(line, LINE_MAX) for line in text.split("\n")))
+        else:
+            super().write(text)
+        return len(text)

@@ -1,0 +1,137 @@
+"""What a file that is written to keeps, what is never replaced, and what killed runs leave."""
+
+import fcntl
+import os
+import stat
+import subprocess
+import sys
+
+import pytest
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.files import write
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+GONE = 2**22 + 1  # above the greatest number that Linux gives to a process
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def put(name, text=""):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def get(name):
+    with open(name, encoding="utf-8") as file:
+        return file.read()
+
+
+def geneva(*arguments, **settings):
+    return subprocess.run(
+        [GENEVA, *arguments], capture_output=True, text=True, timeout=60, **settings
+    )
+
+
+def temporary(name, number):
+    return f".{name}.geneva-{number}.tmp"
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a b+(1)@.csv", "größe.csv", "x" * 250 + ".csv"])
+def test_stale_ones_go(name):
+    put(temporary(name.encode()[:200].decode(), GONE), "half a fi")
+    write(name, ["whole"])
+    assert os.listdir() == [name]
+
+
+def test_of_the_same_number_in_an_earlier_life():
+    put(temporary("a.csv", os.getpid()))
+    write("a.csv", ["whole"])
+    assert os.listdir() == ["a.csv"]
+
+
+def test_others_stay():
+    """Another file's, a running process's, one that is held open elsewhere, and no file at all."""
+    names = [temporary("b.csv", GONE), temporary("a.csv", os.getppid()), temporary("a.csv", "x")]
+    for name in names:
+        put(name)
+    os.mkdir(temporary("a.csv", GONE))
+    put("target")
+    os.symlink("target", temporary("a.csv", GONE + 1))
+    held = temporary("a.csv", GONE + 2)
+    with open(held, "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        before = set(os.listdir())
+        write("a.csv", ["whole"])
+    assert set(os.listdir()) == before | {"a.csv"}
+
+
+def test_two_writers_at_once():
+    """The text may itself write the same file: as two threads, or two runs, would."""
+
+    def outer():
+        yield "outer "
+        write("a.csv", ["inner"])
+        assert get("a.csv") == "inner"
+        yield "whole"
+
+    write("a.csv", outer())
+    assert get("a.csv") == "outer whole"
+    assert os.listdir() == ["a.csv"]
+
+
+def test_read_only_is_refused():
+    put("a.csv", "kept")
+    os.chmod("a.csv", 0o444)
+    with pytest.raises(GenevaError, match=r"a\.csv: this file is read-only; allow writing"):
+        write("a.csv", ["new"])
+    assert get("a.csv") == "kept"
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files away")
+def test_owner_is_kept():
+    put("a.csv")
+    os.chown("a.csv", 1234, 2345)
+    os.chmod("a.csv", 0o640)
+    write("a.csv", ["new"])
+    now = os.stat("a.csv")
+    assert (now.st_uid, now.st_gid, stat.S_IMODE(now.st_mode)) == (1234, 2345, 0o640)
+
+
+def test_symlink_loop_is_refused():
+    os.symlink("b.csv", "a.csv")
+    os.symlink("a.csv", "b.csv")
+    with pytest.raises(GenevaError, match=r"^a\.csv: cannot write: Too many levels"):
+        write("a.csv", ["new"])
+    assert os.readlink("a.csv") == "b.csv"
+
+
+def test_link_to_nowhere_yet():
+    os.symlink("new.csv", "a.csv")
+    write("a.csv", ["new"])
+    assert os.path.islink("a.csv")
+    assert get("new.csv") == "new"
+
+
+def test_deleted_folder(tmp_path):
+    os.mkdir("sub")
+    script = 'cd sub && rmdir ../sub && exec "$0" table -o a.csv'
+    found = subprocess.run(["sh", "-c", script, GENEVA], capture_output=True, text=True)
+    assert found.returncode == 2
+    assert found.stderr.startswith('-o "a.csv": the current folder is gone')
+
+
+@pytest.mark.parametrize("spec", ["-", "/dev/stdin"])
+def test_standard_input_is_not_replaced(spec):
+    text = "[wheel]\nz = 6\n"
+    put("spec.toml", text)
+    arguments = ["motion", spec, "-o", "spec.toml", "--format", "csv"]
+    with open("spec.toml") as file:
+        found = geneva(*arguments, stdin=file)
+    assert found.returncode == 2
+    assert "is an input" in found.stderr
+    assert get("spec.toml") == text
+    assert geneva(*arguments, input=text).returncode == 0  # a pipe is no file

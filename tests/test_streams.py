@@ -1,0 +1,144 @@
+"""Standard streams that fail, and Ctrl-C at any moment: the exit status says what happened."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
+
+some = pytest.mark.parametrize("arguments", SOME, ids=" ".join)
+full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    folder = tmp_path / "Größe 六"  # letters and a space, as folders have them
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    put("spec.toml", "[wheel]\nz = 6\n")
+    put("fails.toml", "[wheel]\nz = 6\n[limits]\nvelocity_max = 0.1\n")
+    put("warns.toml", "[wheel]\nz = 25\n")
+
+
+@pytest.fixture(params=["", "1"], ids=["buffered", "unbuffered"])
+def environment(request):
+    return os.environ | {"PYTHONUNBUFFERED": request.param}  # an empty text counts as unset
+
+
+def put(name, text):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def run(arguments, environment=None, **settings):
+    settings = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | settings
+    return subprocess.run(
+        [GENEVA, *arguments], text=True, timeout=60, env=environment or os.environ, **settings
+    )
+
+
+@full
+@some
+def test_full_disk(arguments, environment):
+    with open("/dev/full", "w") as out:
+        found = run(arguments, environment, stdout=out)
+    assert found.returncode == 2
+    assert found.stderr.startswith("<stdout>: cannot write: No space left")
+    assert found.stderr.count("\n") == 1
+
+
+@some
+def test_pipe_without_a_reader(arguments, environment):
+    read, write = os.pipe()
+    os.close(read)
+    with open(write, "w") as out:
+        found = run(arguments, environment, stdout=out)
+    assert (found.returncode, found.stderr) == (141, "")
+
+
+def test_output_that_is_not_open_for_writing(environment):
+    with open("spec.toml") as out:
+        found = run(["table"], environment, stdout=out)
+    assert found.returncode == 2
+    assert found.stderr.startswith("<stdout>: cannot write: ")
+
+
+STATUS = {"peaks spec.toml": 0, "peaks warns.toml": 0, "check fails.toml": 1, "peaks gone.toml": 2}
+STATUS |= {"peaks --zz": 2, "tabel": 2, "--zz": 2}
+
+
+@pytest.mark.parametrize("arguments", STATUS)
+@pytest.mark.parametrize("kind", [pytest.param("full", marks=full), "pipe"])
+def test_messages_that_cannot_be_written(arguments, kind, environment):
+    """``2>/dev/full``: what is said changes nothing of what is."""
+    plain = run(arguments.split(), environment)
+    if kind == "full":
+        with open("/dev/full", "w") as err:
+            found = run(arguments.split(), environment, stderr=err)
+    else:
+        read, write = os.pipe()
+        os.close(read)
+        with open(write, "w") as err:
+            found = run(arguments.split(), environment, stderr=err)
+    assert found.returncode == plain.returncode == STATUS[arguments]
+    assert found.stdout == plain.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", ["--{}", "{}", "table --z {}", "table --n {}", "peaks x --{}", "peaks {}.toml"]
+)
+def test_messages_are_short(arguments):
+    found = run([x.format("9" * 100_000) for x in arguments.split()])
+    assert found.returncode == 2
+    assert 0 < len(found.stderr) < 5000
+    assert "Traceback" not in found.stderr
+
+
+INTERRUPTED = """
+import importlib.abc, os, signal, sys
+
+class Interrupt(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name == wanted:
+            os.kill(os.getpid(), signal.SIGINT)
+
+signal.signal(signal.SIGINT, signal.default_int_handler if sys.argv[2] == "on" else signal.SIG_IGN)
+sys.meta_path.insert(0, Interrupt())
+wanted, sys.argv[1:] = sys.argv[1], ["motion", "spec.toml", "--format", "csv"]
+from geneva_cli.__main__ import main
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    "module", ["geneva_cli.app", "typer", "geneva_cli.commands.motion", "numpy", "numpy.linalg"]
+)
+def test_ctrl_c_while_importing(module):
+    """At once, and without the traceback of whatever was being imported."""
+    command = [sys.executable, "-c", INTERRUPTED, module]
+    found = subprocess.run([*command, "on"], capture_output=True, text=True, timeout=60)
+    assert (found.returncode, found.stdout, found.stderr) == (130, "", "")
+
+
+def test_ignored_ctrl_c_stays_ignored():
+    command = [sys.executable, "-c", INTERRUPTED, "numpy", "off"]
+    found = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert (found.returncode, found.stderr) == (0, "")
+    assert found.stdout.startswith("time_s,")
+
+
+def test_ignored_hangup_stays_ignored():
+    """``nohup geneva ... -o FILE`` outlives its terminal."""
+    process = subprocess.Popen(
+        [GENEVA, "motion", "spec.toml", "--samples", "200000", "-o", "motion.csv"],
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN),
+    )
+    while process.poll() is None and not any(x.endswith(".tmp") for x in os.listdir()):
+        pass
+    process.send_signal(signal.SIGHUP)
+    assert process.wait(timeout=60) == 0
+    assert os.listdir().count("motion.csv") == 1
