@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress bench bench-start clean
+.PHONY: demo test lint stress fuzz bench bench-start clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -26,11 +26,17 @@ bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
-# Numerical stress against mpmath, random machines turned, then random specs; half an hour.
+# Numerical stress against mpmath, then random machines turned; half an hour.
 stress: .venv/dev
 	$(BIN)/python tests/stress.py
 	$(BIN)/python tests/stress_outline.py
-	$(BIN)/python tests/fuzz_spec.py --runs 200000
+
+# A million random specs, and 20,000 machines with parts; hours. Stopped, it goes on from there;
+# another seed, or new code, begins again: rm build/fuzz-*.json.
+fuzz: .venv/dev
+	@mkdir -p build
+	$(BIN)/python tests/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
+	$(BIN)/python tests/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev

@@ -1,59 +1,40 @@
 """Random specs, and what must hold of each: `python tests/fuzz_spec.py --runs 1000000`.
 
-Text goes through the program's own reader, as from standard input: it either makes a machine or is
-refused in one printable line that begins with its place. Three kinds of text: specs put together
-from the keys that the program knows (mostly within their ranges, often at the very ends of them),
-such specs with letters, lines and values mutated, and TOML words thrown together. With atheris
-installed, a tenth as many runs are then steered by the coverage of the reader.
+Text goes through the program's own reader, as from standard input: it either makes a machine, whose
+motion is then computed, or is refused in one printable line that begins with its place. Four kinds
+of text: machines as a designer writes them, specs put together from the keys that the program knows
+(often at the very ends of their ranges), such specs with letters, lines and values mutated, and
+TOML words thrown together.
 """
 
-import argparse
-import contextlib
-import importlib.util
 import io
 import math
-import os
-import random
 import re
-import signal
 import sys
-import tempfile
-import time
 import warnings
 from types import SimpleNamespace
 from typing import get_origin
 
+import numpy as np
+from fuzz_machines import in_range, machine_text
+from fuzzing import campaign, in_time
+
 from geneva_cli import drives
 from geneva_cli.errors import GenevaError
 from geneva_cli.laws import NAMES as LAWS
+from geneva_cli.motion import motion_table
+from geneva_cli.peaks import peaks_table
 from geneva_cli.rules import OneOf, Range
 from geneva_cli.spec import TABLES, fields, kind_keys, load
 
-SECONDS = 5  # for one spec; one takes about a millisecond
-LAW = "".join(f"{i / 10},{(i / 10) ** 2 * (3 - i / 5)}\n" for i in range(11))
-PLACE = re.compile(r"(<stdin>|law\.csv)(:(\d+))?: ", re.DOTALL)
+SECONDS = 10  # for one spec; one takes some milliseconds
+PLACE = re.compile(r"(<stdin>|law\.csv|ratio\.csv)(:(\d+))?: ", re.DOTALL)
 # fmt: off
 ODD = ["nan", "inf", "-inf", "0", "-0.0", "1e308", "5e-324", "-1", '"x"', "true", "[]", "[1, [2]]",
        "{}", "{a = 1}", "2001-02-03", "1" + "0" * 400, '""', '"\\u001b[31m"', "0x1F", "1_0"]
 WORDS = ["[", "]", "[[", "]]", "=", ".", ",", "{", "}", "\n", '"', "'", '"""', "#", "\\", " ", "\t",
          "\0", "\r", "\ufeff", "é", "\u202e", "=\n", "wheel", "z", "6", "[wheel]\n", "z = 6\n"]
 # fmt: on
-
-
-def in_range(rng, rule, whole):
-    """A number that the rule allows, often at its very ends."""
-    low = rule.low if math.isfinite(rule.low) else -1e300
-    high = rule.high if math.isfinite(rule.high) else 1e300
-    if whole:
-        low, high = int(low), int(high)
-        return rng.choice([low, high, min(high, low + rng.randrange(30)), rng.randint(low, high)])
-    inside_low = math.nextafter(low, math.inf) if rule.ends[0] == "(" else low
-    inside_high = math.nextafter(high, -math.inf) if rule.ends[1] == ")" else high
-    nearly = low + (high - low) * 10.0 ** -rng.uniform(0, 15)
-    usual = max(inside_low, min(inside_high, 10.0 ** rng.uniform(-3, 3)))
-    uniform = low + (high - low) * rng.random()
-    value = rng.choice([inside_low, inside_high, 0.0, nearly, usual, usual, usual, uniform])
-    return min(max(value, inside_low), inside_high)
 
 
 def value(rng, field, wild):
@@ -70,7 +51,12 @@ def value(rng, field, wild):
         return repr(in_range(rng, rule, whole))
     if isinstance(rule, OneOf):
         return f'"{rng.choice(rule)}"'
-    words = {"law": LAWS, "kind": tuple(drives.KINDS), "file": ("law.csv", "gone.csv", "")}
+    words = {
+        "law": LAWS,
+        "kind": tuple(drives.KINDS),
+        "file": ("law.csv", "gone.csv", ""),
+        "ratio_file": ("ratio.csv", "gone.csv"),
+    }
     return f'"{rng.choice(words.get(field.key, ("matched", "shockless", "slow")))}"'
 
 
@@ -130,11 +116,13 @@ def garbage(rng):
 
 
 def text_of(rng):
-    """One of the three kinds."""
+    """One of the four kinds."""
     how = rng.random()
-    if how < 0.5:
+    if how < 0.4:
+        return machine_text(rng)
+    if how < 0.7:
         return spec_text(rng)
-    return mutated(rng, spec_text(rng, 0.1)) if how < 0.85 else garbage(rng)
+    return mutated(rng, spec_text(rng, 0.1)) if how < 0.95 else garbage(rng)
 
 
 def read(data):
@@ -172,105 +160,29 @@ def consistent(mechanism):
         assert math.isfinite(mechanism.dwell_deg(i))
 
 
-@contextlib.contextmanager
-def in_time(seconds=SECONDS):
-    """TimeoutError where something takes longer, of the processor's time: others may be busy."""
-
-    def stop(number, frame):
-        raise TimeoutError(f"more than {seconds} s")
-
-    before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)
+def sound(table, boundless=()):
+    """Every number of a table is one, and finite but in the columns that may be without bound."""
+    for name, column in zip(table.names, table.columns, strict=True):
+        values = [v for v in np.asarray(column, dtype=object).ravel() if isinstance(v, float)]
+        assert not any(v != v for v in values), f"{name} is nan"
+        if name not in boundless:
+            assert all(map(math.isfinite, values)), f"{name} is infinite"
 
 
-@contextlib.contextmanager
-def folder():
-    """A temporary working folder with the points of a law, which nothing may harm."""
-    with tempfile.TemporaryDirectory() as path, contextlib.chdir(path):
-        with open("law.csv", "w") as file:
-            file.write(LAW)
-        yield
-        with open("law.csv") as file:
-            assert file.read() == LAW, "law.csv was changed"
-        assert os.listdir() == ["law.csv"]
-
-
-def one(data, deep=True):
-    """One spec; True where it made a machine."""
-    with in_time(), warnings.catch_warnings():
+def one(text):
+    """All of the motion of one spec; how it ended, in a word."""
+    data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
+    with in_time(SECONDS), warnings.catch_warnings():
         warnings.simplefilter("error")
         found = read(data)
         if isinstance(found, str):
-            return False
-        if deep:
-            consistent(found)
-        return True
-
-
-def guided(runs, seed):
-    """Bytes steered by coverage; atheris ends the process itself."""
-    import atheris
-
-    with atheris.instrument_imports(include=["tomli", "geneva_cli.spec"]):
-        for name in [n for n in sys.modules if n.startswith("tomli") or n == "geneva_cli.spec"]:
-            del sys.modules[name]
-        import geneva_cli.spec as again
-    globals()["load"] = again.load
-    place = tempfile.mkdtemp()
-    os.chdir(place)
-    rng = random.Random(seed)
-    os.mkdir("corpus")
-    for i in range(200):
-        with open(f"corpus/{i}", "w") as file:
-            file.write(spec_text(rng))
-    with open("law.csv", "w") as file:
-        file.write(LAW)
-    flags = [
-        f"-runs={runs}",
-        f"-seed={seed}",
-        "-max_len=2048",
-        f"-timeout={SECONDS}",
-        "-verbosity=0",
-    ]
-    atheris.Setup([sys.argv[0], *flags, "corpus"], lambda data: one(data))
-    atheris.Fuzz()
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--runs", type=int, default=100_000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--no-guided", action="store_true", help="leave out atheris")
-    options = parser.parse_args()
-    rng, start, made, failed = random.Random(options.seed), time.perf_counter(), 0, {}
-    with folder():
-        for n in range(options.runs):
-            data = text_of(rng).encode("utf-8", "surrogatepass")
-            try:
-                made += one(data)
-            except Exception as error:
-                last = error.__traceback__
-                while last.tb_next:
-                    last = last.tb_next
-                name = os.path.basename(last.tb_frame.f_code.co_filename)
-                what = f"{type(error).__name__} in {name}:{last.tb_lineno}"
-                if what not in failed:
-                    print(f"run {n}: {what}: {error}\n{data!r}\n")
-                failed[what] = failed.get(what, 0) + 1
-    seconds = time.perf_counter() - start
-    print(f"{options.runs} specs, {made} of them machines, {seconds:.0f} s; failures: {failed}")
-    if failed:
-        sys.exit(1)
-    if options.no_guided or importlib.util.find_spec("atheris") is None:
-        return
-    sys.stdout.flush()
-    guided(options.runs // 10, options.seed)
+            return "refused"
+        consistent(found)
+        sound(peaks_table(found))
+        for samples in (33, 50):  # with mid-motion among them, and without
+            sound(motion_table(found, samples))
+        return "machine"
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(campaign("specs", text_of, one, batch=500))

@@ -1,0 +1,136 @@
+"""What the fuzzers share: a case in its own time, and long runs that can be stopped and taken up.
+
+A run is of numbered cases; each makes its own random numbers from its number, so that any of them
+is made again by `--first N --runs 1`, in any order and by any process.
+"""
+
+import argparse
+import contextlib
+import json
+import math
+import multiprocessing
+import os
+import random
+import resource
+import signal
+import sys
+import tempfile
+import time
+
+LAW = "".join(f"{i / 10},{(i / 10) ** 2 * (3 - i / 5)}\n" for i in range(11))
+# i = 1 - 0.3 cos(input), to what a person writes
+RATIOS = "".join(f"{x},{1 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in range(0, 361, 15))
+FILES = {"law.csv": LAW, "ratio.csv": RATIOS}  # what a spec may name
+MEMORY = 2**30  # bytes of data that a process of a long run may hold
+
+
+@contextlib.contextmanager
+def in_time(seconds):
+    """TimeoutError where something takes longer, of the processor's time: others may be busy."""
+
+    def stop(number, frame):
+        raise TimeoutError(f"more than {seconds} s")
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+
+
+@contextlib.contextmanager
+def folder():
+    """A temporary working folder with files of points, which nothing may harm."""
+    with tempfile.TemporaryDirectory() as path, contextlib.chdir(path):
+        for name, text in FILES.items():
+            with open(name, "w") as file:
+                file.write(text)
+        yield
+        for name, text in FILES.items():
+            with open(name) as file:
+                assert file.read() == text, f"{name} was changed"
+        assert sorted(os.listdir()) == sorted(FILES)
+
+
+def numbers(seed, case):
+    """The random numbers of a case."""
+    return random.Random(f"{seed}-{case}")
+
+
+def _place(error):
+    """The function in which an error was raised: failures of one place are counted together."""
+    last = error.__traceback__
+    while last.tb_next:
+        last = last.tb_next
+    code = last.tb_frame.f_code
+    return f"{os.path.basename(code.co_filename)}:{last.tb_lineno} {code.co_name}"
+
+
+def _batch(job):
+    """Cases one after another: how many ended how, and the first failure of each sort."""
+    make, one, seed, start, count, bounded = job
+    if bounded:  # for the process of a long run, not for the one of the tests
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+    ends, failed = {}, {}
+    with folder():
+        for case in range(start, start + count):
+            text = make(numbers(seed, case))
+            try:
+                end = one(text)
+            except Exception as error:
+                # A time-out strikes anywhere: its place says nothing.
+                slow = isinstance(error, TimeoutError)
+                what = "TimeoutError" if slow else f"{type(error).__name__} in {_place(error)}"
+                first = failed.setdefault(what, [0, case, str(error)[:400], repr(text)])
+                first[0] += 1
+                end = "failed"
+            ends[end] = ends.get(end, 0) + 1
+    return ends, failed
+
+
+def campaign(name, make, one, batch):
+    """Parse the command line and run: ``make(rng)`` is a case's text, ``one(text)`` tries it.
+
+    ``one`` says in a word how it ended, and raises where that was wrong. Returns the exit status.
+    """
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--runs", type=int, default=10 * batch)
+    parser.add_argument("--first", type=int, default=0, help="number of the first case")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--seconds", type=float, help="stop after so long, at a batch's end")
+    parser.add_argument("--state", help="file to take the run up from, and to keep it in")
+    options = parser.parse_args()
+    state = {"seed": options.seed, "next": options.first, "seconds": 0.0, "ends": {}, "failed": {}}
+    if options.state and os.path.exists(options.state):
+        with open(options.state) as file:
+            state = json.load(file)
+    start, before, stop = time.perf_counter(), state["seconds"], options.first + options.runs
+    places = range(state["next"], stop, batch)
+    jobs = [(make, one, state["seed"], at, min(batch, stop - at), True) for at in places]
+    with multiprocessing.get_context("spawn").Pool(options.jobs, maxtasksperchild=20) as pool:
+        for at, (ends, failed) in zip(places, pool.imap(_batch, jobs), strict=True):
+            state["next"] = min(at + batch, stop)
+            state["seconds"] = before + time.perf_counter() - start
+            for end, count in ends.items():
+                state["ends"][end] = state["ends"].get(end, 0) + count
+            for what, found in failed.items():
+                if what not in state["failed"]:
+                    print(f"case {found[1]}: {what}: {found[2]}\n{found[3]}\n", flush=True)
+                    state["failed"][what] = found
+                else:
+                    state["failed"][what][0] += found[0]
+            if options.state:
+                with open(options.state + ".new", "w") as file:
+                    json.dump(state, file, indent=1)
+                os.replace(options.state + ".new", options.state)
+            if options.seconds and time.perf_counter() - start > options.seconds:
+                pool.terminate()
+                break
+    counts = {what: found[0] for what, found in state["failed"].items()}
+    done = state["next"] - options.first
+    print(f"{name}: {done} of {options.runs} cases, {state['seconds']:.0f} s; {state['ends']}")
+    print(f"failures: {counts}", file=sys.stderr if counts else sys.stdout)
+    return int(bool(counts))
