@@ -39,7 +39,7 @@ COMMANDS = {
 }
 
 
-MESSAGE_MAX = 2000  # characters
+MESSAGE_MAX = 1000  # characters
 
 
 class LazyGroup(TyperGroup):

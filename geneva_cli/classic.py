@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.units import one_minus_sin_pi, sin_cos_pi
 
 SIGN = {"external": 1.0, "internal": -1.0, "spherical": 1.0}
@@ -37,7 +37,9 @@ def refuse_jam(rollers: int, motion_deg: float, gearing: str) -> None:
             if gearing == "internal" and motion_deg > 180.0
             else f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
         )
-        raise GenevaError(f"rollers = {rollers} jam: {why}; at most {most}", ("drive", "rollers"))
+        raise GenevaError(
+            f"rollers = {cut(rollers)} jam: {why}; at most {most}", ("drive", "rollers")
+        )
 
 
 def velocity_peak(l: float, gap: float) -> float:

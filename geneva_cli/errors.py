@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
+
 
 class GenevaError(Exception):
     """Wrong spec, wrong file or wrong value: shown as ``FILE:LINE: message``, exit code 2.
@@ -22,8 +24,14 @@ def clean(text: str) -> str:
     return "".join(c if c.isprintable() else " " for c in text)
 
 
-def cut(text: str, most: int = 60) -> str:
-    """Text of at most ``most`` characters: of a longer one the beginning and the end."""
+def cut(value: str | int, most: int = 60) -> str:
+    """A value as a message quotes it, in ``most`` characters: of a long one beginning and end.
+
+    Whole numbers of more than some thousand digits are hexadecimal, as Python writes no other.
+    """
+    if isinstance(value, int) and value.bit_length() > DECIMAL_BITS:
+        value = hex(value)
+    text = str(value)
     if len(text) <= most:
         return text
     end = most // 4

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.keys import Spec
 from geneva_cli.laws import Law, named
 
@@ -12,7 +12,8 @@ def law_of(spec: Spec) -> Law:
     motion = spec.motion
     if motion.lambda_ and motion.law != "sine-group":
         raise GenevaError(
-            f'lambda shapes only the law "sine-group", not "{motion.law}"', ("motion", "lambda")
+            f'lambda shapes only the law "sine-group", not "{cut(motion.law or "")}"',
+            ("motion", "lambda"),
         )
     if motion.law == "table":
         from geneva_cli.law_table import read_law

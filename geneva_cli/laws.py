@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.jet import Coefficient, Jet, integral, library, piecewise, sin_cos
 
 Half: TypeAlias = Callable[[Coefficient, int], Jet]
@@ -240,5 +240,5 @@ def named(name: str, shape: float = 0.0) -> Law:
         return sine_group(shape)
     if name not in LAWS:
         known = ", ".join(NAMES)
-        raise GenevaError(f'unknown law "{name}"{nearest(name, NAMES)}; known: {known}')
+        raise GenevaError(f'unknown law "{cut(name)}"{nearest(name, NAMES)}; known: {known}')
     return LAWS[name]()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.table import Table
 
@@ -15,7 +15,7 @@ NAMES = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
 def check_samples(samples: int) -> None:
     """Raise GenevaError where so many samples are too few or too many."""
     if not 2 <= samples <= SAMPLES_MAX:
-        raise GenevaError(f"--samples {samples}: must be at least 2, at most {SAMPLES_MAX}")
+        raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
 
 
 def motion_table(mechanism: Mechanism, samples: int) -> Table:

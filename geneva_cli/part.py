@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.table import Table, rows_table
 
@@ -28,7 +28,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
     """
     if part not in PARTS:
         raise GenevaError(
-            f"--part {part}: it must be one of {', '.join(PARTS)}{nearest(part, PARTS)}"
+            f"--part {cut(part)}: it must be one of {', '.join(PARTS)}{nearest(part, PARTS)}"
         )
     if drawn and part not in DRAWINGS:
         raise GenevaError(
@@ -45,7 +45,7 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     Raises GenevaError for a part that the machine does not have.
     """
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
-        raise GenevaError(f"--samples {samples}: must be at least 2, at most {SAMPLES_MAX}")
+        raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
     if part == "slot":
         from geneva_cli.profile import profile_table
 

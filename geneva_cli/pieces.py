@@ -19,7 +19,7 @@ from geneva_cli.drawing import (
     closed,
     joined,
 )
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.measure import mapped, segment_length
 from geneva_cli.table import Table, rows_table
 
@@ -71,7 +71,7 @@ def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
     coordinate is not finite.
     """
     if units not in UNITS:
-        raise GenevaError(f"--units {units}: it must be one of {', '.join(UNITS)}")
+        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
     shapes = [shape for given in drawing.shapes for shape in _cleaned(given)]
     return drawing._replace(
         shapes=tuple(_divided(shape, UNITS[units]) for shape in dict.fromkeys(shapes))

@@ -6,7 +6,7 @@ import math
 import re
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 
 POINTS_MAX = 100_000
 BYTES_MAX = 1 << 24
@@ -36,7 +36,7 @@ def read_pairs(path: str, kind: Pairs, key: tuple[str, ...]) -> list[tuple[float
         try:
             x, y = (float(cell) for cell in row)
         except ValueError:
-            shown = ",".join(row)[:60]
+            shown = cut(",".join(row))
             raise GenevaError(f'{where}: "{shown}" is not two numbers {kind.x},{kind.y}') from None
         if not (math.isfinite(x) and abs(y) <= kind.y_max):
             raise GenevaError(
@@ -60,7 +60,11 @@ def _text(path: str, key: tuple[str, ...]) -> str:
         with open(path, "rb") as file:
             data = file.read(BYTES_MAX + 1)
     except OSError as error:
-        raise GenevaError(f"cannot read the points in {path}: {error.strerror}", key) from None
+        raise GenevaError(
+            f"cannot read the points in {cut(path, 300)}: {error.strerror}", key
+        ) from None
+    except ValueError as error:  # a NUL in the name
+        raise GenevaError(f"cannot read the points in {cut(path, 300)}: {error}", key) from None
     if len(data) > BYTES_MAX:
         raise GenevaError(f"{path}: larger than {BYTES_MAX} bytes; thin the points out")
     try:

@@ -14,10 +14,11 @@ from typing import Any, NamedTuple, TypeVar, get_args, get_type_hints
 import tomli
 
 from geneva_cli import drives, keys, kinds
-from geneva_cli.errors import GenevaError, clean, nearest
+from geneva_cli.errors import GenevaError, clean, cut, nearest
 from geneva_cli.mechanism import Mechanism, build
 
 T = TypeVar("T")
+EXACT = 2.0**53  # up to it, a float that is whole is that whole number
 TRIES = 10  # lines that look like setting a key, before its table is named instead
 BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
 TABLES: dict[str, Any] = {
@@ -59,7 +60,7 @@ def load_and(path: str, make: Callable[[Mechanism], T]) -> T:
         tree = tomli.loads(text)
     except tomli.TOMLDecodeError as error:
         said = error.msg[:1].lower() + error.msg[1:]
-        raise GenevaError(f"{name}:{error.lineno}: not TOML: {said}") from None
+        raise GenevaError(f"{name}:{error.lineno}: not TOML: {cut(said, 200)}") from None
     except RecursionError:
         raise GenevaError(f"{name}: not a spec: brackets are nested too deeply") from None
     except ValueError as error:  # a whole number of thousands of digits
@@ -168,7 +169,7 @@ def _spec(tree: dict[str, Any], name: str) -> keys.Spec:
     for table, value in tree.items():
         if table not in TABLES:
             hint = nearest(table, (*TABLES, "title"))
-            what = f"[{table}]" if isinstance(value, dict) else table
+            what = f"[{cut(table)}]" if isinstance(value, dict) else cut(table)
             raise GenevaError(
                 f"unknown {'table' if isinstance(value, dict) else 'key'} {what}{hint}; "
                 f"known: title, {', '.join(f'[{t}]' for t in TABLES)}",
@@ -189,7 +190,7 @@ def _drive(given: dict[str, Any]) -> tuple[keys.Drive, Any]:
     """The common keys, and those of the kind."""
     kind = given.get("kind", "crank")
     if not isinstance(kind, str) or kind not in drives.KINDS:
-        hint = nearest(str(kind), drives.KINDS)
+        hint = nearest(kind, drives.KINDS) if isinstance(kind, str) else ""
         known = ", ".join(f'"{k}"' for k in drives.KINDS)
         raise GenevaError(
             f"kind must be one of {known}, not {_shown(kind)}{hint}", ("drive", "kind")
@@ -218,7 +219,7 @@ def _table(
     for key, value in given.items():
         if key not in known:
             raise GenevaError(
-                f"unknown key {key} in [{name}]{nearest(key, (*known, *also))}; "
+                f"unknown key {cut(key)} in [{name}]{nearest(key, (*known, *also))}; "
                 f"known: {', '.join((*known, *also))}",
                 (name, key),
             )
@@ -238,9 +239,9 @@ def _value(field: Field, value: Any, table: str) -> Any:
     numeric = [t for t in field.types if t in (int, float)]
     if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
         if numeric[0] is int and not isinstance(value, int):
-            near = f", {math.floor(value)} or {math.ceil(value)}" if math.isfinite(value) else ""
             raise GenevaError(
-                f"{field.key} = {value!r} must be a whole number{near} ({field.meaning})", place
+                f"{field.key} = {value!r} must be a whole number{_whole(value)} ({field.meaning})",
+                place,
             )
         if value not in field.rule:
             raise GenevaError(
@@ -250,7 +251,7 @@ def _value(field: Field, value: Any, table: str) -> Any:
             return value if numeric[0] is int else float(value)
         except OverflowError:
             raise GenevaError(
-                f"{field.key} = {_shown(value)}... is too large a number ({field.meaning})", place
+                f"{field.key} = {_shown(value)} is too large a number ({field.meaning})", place
             ) from None
     if isinstance(value, list) and LIST in field.types:
         if not value or len(value) > LIST_MAX:
@@ -259,11 +260,14 @@ def _value(field: Field, value: Any, table: str) -> Any:
     if isinstance(value, str) and str in field.types:
         if isinstance(field.rule, tuple) and not numeric and value not in field.rule:
             raise GenevaError(
-                f'{field.key} = "{value}" must be {field.rule}{nearest(value, field.rule)}', place
+                f"{field.key} = {_shown(value)} must be {field.rule}{nearest(value, field.rule)}",
+                place,
             )
         if numeric and value not in WORDS[field.key]:
             words = " or ".join(f'"{w}"' for w in WORDS[field.key])
-            raise GenevaError(f'{field.key} must be a number or {words}, not "{value}"', place)
+            raise GenevaError(
+                f"{field.key} must be a number or {words}, not {_shown(value)}", place
+            )
         return value
     wanted = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {wanted}, not {_shown(value)}", place)
@@ -278,5 +282,14 @@ def _shown(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
-        return f'"{value[:60]}"'
-    return f"{value:.12g}" if isinstance(value, float) else str(value)[:60]
+        return f'"{cut(value)}"'
+    return f"{value:.12g}" if isinstance(value, float) else cut(value)
+
+
+def _whole(value: float) -> str:
+    """The whole numbers beside one that is not, as it must be written."""
+    if not abs(value) < EXACT:
+        return ""
+    if value == math.floor(value):
+        return f": write {value:.0f}"
+    return f", {math.floor(value)} or {math.ceil(value)}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli import classic
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.rules import SPEED, Z_MAX
 from geneva_cli.table import Table, rows_table
 from geneva_cli.timing import Timing, timing
@@ -34,7 +34,7 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     if not -1.0 < A < 1.0:
         raise GenevaError(f"--A {A:g}: the side-crank's offset must be above -1 and below 1")
     if rollers < 1:
-        raise GenevaError(f"--rollers {rollers}: a crank carries at least 1")
+        raise GenevaError(f"--rollers {cut(rollers)}: a crank carries at least 1")
     if rollers > 1 and A:
         raise GenevaError(
             "--rollers with --A: the stations differ, so one row cannot describe them; write a "
@@ -110,9 +110,9 @@ def parse_z(text: str) -> list[int]:
         first, dots, last = part.partition("..")
         low, high = _slots(first, text), _slots(last if dots else first, text)
         if high < low:
-            raise GenevaError(f"--z {text}: {low}..{high} runs backwards; write {high}..{low}")
+            raise GenevaError(f"--z {cut(text)}: {low}..{high} runs backwards; write {high}..{low}")
         if len(out) + high - low >= ROWS_MAX:
-            raise GenevaError(f"--z {text}: that is more than {ROWS_MAX} rows; ask for fewer")
+            raise GenevaError(f"--z {cut(text)}: that is more than {ROWS_MAX} rows; ask for fewer")
         out.extend(range(low, high + 1))
     return out
 
@@ -120,8 +120,12 @@ def parse_z(text: str) -> list[int]:
 def _slots(text: str, whole: str) -> int:
     number = text.strip()
     if not (number.isascii() and number.isdigit()):
-        raise GenevaError(f'--z {whole}: "{number}" is not a whole number; write 6, 3..12 or 3,4,6')
+        raise GenevaError(
+            f'--z {cut(whole)}: "{cut(number)}" is not a whole number; write 6, 3..12 or 3,4,6'
+        )
     z = int(number) if len(number) < 12 else Z_MAX + 1
     if not 3 <= z <= Z_MAX:
-        raise GenevaError(f"--z {whole}: z = {number} must be at least 3, at most {Z_MAX}")
+        raise GenevaError(
+            f"--z {cut(whole)}: z = {cut(number)} must be at least 3, at most {Z_MAX}"
+        )
     return z

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from geneva_cli.cautions import SHOWN_UNDERCUT
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.keys import Limits, Spec
 from geneva_cli.mechanism import build
 from geneva_cli.spec import TABLES, fields, kind_keys
@@ -22,7 +22,7 @@ def chosen(wish: Wish, ways: list[tuple[Spec, Way]], number: int) -> tuple[Spec,
     Raises GenevaError where there is no such row, or no roller is small enough for its slot.
     """
     if not 1 <= number <= len(ways):
-        raise GenevaError(f"--write {number}: the table has rows 1 to {len(ways)}")
+        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ways)}")
     spec, way = ways[number - 1]
     spec = _sized(spec)
     if wish.acceleration_max is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.laws import LAWS
 from geneva_cli.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.survey import parse_z
@@ -69,8 +69,8 @@ def read_wish(
     if len(given) != 1:
         said = f"{given[0]} with {given[1]}: choose one" if given else "no wish"
         raise GenevaError(f"{said}; a wish is exactly one of {', '.join(asked)}")
-    if rollers is not None and rollers < 1:
-        raise GenevaError(f"--rollers {rollers}: a crank carries at least 1")
+    if rollers is not None and not 1 <= rollers <= Z_MAX:
+        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
     both = internal == external
     wish = Wish(
         "",
@@ -83,7 +83,7 @@ def read_wish(
     if step:
         return _timed(wish, step, motion_s, bool(z))
     if motion_s:
-        raise GenevaError(f"--motion-s {motion_s}: goes with --step and --cycle")
+        raise GenevaError(f"--motion-s {cut(motion_s)}: goes with --step and --cycle")
     if tau:
         x = number("--tau", tau, Range(0.0, 1.0, "()"))
         return wish._replace(words=f"tau = {x:.7g}", tau=x)
@@ -103,16 +103,16 @@ def number(option: str, text: str, rule: Range) -> float:
     try:
         x = float(above) / float(below) if slash else float(text)
     except (ValueError, ZeroDivisionError):
-        raise GenevaError(f'{option} "{text}": not a number; write 0.25 or 1/4') from None
+        raise GenevaError(f'{option} "{cut(text)}": not a number; write 0.25 or 1/4') from None
     if x not in rule:
-        raise GenevaError(f"{option} {text}: it must be {rule}")
+        raise GenevaError(f"{option} {cut(text)}: it must be {rule}")
     return x
 
 
 def _slots(text: str) -> tuple[int, ...]:
     z = parse_z(text or "3..24")
     if len(z) > WHEELS_MAX:
-        raise GenevaError(f"--z {text}: that is more than {WHEELS_MAX} wheels; ask for fewer")
+        raise GenevaError(f"--z {cut(text)}: that is more than {WHEELS_MAX} wheels; ask for fewer")
     return tuple(dict.fromkeys(z))
 
 
@@ -121,7 +121,9 @@ def _laws(name: str) -> tuple[str, ...]:
         return tuple(LAWS)
     if name not in LAWS:
         hint = nearest(name, (*LAWS, "all"))
-        raise GenevaError(f'--law "{name}": unknown{hint}; it must be all or {", ".join(LAWS)}')
+        raise GenevaError(
+            f'--law "{cut(name)}": unknown{hint}; it must be all or {", ".join(LAWS)}'
+        )
     return (name,)
 
 
@@ -130,12 +132,14 @@ def _timed(wish: Wish, step: str, motion_s: str, z_given: bool) -> Wish:
     degrees = number("--step", step, STEP)
     whole = wish.cycle_s
     if whole is None:
-        raise GenevaError(f"--step {step}: needs --cycle, the seconds from one step to the next")
+        raise GenevaError(
+            f"--step {cut(step)}: needs --cycle, the seconds from one step to the next"
+        )
     z = round(360.0 / degrees)
     if abs(z * degrees - 360.0) > 360.0 * 1e-6:
         low, high = int(360.0 / degrees), int(360.0 / degrees) + 1
         raise GenevaError(
-            f"--step {step}: 360 degrees are no whole number of such steps; near are "
+            f"--step {cut(step)}: 360 degrees are no whole number of such steps; near are "
             f"{360.0 / high:.7g} (z = {high}) and {360.0 / low:.7g} (z = {low})"
         )
     if z_given and z not in wish.z:
@@ -147,7 +151,7 @@ def _timed(wish: Wish, step: str, motion_s: str, z_given: bool) -> Wish:
     seconds = number("--motion-s", motion_s, POSITIVE)
     if seconds >= whole:
         raise GenevaError(
-            f"--motion-s {motion_s}: it must be above 0, below the cycle's {whole:.7g} s"
+            f"--motion-s {cut(motion_s)}: it must be above 0, below the cycle's {whole:.7g} s"
         )
     words += f", {seconds:.7g} s of it in motion"
     return wish._replace(words=words, tau=seconds / whole)

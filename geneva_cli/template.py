@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.spec import TABLES, Field, fields, kind_keys
 
 # KIND -> what it says of itself, and the keys that it sets
@@ -36,7 +36,9 @@ def template(kind: str) -> str:
     """
     if kind not in KINDS:
         known = ", ".join(KINDS)
-        raise GenevaError(f'unknown KIND "{kind}"{nearest(kind, KINDS)}; it must be one of {known}')
+        raise GenevaError(
+            f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of {known}'
+        )
     about, given = KINDS[kind]
     lines = [
         f"# A Geneva mechanism: {about}.",

@@ -312,13 +312,13 @@ for drawing in (MANY, TINY):
 
 
 def test_the_same_bytes_everywhere(tmp_path):
-    """Another hash seed, folder, time zone and home; an ezdxf.ini that asks for other things."""
+    """Another hash seed, folder, time zone and home; an ezdxf.ini that is none."""
     tests = os.path.dirname(os.path.abspath(__file__))
     found = set()
     for seed, zone in (("1", "UTC"), ("2", "Asia/Tokyo")):
         folder = tmp_path / seed
         folder.mkdir()
-        (folder / "ezdxf.ini").write_text("[core]\nfilter_invalid_xdata_group_codes = false\n")
+        (folder / "ezdxf.ini").write_text("no settings at all\n")
         change = {"PYTHONHASHSEED": seed, "TZ": zone, "HOME": str(folder), "LC_ALL": "C"}
         change["PYTHONPATH"] = os.path.dirname(tests)
         run = subprocess.run(
@@ -329,6 +329,7 @@ def test_the_same_bytes_everywhere(tmp_path):
             text=True,
         )
         assert run.returncode == 0, run.stderr
+        assert os.listdir(folder) == ["ezdxf.ini"]  # no cache in the user's home
         found.add(run.stdout)
     assert len(found) == 1
     assert hashlib.sha256(text(MANY).encode()).hexdigest() in found.pop()

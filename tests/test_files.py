@@ -409,6 +409,8 @@ def test_hostile_title(command, format):
                 assert not cell.startswith(("=", "@", "+", "-")) or float(cell) <= 0, title
         if format == "json":
             strict(text)
+        if format == "md":
+            assert "<script>" not in text, title
 
 
 def on_a_terminal(*arguments):

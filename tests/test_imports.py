@@ -80,9 +80,9 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors",
-    "--version": "app errors",
-    "table --z 6": "app errors commands commands.table commands.options output output.text "
+    "--help": "app errors streams",
+    "--version": "app errors streams",
+    "table --z 6": "app errors streams commands commands.table commands.options output output.text "
     "table survey classic timing rules units",
 }
 
@@ -129,7 +129,7 @@ def test_completion(words):
     modules = loaded([], env=os.environ | settings)
     assert not modules & HEAVY
     if count == 1:  # a command's name: no command is imported
-        assert own(modules) == {"app", "errors"}
+        assert own(modules) == {"app", "errors", "streams"}
 
 
 @pytest.mark.parametrize(

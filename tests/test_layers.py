@@ -39,7 +39,7 @@ ROWS = [
     ["synthesis_wish"],
     ["synthesis"],
     ["checks", "report", "synthesis_spec"],
-    ["output.files", "output.inks", "output.text"],
+    ["output.ezdxf_alone", "output.files", "output.inks", "output.text"],
     ["output.*"],
     ["output"],
     ["accuracy", "accuracy.formulas", "accuracy.method", "accuracy.timing_pairs"],

@@ -13,7 +13,7 @@ from typing import cast
 
 from geneva_cli.accuracy.method import Row, Subject, Task, with_frontier
 from geneva_cli.accuracy.timing_pairs import ratios
-from geneva_cli.errors import GenevaError, nearest
+from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.table import Table, rows_table
 
 # The registry: a subject is a module ``bench_<name>`` with ``subject(quick)``.
@@ -28,7 +28,9 @@ def names(asked: str) -> tuple[str, ...]:
         return SUBJECTS
     if asked not in SUBJECTS:
         known = ", ".join((*SUBJECTS, "all"))
-        raise GenevaError(f"{asked}: no such subject{nearest(asked, SUBJECTS)}; one of {known}")
+        raise GenevaError(
+            f"{cut(asked)}: no such subject{nearest(asked, SUBJECTS)}; one of {known}"
+        )
     return (asked,)
 
 

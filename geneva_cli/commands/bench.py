@@ -30,7 +30,7 @@ def run(
     import os
 
     from geneva_cli.accuracy.bench import bench_table, measure, names
-    from geneva_cli.errors import GenevaError
+    from geneva_cli.errors import GenevaError, cut
     from geneva_cli.output import format_of, show
     from geneva_cli.output.files import write
 
@@ -39,7 +39,7 @@ def run(
 
         require()
         if not os.path.isdir(plots):
-            raise GenevaError(f"--plots {plots}: no such folder")
+            raise GenevaError(f"--plots {cut(plots, 300)}: no such folder")
     people = (format or format_of(output)) in ("table", "md")
     rows = []
     for name in names(subject):

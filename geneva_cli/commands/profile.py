@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands.options import Output, SpecPath, warn
-from geneva_cli.errors import GenevaError, clean
+from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -53,11 +53,11 @@ def run(
     from geneva_cli.spec import load_and
 
     if curves not in CURVES:
-        raise GenevaError(f"--curves {curves}: it must be arcs or spline")
+        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
     if units not in UNITS:
-        raise GenevaError(f"--units {units}: it must be one of {', '.join(UNITS)}")
+        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
     drawn = is_drawn(output, format)
 
     def make(mechanism: Mechanism) -> Table | Outlines:

@@ -45,7 +45,7 @@ def run(
     One of --tau, --k, --motion-deg, --step with --cycle, or --acceleration-max; numbers may be
     fractions. The plain crank is shown where it misses the motion by at most a millionth.
     """
-    from geneva_cli.errors import GenevaError
+    from geneva_cli.errors import GenevaError, cut
     from geneva_cli.output import format_of, show, show_text
     from geneva_cli.synthesis import for_people, synthesis, synthesis_table
     from geneva_cli.synthesis_wish import read_wish
@@ -66,7 +66,9 @@ def run(
     )
     if write is None:
         if output.endswith(".toml") and not format:
-            raise GenevaError(f"-o {output}: a spec is one row of the table; add --write N")
+            raise GenevaError(
+                f"-o {cut(output, 300)}: a spec is one row of the table; add --write N"
+            )
         name = format or format_of(output)
         table = synthesis_table(wish)
         show(for_people(table) if name in ("table", "md") else table, output, format)
@@ -75,7 +77,7 @@ def run(
     from geneva_cli.synthesis_spec import chosen
 
     if format:
-        raise GenevaError(f"--format {format}: --write writes a spec, which is TOML")
+        raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
     spec, text = chosen(wish, synthesis(wish), write)
     show_text(text, output)
     warn(build(spec._replace(path="<stdout>" if output == "-" else output)))

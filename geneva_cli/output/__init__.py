@@ -8,7 +8,7 @@ import sys
 from collections.abc import Collection, Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol, cast
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -41,7 +41,9 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     """
     name = format or format_of(output)
     if name not in FORMATS:
-        raise GenevaError(f"--format {name}: {_wrong(name)}it must be one of {', '.join(FORMATS)}")
+        raise GenevaError(
+            f"--format {cut(name)}: {_wrong(name)}it must be one of {', '.join(FORMATS)}"
+        )
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
     _put(module.chunks(table, output == "-" and sys.stdout.isatty()), output, inputs)
 
@@ -61,7 +63,7 @@ def draw(
     formats = {**DRAWN, **FORMATS}
     name = format or format_of(output, formats)
     if name not in formats:
-        raise GenevaError(f"--format {name}: it must be one of {', '.join(formats)}")
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
     if name in FORMATS:
         from geneva_cli.pieces import pieces_table
 
@@ -79,7 +81,7 @@ def is_drawn(output: str, format: str) -> bool:
     formats = {**DRAWN, **FORMATS}
     name = format or format_of(output, formats)
     if name not in formats:
-        raise GenevaError(f"--format {name}: it must be one of {', '.join(formats)}")
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
     return name in DRAWN
 
 
@@ -100,9 +102,9 @@ def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
     if name not in formats:
         known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
         if name:
-            raise GenevaError(f'-o "{output}": {_wrong(name)}it must end in {known}')
+            raise GenevaError(f'-o "{cut(output)}": {_wrong(name)}it must end in {known}')
         raise GenevaError(
-            f'-o "{output}": the extension names no format ({known}); add one, or --format'
+            f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
         )
     return name
 

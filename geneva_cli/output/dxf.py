@@ -10,14 +10,10 @@ import io
 import math
 from collections.abc import Iterator
 
-from ezdxf._options import options
-from ezdxf.document import Drawing as Document
-from ezdxf.filemanagement import new
-from ezdxf.layouts.layout import Modelspace
-
 from geneva_cli.drawing import Arc, Circle, Contour, Cubic, Drawing, Line, Segment
 from geneva_cli.errors import clean
 from geneva_cli.measure import extent, halves
+from geneva_cli.output.ezdxf_alone import Document, Modelspace, new, options
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.pieces import UNITS, prepared
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.errors import clean
 from geneva_cli.output.text import cell
 from geneva_cli.table import Table
+
+# HTML by its own names, which every renderer reads alike; Markdown by its backslash
+ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", **{c: f"\\{c}" for c in "\\`*[]|"}}
 
 
 def chunks(table: Table, terminal: bool) -> Iterator[str]:
     """The table, line by line."""
     if table.title:
-        yield f"# {clean(table.title)}\n\n"
+        yield f"# {_escaped(table.title)}\n\n"
     if table.record:
         yield "| quantity | value |\n| --- | ---: |\n"
         for name, value in zip(table.names, next(table.rows()), strict=True):
@@ -25,4 +27,5 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
 
 
 def _escaped(value: object) -> str:
-    return cell(value).replace("|", "\\|")
+    """A value that means itself: a title is a user's text, and may look like HTML or Markdown."""
+    return "".join(ESCAPES.get(c, c) for c in cell(value))

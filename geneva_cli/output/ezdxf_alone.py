@@ -1,0 +1,43 @@
+"""What is needed of ezdxf, imported so that it reads no settings and leaves nothing behind.
+
+On import it reads ``ezdxf.ini`` from the current folder and the user's, whatever they hold, and
+searches the system's fonts to write a cache of them into the user's home. Drawings here take no
+settings and have no text: a cache without fonts lies beside this file.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from configparser import ConfigParser
+from contextlib import contextmanager
+from typing import Any
+
+__all__ = ["Document", "Modelspace", "new", "options"]
+CACHE = "XDG_CACHE_HOME"
+
+
+@contextmanager
+def _alone() -> Iterator[None]:
+    read, folder = ConfigParser.read, os.environ.get(CACHE)
+    setattr(ConfigParser, "read", _read_nothing)  # noqa: B010  # mypy lets no method be assigned
+    os.environ[CACHE] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
+    try:
+        yield
+    finally:
+        setattr(ConfigParser, "read", read)  # noqa: B010
+        if folder is None:
+            del os.environ[CACHE]
+        else:
+            os.environ[CACHE] = folder
+
+
+def _read_nothing(self: ConfigParser, *arguments: Any, **settings: Any) -> list[str]:
+    return []
+
+
+with _alone():
+    from ezdxf._options import options
+    from ezdxf.document import Drawing as Document
+    from ezdxf.filemanagement import new
+    from ezdxf.layouts.layout import Modelspace
