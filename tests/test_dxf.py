@@ -302,6 +302,7 @@ def test_nothing_is_doubled_or_of_no_length():
 RUN = """
 import hashlib, sys
 sys.path.insert(0, {tests!r})
+import geneva_cli.output.dxf  # before the tests import ezdxf
 from test_dxf import MANY, TINY
 from geneva_cli.output import dxf, svg
 for drawing in (MANY, TINY):

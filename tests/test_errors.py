@@ -86,7 +86,7 @@ HUGE = [
     key("long-ratio", CURVED + f'ratio = "{LONG}"\n', 3, "must be a number or"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
     case("long-key-twice", f'a = {{"{LONG}" = 1, "{LONG}" = 2}}\n', 1, "not TOML"),
-    key("nul-in-a-file", TABLE.replace("law", r"a\u0000b"), 3, "cannot read", "null byte"),
+    key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
     key(
         "nul-in-a-ratio-file",
         '[drive]\nkind = "noncircular-gears"\nratio_file = "a\\u0000b"\n',
@@ -376,7 +376,6 @@ OPTIONS = [
         (f"{words} {ZEROS}" + (" spec.toml" if words[0] in "mp" else ""), "100")
         for words in (
             "table --z",
-            "table --rollers",
             "table --format",
             "table -o",
             "motion --samples",
@@ -446,7 +445,8 @@ def test_wrong_option(line, wants):
     write("spec.toml", WHEEL)
     write("curved.toml", WHEEL + CURVED)
     words = shlex.split(line)
-    assert len(refused(run(*words), words[1], *wants)) < 1000
+    said = refused(run(*words), words[1], *wants)
+    assert len(said) < 1000 or said.startswith("Usage")  # those are cut by the stream
 
 
 @pytest.mark.parametrize(
