@@ -13,6 +13,10 @@ from geneva_cli.sizes import Sizes
 from geneva_cli.station import Station
 
 LAYER = "WHEEL"
+SAME = 1e-9  # of the centre distance: radii nearer to each other are one
+# Of the way from where the recess touches it to the rim: how far out a low mouth is carried. It
+# gives the disc something to hold, and little that the relief must make room for.
+HELD = 0.2
 
 
 def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Station, Contour]) -> Contour:
@@ -40,16 +44,20 @@ def wheel_circles(plane: Plane, sizes: Sizes) -> list[Circle]:
     return found
 
 
-def _between(plane: Plane, start: float, end: float) -> float | None:
+def _between(plane: Plane, start: float, end: float) -> float:
     """The rest between two neighbouring slots, as an angle above the first one's."""
     span = (end - start) % math.tau
-    inside = [start + (at - start) % math.tau for at in plane.rests]
-    found = [at for at in inside if at - start < span]
-    return found[0] if found else None
+    return next(
+        start + off for at in plane.rests if (off := (at - start) % math.tau) < span or span == 0.0
+    )
 
 
-def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float | None) -> list[Segment]:
-    """From one slot's corner along the rim, through the recess, to the next slot's corner."""
+def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
+    """From one slot's corner along the rim, through the recess, to the next slot's corner.
+
+    Mouths of offset slots and of unequal steps end at different radii. One that the recess does
+    not reach is carried out to where it does, along the roller's circle about the crank's axis.
+    """
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
         raise GenevaError(
@@ -58,37 +66,71 @@ def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float | None)
             ("size", "roller_radius_mm"),
         )
     last = first + (last - first) % math.tau
-    rims = math.hypot(*start), math.hypot(*end)
-    if at is None or not sizes.lock:
-        return [about((0.0, 0.0), rims[0], first, last - first)]
     at = first + (at - first) % math.tau
-    halves = [opening(plane.L, rim, sizes.recess) for rim in rims]
-    if not first < at - halves[0] < at + halves[1] < last:
-        _refuse(plane, sizes, min(at - first, last - at))
-    angles = at - halves[0], at + halves[1]
-    corners = [(rim * math.cos(a), rim * math.sin(a)) for rim, a in zip(rims, angles, strict=True)]
-    centre = plane.L * math.cos(at), plane.L * math.sin(at)
-    a, b = (math.atan2(y - centre[1], x - centre[0]) for x, y in corners)
-    # Outside the recess bends towards the wheel's axis, inside away from it.
-    sweep = -((a - b) % math.tau) if plane.sign > 0.0 else (b - a) % math.tau
+    axis = plane.L * math.cos(at), plane.L * math.sin(at)
+    beside = math.dist(start, axis), math.dist(end, axis)
+    if sizes.lock and min(beside) <= sizes.recess:
+        _refuse(sizes, min(beside))
+    own = math.hypot(*start), math.hypot(*end)
+    reach = plane.L - sizes.recess
+    least = reach + HELD * (sizes.rim - reach) if sizes.lock else max(own)
+    raised = [least > rim + SAME * plane.L and plane.sign > 0.0 for rim in own]
+    rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
+    found: list[Segment] = []
+    after: list[Segment] = []
+    if raised[0]:
+        first = at - opening(plane.L, rims[0], beside[0])
+        found.append(_about(axis, start, _on(rims[0], first), 1.0))
+    if raised[1]:
+        last = at + opening(plane.L, rims[1], beside[1])
+        after.append(_about(axis, _on(rims[1], last), end, 1.0))
+    if not sizes.lock:
+        return [*found, about((0.0, 0.0), rims[0], first, last - first), *after]
+    low, high = (
+        at + side * opening(plane.L, rim, sizes.recess)
+        for side, rim in zip((-1.0, 1.0), rims, strict=True)
+    )
     return [
-        about((0.0, 0.0), rims[0], first, angles[0] - first),
-        Arc(corners[0], corners[1], math.tan(0.25 * sweep)),
-        about((0.0, 0.0), rims[1], angles[1], last - angles[1]),
+        *found,
+        about((0.0, 0.0), rims[0], first, low - first),
+        _about(axis, _on(rims[0], low), _on(rims[1], high), -plane.sign),
+        about((0.0, 0.0), rims[1], high, last - high),
+        *after,
     ]
 
 
-def _refuse(plane: Plane, sizes: Sizes, room: float) -> NoReturn:
-    """Raise GenevaError: no horn is left beside a slot that begins so far from the recess."""
-    L, rim = plane.L, sizes.rim
-    most = math.sqrt(L * L + rim * rim - 2.0 * L * rim * math.cos(room)) - sizes.recess
+def _on(radius: float, angle: float) -> Point:
+    return radius * math.cos(angle), radius * math.sin(angle)
+
+
+def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
+    """An arc about the crank's axis, counterclockwise (+1) or clockwise (-1)."""
+    a, b = (math.atan2(y - axis[1], x - axis[0]) for x, y in (start, end))
+    sweep = sense * (sense * (b - a) % math.tau)
+    return Arc(start, end, math.tan(0.25 * sweep))
+
+
+def _refuse(sizes: Sizes, beside: float) -> NoReturn:
+    """Raise GenevaError: no horn is left beside a slot that begins so far from the axis."""
+    most = sizes.lock + beside - sizes.recess
     raise GenevaError(
         f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be below "
-        f"{sizes.lock + most:.6g}, or the roller smaller",
+        f"{most:.6g}, or the roller smaller",
         ("size", "lock_radius_mm"),
     )
 
 
-def opening(L: float, rim: float, recess: float) -> float:
-    """Half the angle over which a recess about a crank's axis opens the rim."""
-    return math.acos((L * L + rim * rim - recess * recess) / (2.0 * L * rim))
+def opening(L: float, rim: float, radius: float) -> float:
+    """Half the angle over which a circle about the crank's axis opens the rim.
+
+    Raises GenevaError where the two circles do not meet.
+    """
+    cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
+    if not abs(cosine) < 1.0:
+        raise GenevaError(
+            f"wheel_radius_mm: a rim of {rim:.6g} mm does not meet the circle of {radius:.6g} mm "
+            f"about the crank's axis; it must be above {abs(L - radius):.6g} and below "
+            f"{L + radius:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
+    return math.acos(cosine)

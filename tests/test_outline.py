@@ -6,6 +6,7 @@ of the roller, by shapely; areas and lengths of sectors and segments, in 30 digi
 
 import functools
 import math
+import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -16,13 +17,20 @@ import shapely
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 
+from geneva_cli.clearances import turning
 from geneva_cli.drawing import Arc, Contour
+from geneva_cli.errors import GenevaError
+from geneva_cli.full_turn import full_turn
 from geneva_cli.keys import Drive, Motion, Size, Spec, Wheel
 from geneva_cli.laws import LAWS, named
 from geneva_cli.measure import area, length, vertices
 from geneva_cli.measure import turned as turn
 from geneva_cli.mechanism import build
 from geneva_cli.outline import CURVED, Outlines, outlines
+from geneva_cli.plane import plane
+from geneva_cli.sizes import sizes
+from geneva_cli.straight_walls import straight_walls
+from geneva_cli.wheel import HELD, wheel_contour
 
 L = 100.0
 FLAT = 1e-5 * L  # how far the witnesses' polygons stray from the arcs
@@ -119,11 +127,21 @@ def cut(found: Outlines, slots: list[Slot], rests: list[float]) -> Polygon:
     w, z = size.half_width, len(slots)
     behind = rests  # the rest that comes after slot k lies behind it
     ahead = [rests[k - 1] for k in range(z)]
+    reach = (1.0 - HELD) * (L - size.recess)
     halves = []
     for slot, low, high in zip(slots, behind, ahead, strict=True):
-        a, d = slot.direction + math.asin(slot.level / slot.low), math.tau  # within its mouth
-        halves.append(sector(slot.low, a - (a - low) % d, a))
-        halves.append(sector(slot.high, a, a + (high - a) % d))
+        whole = low, low + (high - low) % math.tau  # the slot's axis parts it in two
+        for side, rim, at in ((-1.0, slot.low, low), (1.0, slot.high, high)):
+            half = sector(rim, *whole)
+            y = slot.level + side * w
+            if size.lock and sign > 0.0 and rim < (held := HELD * size.rim + reach):
+                # What the recess does not reach is carried out to it, inside the roller's circle.
+                corner = turned(Point(math.sqrt(rim * rim - y * y), y), slot.direction)
+                axis = Point(L * math.cos(at), L * math.sin(at))
+                way = disc(axis.distance(corner), axis.x, axis.y)
+                half = half.union(sector(held, *whole).intersection(way))
+            own = shapely.box(-2.0 * L, slot.level, 2.0 * L, slot.level + side * 2.0 * L)
+            halves.append(half.intersection(turned(own, slot.direction)))
     blank = shapely.union_all(halves).buffer(0)
     far = 2.0 * L if sign > 0.0 else 0.5 * min(slots[0].low, slots[0].high)
     tools = [
@@ -161,6 +179,9 @@ STRAIGHT = [
     {"z": 4, "offset": 5.0},
     {"z": 6, "steps": (72.0, 48.0)},
     {"z": 8, "steps": (60.0, 30.0), "roller_radius_mm": 3.0, "slot_clearance_mm": 0.1},
+    {"z": 6, "steps": (90.0, 30.0)},
+    {"z": 4, "steps": (120.0, 60.0), "slot_clearance_mm": 0.1, "lock_clearance_mm": 0.1},
+    {"z": 4, "offset": -40.0},
 ]
 
 
@@ -185,6 +206,52 @@ def name(case: dict) -> str:
         for v in case.values()
     ]
     return " ".join(words)
+
+
+LOW_MOUTHS = [
+    *[
+        {"z": 2 * n, "steps": (share * 360.0 / n, (1.0 - share) * 360.0 / n)}
+        for n in (2, 3, 4, 6)
+        for share in (0.1, 0.2, 0.3, 0.4, 0.45)
+        if (1.0 - share) * 360.0 / n < 180.0
+    ],
+    *[
+        {"z": z, "offset": share * L * math.cos(math.pi / z) ** 2}
+        for z in (3, 4, 6, 9, 14)
+        for share in (-0.99, -0.9, -0.6, -0.3, -0.1, 0.1, 0.3, 0.6, 0.9, 0.99)
+    ],
+]
+
+
+@pytest.mark.parametrize("lock", [None, 0.0])
+def test_mouths_of_any_height(lock: float | None) -> None:
+    """Offsets over their whole valid range, patterns of two steps: a whole contour, or a reason."""
+    drawn = 0
+    for case in LOW_MOUTHS:
+        wheel = Wheel(
+            case["z"], offset_mm=case.get("offset", 0.0), steps_deg=case.get("steps", None)
+        )
+        where = plane(build(Spec(wheel, size=Size(L, lock_radius_mm=lock))))
+        try:
+            size = sizes(where)
+            slots = {s: straight_walls(where, size, s) for s in where.kinds}
+            contour = wheel_contour(where, size, slots)
+        except GenevaError as error:
+            assert re.search("no room|meet in the wheel|beyond the locking disc", str(error))
+            continue
+        assert ends_meet(contour)
+        assert polygon(contour).is_valid
+        drawn += 1
+    assert drawn > 0.8 * len(LOW_MOUTHS)
+
+
+@pytest.mark.parametrize("steps", [(90.0, 30.0), (85.0, 35.0)])
+def test_a_low_mouth_is_locked(steps: tuple[float, float]) -> None:
+    """The disc of the short arm holds the wheel beside the mouth of the long one too."""
+    found = made(z=6, steps=steps)
+    rows = {c.name: c for c in turning(found, full_turn(found))}
+    assert all(c.passes for c in rows.values())
+    assert rows["dwell_play_deg"].value < 1e-3
 
 
 @pytest.mark.parametrize("case", STRAIGHT, ids=name)
@@ -292,9 +359,9 @@ def test_the_disc_locks_all_but_the_motion(case: dict) -> None:
     assert all(polygon(c).exterior.is_ccw for c in found.crank)
     steps = case.get("steps") or (360.0 / case["z"],) * case.get("rollers", 1)
     motions = sum(180.0 - step for step in steps)
-    # Of offset slots the relief may reach past the ends of the motion, never short of them.
+    # Offset slots and low mouths may need a wider relief than the motion, never less.
     locked = math.degrees(lock_sweep(found))
-    if case.get("offset"):
+    if case.get("offset") or case.get("steps") == (90.0, 30.0):
         assert locked <= 360.0 - motions + 1e-9
     else:
         assert locked == pytest.approx(360.0 - motions, abs=1e-9)
