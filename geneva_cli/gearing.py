@@ -72,39 +72,6 @@ def radial(gearing: str, step: Step) -> tuple[Pose, Pose, Pose]:
     )
 
 
-def offset(step: Step, e: float) -> tuple[Pose, Pose, Pose]:
-    """The same for straight slots whose axes miss the wheel's centre by e (in units of L).
-
-    Shockless at both ends where the axis is tangent to the crank's circle: l = sin b cos d with
-    d = asin(e / cos b). The crank's angle of motion stays 180° - 2b and the two ends trade their
-    jumps: entry l/cos(b-d), exit l/cos(b+d). Coordinates are those of the slot, whose axis runs at
-    -e beside the ray from the wheel's centre. Raises ValueError unless b + |d| < 90 degrees.
-    """
-    sin_b, cos_b = step.sin_cos
-    sin_d = e / cos_b
-    if not abs(sin_d) < 1.0 or step.b + abs(math.asin(sin_d)) >= math.pi / 2.0:
-        raise ValueError
-    d = math.asin(sin_d)
-    cos_d = math.sqrt((1.0 - sin_d) * (1.0 + sin_d))
-    l = sin_b * cos_d
-    half, turn = half_motion_deg("external", *step), math.degrees(d)
-    # 1 - sin b cos d = (1 - sin b) + 2 sin b sin²(d/2)
-    least = gap("external", *step) + 2.0 * sin_b * math.sin(0.5 * d) ** 2
-    deepest = math.sqrt((least - e) * (least + e))
-    sin_m, cos_m = e / least, deepest / least
-    return (
-        Pose(-half - turn, -step.b, math.cos(step.b - d), (-l, 0.0), (0.0, l)),
-        Pose(
-            0.0,
-            math.asin(sin_m) - d,
-            deepest,
-            (l * sin_m, l * cos_m),
-            (l * cos_m, -l * sin_m),
-        ),
-        Pose(half - turn, step.b, math.cos(step.b + d), (l, 0.0), (0.0, -l)),
-    )
-
-
 class Sphere(NamedTuple):
     """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
 

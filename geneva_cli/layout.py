@@ -9,6 +9,7 @@ from geneva_cli import gearing, kinds
 from geneva_cli.classic import half_motion_deg, refuse_jam
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Spec
+from geneva_cli.offset_slot import skew
 
 AXES_MIN = 1e-6  # degrees
 A_MAX = 1.0 - 0.999e-12
@@ -52,7 +53,7 @@ def _place(spec: Spec, crank_deg: float, step: gearing.Step) -> Place:
     e = wheel.offset_mm / spec.size.center_distance_mm
     if e:
         try:
-            entry, _, exit_ = gearing.offset(step, e)
+            entry, _, exit_ = skew(step, e).poses
         except ValueError:
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
             limit = step.sin_cos[1] ** 2 * spec.size.center_distance_mm

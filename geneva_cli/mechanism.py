@@ -15,6 +15,7 @@ from geneva_cli.law_of import law_of
 from geneva_cli.laws import Law
 from geneva_cli.layout import Place, places, refuse_layout
 from geneva_cli.many import acceleration_peak
+from geneva_cli.offset_slot import OffsetDriven, skew
 from geneva_cli.station import Anchor, LawDriven, LawMotion, SlotDriven, SphereDriven, Station
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
@@ -102,14 +103,17 @@ def _slot_driven(spec: Spec, front: drives.Turn, place: Place) -> SlotDriven:
             return top - here.advance(tau, order)[1] * (ball.sin_S * ball.sin_th)
 
         return SphereDriven(mid, step.b, anchors, height)
-    e = place.offset
-    poses = gearing.offset(step, e) if e else gearing.radial(gear, step)
+    if place.offset:
+        slot = skew(step, place.offset)
+        anchors = tuple(_anchor(pose, front, place.crank_deg) for pose in slot.poses)
+        return OffsetDriven(mid, step.b, anchors, slot)
+    poses = gearing.radial(gear, step)
     anchors = tuple(_anchor(pose, front, place.crank_deg) for pose in poses)
-    plain = spec.drive.kind == "crank" and not e
+    plain = spec.drive.kind == "crank"
     kernel = (SIGN[gear], step.sin_cos[0], classic.gap("external", *step)) if plain else None
-    station = SlotDriven(mid, step.b, anchors, kernel, e)
+    station = SlotDriven(mid, step.b, anchors, kernel)
     A = getattr(spec.kind, "A", None)
-    if A is not None and not e and step == (1, spec.wheel.z) and place.crank_deg == 0.0:
+    if A is not None and step == (1, spec.wheel.z) and place.crank_deg == 0.0:
         station.known_peak = partial(acceleration_peak, spec.wheel.z, gear, A)
     return station
 

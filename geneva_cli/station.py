@@ -29,9 +29,13 @@ class Anchor(NamedTuple):
     displacement: Callable[[Coefficient, int], tuple[Jet, Jet]]
     # input angle since then, radians, and order -> the pin's way (along the ray, across it)
 
+    def way(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """The pin's way since the anchor (along its ray, across it), at an angle in degrees."""
+        return self.displacement(radians(input_deg - self.input_deg), order)
+
     def place(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
         """The pin (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.displacement(radians(input_deg - self.input_deg), order)
+        along, across = self.way(input_deg, order)
         return along + self.along, across
 
 
@@ -121,7 +125,7 @@ class Station(ABC):
 
 
 class SlotDriven(Station):
-    """Pin path and straight slot are known and give the motion."""
+    """Pin path and a straight radial slot are known and give the motion."""
 
     def __init__(
         self,
@@ -129,14 +133,12 @@ class SlotDriven(Station):
         half_step: float,
         anchors: tuple[Anchor, ...],
         classic: tuple[float, float, float] | None = None,
-        offset: float = 0.0,
         ahead: float = 0.0,
         mirrored: bool = True,
     ) -> None:
         super().__init__(mid_deg, anchors[0].input_deg, anchors[-1].input_deg, half_step)
         self.anchors = anchors
         self.classic = classic
-        self.offset = offset  # e: by how much the slot's axis misses the wheel's centre
         self.mirrored = mirrored  # False where the path's two halves differ
         self.ahead = ahead  # direction of the middle anchor's ray, from the line of centres
         degs = [a.input_deg for a in anchors]
@@ -154,28 +156,11 @@ class SlotDriven(Station):
         def about(anchor: Anchor) -> Callable[[Coefficient], Jet]:
             def solve(x: Coefficient) -> Jet:
                 along, across = anchor.place(x, order)
-                return self._turn(along, across) + anchor.wheel
+                return atan2(across, along) + anchor.wheel
 
             return solve
 
         return piecewise(input_deg, self._cuts, [about(a) for a in self.anchors])
-
-    def _turn(self, along: Jet, across: Jet) -> Jet:
-        """Angle by which the wheel has turned since the anchor, where the pin was at (along, -e).
-
-        The slot's axis passes the pin at (s, -e) with s² = rho² - e²; the difference of the two
-        directions is written so that it vanishes with ``across``.
-        """
-        e = self.offset
-        if e == 0.0:
-            return atan2(across, along)
-        s = self._depth(along, across)
-        gain = across * (across - 2.0 * e) / (s + along)  # s - along
-        return atan2(across * s - gain * e, along * s - (across - e) * e)
-
-    def _depth(self, along: Jet, across: Jet) -> Jet:
-        """Coordinate of the pin along its slot's axis."""
-        return sqrt(along * along + across * (across - 2.0 * self.offset))
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """As of any station; a plain crank's in closed form.
@@ -214,22 +199,18 @@ class SlotDriven(Station):
 
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
-        middle = self.anchors[1]
-        along, across = middle.place(input_deg, order)
-        turn = self.ahead + math.atan2(self.offset, middle.along)
-        return turned(along, across - self.offset, turn)
+        along, across = self.anchors[1].place(input_deg, order)
+        return turned(along, across, self.ahead)
 
     def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
         middle = self.anchors[1]
-        depth = self._depth(*middle.place(input_deg, order))
-        # The slot's direction half-way through the step: straight ahead unless it is offset.
-        ahead = self.ahead + math.atan2(self.offset, middle.along) - middle.wheel
-        return turned(depth, depth * 0.0 - self.offset, ahead)
+        depth = _length(*middle.place(input_deg, order))
+        return turned(depth, depth * 0.0, self.ahead - middle.wheel)
 
     def rail(self, input_deg: float) -> tuple[float, float]:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = self._depth(*self.anchors[1].place(input_deg, 1))
+        depth = _length(*self.anchors[1].place(input_deg, 1))
         return depth.c[0], depth.c[1]
 
 
@@ -260,6 +241,10 @@ class SphereDriven(SlotDriven):
         """The lever is the pin's distance from the wheel's axis."""
         polar = self.pitch(input_deg, 1)[0]
         return math.sin(polar.c[0]), polar.c[1]
+
+
+def _length(x: Jet, y: Jet) -> Jet:
+    return sqrt(x * x + y * y)
 
 
 def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:

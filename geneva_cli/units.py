@@ -31,6 +31,13 @@ def one_minus_sin_pi(p: int, q: int) -> float:
     return (_ONE - _scaled_sin_cos(p, q)[0]) / _ONE
 
 
+def cos_squared_less(p: int, q: int, x: float) -> float:
+    """cos²(pi p/q) - x, correctly rounded however near to 0 it is; x is taken as exact."""
+    c = _scaled_sin_cos(p, q)[1]
+    n, d = x.as_integer_ratio()
+    return (c * c * d - n * _ONE * _ONE) / (d * _ONE * _ONE)
+
+
 def _scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
     quarter = (4 * p + q) // (2 * q)  # nearest number of quarter turns
     x = _PI * (2 * p - quarter * q) // (2 * q)

@@ -19,7 +19,7 @@ ROWS = [
     ["fit_path", "measure", "points"],
     ["classic", "fit_arcs", "fit_balance", "kernel", "keys", "laws", "pieces"],
     ["fit_chords", "fit_cubics", "gearing", "law_table", "many", "station", "synthesis_closed"],
-    ["drives", "fit", "law_of", "path_wheel", "synthesis_limit"],
+    ["drives", "fit", "law_of", "offset_slot", "path_wheel", "synthesis_limit"],
     ["coulisse", "linkage"],
     ["drives.*"],
     ["kinds"],
