@@ -12,7 +12,7 @@ from geneva_cli.keys import Spec
 from geneva_cli.offset_slot import skew
 
 AXES_MIN = 1e-6  # degrees
-A_MAX = 1.0 - 0.999e-12
+A_MAX = 1.0 - 0.999e-12  # of a side-crank's offset, and of the eccentricity of ellipses
 
 
 class Place(NamedTuple):
@@ -132,6 +132,13 @@ def refuse_layout(spec: Spec) -> None:
         raise GenevaError(
             f"A = {A!r}: so near to 1 the motion is rounding; its size must be at most 1 - 1e-12",
             ("drive", "A"),
+        )
+    e = getattr(spec.kind, "eccentricity", None)
+    if e is not None and e > A_MAX:
+        raise GenevaError(
+            f"eccentricity = {e!r}: so near to 1 the motion is rounding; it must be at most "
+            "1 - 1e-12",
+            ("drive", "eccentricity"),
         )
     if not AXES_MIN <= wheel.axes_deg <= 180.0 - AXES_MIN:
         raise GenevaError(

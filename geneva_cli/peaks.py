@@ -72,13 +72,24 @@ def peak(station: Station, quantity: str) -> Peak:
     for a, b in zip(breaks, breaks[1:], strict=False):
         # A break belongs to the piece before it; the piece after begins one double later.
         start = a if a == breaks[0] else math.nextafter(a, math.inf)
-        for x in (start, *extrema(curve, start, b), b):
-            size = abs(curve(x)[0])
+        inner = [(x, _summit(x, *curve(x))) for x in extrema(curve, start, b)]
+        for x, size in ((start, abs(curve(start)[0])), *inner, (b, abs(curve(b)[0]))):
             if size > best.max * (1.0 + _TIE):
                 best = Peak(size, a if x == start else x)
             elif size > best.max:  # the same peak again, a rounding larger
                 best = Peak(size, best.at_deg)
     return best
+
+
+def _summit(x: float, value: float, slope: float, bend: float) -> float:
+    """Size of a stationary value whose place was rounded to the double x.
+
+    Where a crank runs away, a peak may be only some thousand doubles wide: the parabola through
+    value, slope and bend at x stands higher between two of them by slope² / (2 bend).
+    """
+    if abs(slope) < 2.0 * math.ulp(x) * abs(bend):
+        value -= 0.5 * slope * slope / bend
+    return abs(value)
 
 
 def ends(station: Station) -> Ends:

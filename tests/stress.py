@@ -31,6 +31,7 @@ import sys
 import tempfile
 import time
 import warnings
+from functools import partial
 from typing import NamedTuple
 
 import machine_witness
@@ -258,9 +259,14 @@ OTHERS = {
     # the offset's size is below 100 cos² b: 75 for six slots
     "offset": [
         f"wheel = {{z = {z}, offset_mm = {sign * share * 100.0 * math.cos(math.pi / z) ** 2!r}}}"
-        for z in (6, 3, 24)
-        for share in (0.5, 0.999999, 1e-9, 0.1, 0.99)
+        for z in (5, 6, 3, 24, 10**6)
+        for share in (0.9999, 0.5, 1e-9, 0.1, 0.99, 0.999999, *NEAR_1[2:], 1.0 - 1e-14)
         for sign in (1.0, -1.0)
+    ],
+    "offset, side-crank": [
+        f"wheel = {{z = 6, offset_mm = {e}}}\ndrive = {{kind = 'side-crank', A = {A}}}"
+        for e in (74.9999, -74.9999, 30.0)
+        for A in (0.6, -0.3, 0.999)
     ],
     "steps": [
         "wheel = {z = 6, steps_deg = [70.0, 50.0]}",
@@ -557,25 +563,28 @@ def compare_peaks(table, machine, got, exact, half, where, more=None):
         table.add((machine, f"{row}, angle"), error, float(nearest.shift / u), where)
 
 
-def drive_cases(few):
+def drive_cases():
     for kind in drives.KINDS:
         if kind in FRONTS:
-            for values in FRONTS[kind].few if few else FRONTS[kind].values:
+            for values in FRONTS[kind].few:
                 yield kind, values
 
 
-def straight(table, sample, rng):
-    """Straight slots behind every drive, one roller and several."""
-    wheels = (3, 4, 5, 6, 7, 12, 24, 97, 1000, 4099, 999_983, 10**6)
-    for gearing in SIGN:
-        for kind, values in drive_cases(sample):
-            fits = getattr(FRONTS[kind], "fits", lambda *_: True)
-            for z in [z for z in ((3, 10**6) if sample else wheels) if fits(values, gearing, z)]:
-                straight_one(table, z, gearing, kind, values, 1)
-    for kind, values in drive_cases(True):
-        if values and not hasattr(FRONTS[kind], "fits"):
-            for z, m in ((4, 3),) if sample else ((3, 2), (3, 5), (4, 3), (5, 3), (24, 2)):
-                straight_one(table, z, "external", kind, values, m)
+def straight(table, sample, gearing, kind):
+    """Straight slots behind a drive, one roller."""
+    wheels = (3, 10**6) if sample else (3, 4, 5, 6, 7, 12, 24, 97, 1000, 4099, 999_983, 10**6)
+    front = FRONTS[kind]
+    fits = getattr(front, "fits", lambda *_: True)
+    for values in front.few if sample else front.values:
+        for z in [z for z in wheels if fits(values, gearing, z)]:
+            straight_one(table, z, gearing, kind, values, 1)
+
+
+def several(table, sample, kind):
+    """Several rollers behind a drive."""
+    for values in FRONTS[kind].few:
+        for z, m in ((4, 3),) if sample else ((3, 2), (3, 5), (4, 3), (5, 3), (24, 2)):
+            straight_one(table, z, "external", kind, values, m)
 
 
 def straight_one(table, z, gearing, kind, values, m):
@@ -742,22 +751,19 @@ def law_cases(sample):
         yield "sine-group", -shape
 
 
-def curved(table, sample, rng):
-    """Curved slots: every law, behind every drive, with alpha0 up to its limits."""
-    for name, shape in law_cases(sample):
-        series = Series(krasniqi(shape) if shape else LAW_WITNESSES[name])
-        top = series.peaks()
-        cases = [
-            (z, gearing, kind, values)
-            for gearing in SIGN
-            for kind, values in drive_cases(True)
-            if not hasattr(FRONTS[kind], "fits")
-            for z in ((3, 24) if sample else (3, 6, 25, 10**6))
-        ]
-        if sample:
-            cases = rng.sample(cases, 1)
-        for case in cases:
-            curved_one(table, name, shape, series, top, *case, sample, rng)
+def curved(table, sample, rng, name, shape):
+    """Curved slots of a law behind every drive, with alpha0 up to its limits."""
+    series = Series(krasniqi(shape) if shape else LAW_WITNESSES[name])
+    top = series.peaks()
+    cases = [
+        (z, gearing, kind, values)
+        for gearing in SIGN
+        for kind, values in drive_cases()
+        if not hasattr(FRONTS[kind], "fits")
+        for z in ((3, 24) if sample else (3, 6, 25, 10**6))
+    ]
+    for case in rng.sample(cases, 1) if sample else cases:
+        curved_one(table, name, shape, series, top, *case, sample, rng)
 
 
 def curved_one(table, name, shape, series, top, z, gearing, kind, values, sample, rng):
@@ -884,17 +890,16 @@ def slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, 
         table.add((machine, f"slot {'xy'[i]}"), error, c, place)
 
 
-def others(table, sample, rng):
+def others(table, sample, name):
     """Everything else, read from a spec as a user would write it."""
-    for name, texts in OTHERS.items():
-        built = 0
-        for text in texts[:1] if sample else texts:
-            mechanism = read(text)
-            if mechanism is not None:
-                built += 1
-                other_one(table, name, text, mechanism, sample)
-        if not built:
-            table.fault(f"{name}: every spec was refused")
+    built = 0
+    for text in OTHERS[name][:1] if sample else OTHERS[name]:
+        mechanism = read(text)
+        if mechanism is not None:
+            built += 1
+            other_one(table, name, text, mechanism, sample)
+    if not built:
+        table.fault(f"{name}: every spec was refused")
 
 
 def read(text):
@@ -991,14 +996,12 @@ def kernel(table, sample):
                 table.add(row, ulps(got[n], values, u), c, place, ulps(book[n], values, u))
 
 
-def chords(table, sample, rng):
+def chords(table, sample, rng, name):
     """The slot's chords for a tolerance: really nearer than it, or refused in clear words."""
-    for name in rng.sample(list(LAWS), 2) if sample else LAWS:
-        for L in (1.0,) if sample else (1e-6, 1.0, 100.0, 1e6):
-            for tolerance in (1.0, 1e-3) if sample else (1.0, 1e-3, 1e-6, 1e-9):
-                # the finest tolerances on the largest wheels take minutes to be refused
-                if L / tolerance > 1e9:
-                    continue
+    for L in (1.0,) if sample else (1e-6, 1.0, 100.0, 1e6):
+        for tolerance in (1.0, 1e-3) if sample else (1.0, 1e-3, 1e-6, 1e-9):
+            # the finest tolerances on the largest wheels take minutes to be refused
+            if L / tolerance <= 1e9:
                 chord_case(table, name, L, tolerance, rng)
 
 
@@ -1041,24 +1044,46 @@ def missing():
     return out + [f'law "{name}"' for name in LAWS if name not in LAW_WITNESSES]
 
 
-def run(sample):
-    """The whole table; faults and missing witnesses are in it."""
-    table, rng, before = Table(), random.Random(1), np.geterr()
-    parts = (
-        lambda: straight(table, sample, rng),
-        lambda: curved(table, sample, rng),
-        lambda: others(table, sample, rng),
-        lambda: kernel(table, sample),
-        lambda: chords(table, sample, rng),
-    )
+def parts(sample):
+    """What the table is made of: each part's name, and a function that fills the table with it."""
+    out = {}
+    for kind in drives.KINDS:
+        if kind in FRONTS:
+            fits = getattr(FRONTS[kind], "fits", lambda *_: True)
+            for gearing in [g for g in SIGN if any(fits(v, g, 3) for v in FRONTS[kind].few)]:
+                out[f"{gearing}, {kind}"] = partial(straight, gearing=gearing, kind=kind)
+            if FRONTS[kind].few != ((),) and not hasattr(FRONTS[kind], "fits"):
+                out[f"external, {kind}, rollers"] = partial(several, kind=kind)
+    for name, shape in law_cases(sample):
+        which = f"curved, {name} {shape:g}"
+        rng = random.Random(which)
+        out[which] = partial(curved, rng=rng, name=name, shape=shape)
+    for name in OTHERS:
+        out[name] = partial(others, name=name)
+    out["kernel"] = kernel
+    for name in LAWS:
+        out[f"chords, {name}"] = partial(chords, rng=random.Random(name), name=name)
+    return out
+
+
+def fill(table, part, sample):
+    """One part, with every floating-point flag an error in the program's own share of the work."""
+    before = np.geterr()
     with mp.workdps(DIGITS), warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("error")
-        for part in parts:
-            start = time.perf_counter()
-            part()
-            print(f"# {time.perf_counter() - start:.0f} s, {table.count} values", file=sys.stderr)
+        part(table, sample)
     if np.geterr() != before:
         table.fault(f"NumPy's settings changed: {before} to {np.geterr()}")
+
+
+def run(sample):
+    """The whole table; faults and missing witnesses are in it."""
+    table = Table()
+    for name, part in parts(sample).items():
+        start = time.perf_counter()
+        fill(table, part, sample)
+        print(f"# {name}: {time.perf_counter() - start:.0f} s, {table.count} values so far",
+              file=sys.stderr)  # fmt: skip
     for what in missing():
         table.fault(f"{what}: no witness; write one in tests/stress.py")
     return table

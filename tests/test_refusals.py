@@ -133,6 +133,7 @@ SPHERICAL = [
 
 FRONTS = [
     case("e-1", WHEEL + GEARS.replace("0.2", "@"), "1", 5, "eccentricity = 1", "below 1"),
+    case("e-near-1", WHEEL + GEARS.replace("0.2", "@"), "0.9999999999999", 5, "at most 1 - 1e-12"),
     case("e-negative", WHEEL + GEARS.replace("0.2", "@"), "-0.1", 5, "at least 0"),
     case("e-text", WHEEL + GEARS.replace("0.2", "@"), '"some"', 5, "must be a number"),
     case("e-missing", WHEEL + drive("@"), "elliptical-gears", 3, "needs eccentricity", "below 1"),

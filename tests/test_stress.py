@@ -1,34 +1,48 @@
 """A sample of `make stress`: some machines of every kind, laws and drives from the registries."""
 
-import os
-import subprocess
-import sys
+import math
 
-from stress import DIGITS, LAW_WITNESSES, SideCrank, Straight, mp, textbook_wheel
+import numpy as np
+import pytest
+from stress import (
+    DIGITS,
+    LIMIT,
+    SideCrank,
+    Straight,
+    Table,
+    fill,
+    missing,
+    mp,
+    parts,
+    textbook_wheel,
+)
 from witness import Geneva
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+PARTS = parts(sample=True)
 
 
-def test_sample():
-    # A process of its own: NumPy's settings and mpmath's digits are then its own, too.
-    found = subprocess.run(
-        [sys.executable, os.path.join(HERE, "stress.py"), "--sample"],
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
-    assert found.returncode == 0, "\n".join(
-        [x for x in found.stdout.split("\n") if x.startswith(("over", "fault"))] + [found.stderr]
-    )
-    head, *rows = found.stdout.splitlines()
-    assert head.split()[:5] == ["machine", "quantity", "error", "condition", "share"]
-    for law in LAW_WITNESSES:
-        assert any(row.startswith(f"curved, {law} ") for row in rows)
-    # The table can tell: at z = 3 the textbook's formula is off by this much.
-    book = [float(row.split("kernel, external, l to 1")[1].split()[4]) for row in rows
-            if row.startswith("kernel, external, l to 1") and " acceleration " in row]  # fmt: skip
-    assert book[0] > 1e12
+@pytest.mark.parametrize("name", PARTS)
+def test_sample(name):
+    table = Table()
+    fill(table, PARTS[name], sample=True)
+    assert not table.faults
+    assert table.count > 10
+    over = {row: w for row, w in table.ours.items() if not w.share <= LIMIT}
+    assert not over
+
+
+def test_every_kind_has_a_witness():
+    assert not missing()
+
+
+def test_the_table_can_tell():
+    """Of the textbook's formulas it says how far they are off as l nears 1."""
+    table = Table()
+    fill(table, PARTS["kernel"], sample=True)
+    row = ("kernel, external, l to 1", "acceleration")
+    assert table.textbook[row].error > 1e12
+    table.add(row, [LIMIT + 1.0, math.nan], 1.0, "here")
+    assert row in table.over
 
 
 def test_the_textbook_at_three_slots():
@@ -36,10 +50,6 @@ def test_the_textbook_at_three_slots():
 
     226 were measured before the project; how many of them a grid meets depends on its angles.
     """
-    import math
-
-    import numpy as np
-
     x = np.linspace(-30.0, 30.0, 2001)
     w = Straight(3, "external", "crank", ())
     exact = [w.at(mp.mpf(float(v)) * mp.pi / 180)[2] for v in x]
