@@ -156,7 +156,10 @@ def motion(rng, kind, gearing):
 
 def machine_text(rng):
     """A machine that a designer might write, or nearly."""
-    kind = rng.choice(["crank"] * 8 + [k for k in drives.KINDS if k != "crank"])
+    # linkages take a hundred times as long to read as others
+    kind = rng.choice(
+        ["crank"] * 14 + [k for k in drives.KINDS for _ in range(1 + (k not in LINKAGES))]
+    )
     z, gearing, lines = wheel(rng, kind)
     L = rng.choice([100.0, 100.0, near(rng, 100.0, 1.0)])
     R = L * math.sin(math.pi / z)

@@ -321,9 +321,11 @@ def test_the_same_bytes_everywhere(tmp_path):
         folder.mkdir()
         (folder / "ezdxf.ini").write_text("no settings at all\n")
         change = {"PYTHONHASHSEED": seed, "TZ": zone, "HOME": str(folder), "LC_ALL": "C"}
-        change["PYTHONPATH"] = os.path.dirname(tests)
+        # Before 3.13, Python reads an editable install's path in the locale's encoding and will not
+        # start in one without the folder's letters; so it is told its path, and runs without site.
+        change["PYTHONPATH"] = os.pathsep.join([os.path.dirname(tests), *sys.path])
         run = subprocess.run(
-            [sys.executable, "-c", RUN.format(tests=tests)],
+            [sys.executable, "-S", "-c", RUN.format(tests=tests)],
             cwd=folder,
             env=os.environ | change,
             capture_output=True,
