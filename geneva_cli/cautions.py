@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geneva_cli.drives import UNLOCKED
 from geneva_cli.keys import Z_USUAL
 from geneva_cli.mechanism import Mechanism, matched_ratio_of
 from geneva_cli.peaks import QUANTITIES
@@ -19,6 +20,11 @@ def cautions(mechanism: Mechanism) -> list[str]:
     z = mechanism.spec.wheel.z
     if z > Z_USUAL:
         out.append(f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them")
+    if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
+        out.append(
+            "nothing holds the wheel in the dwell: there is no locking disc, and the spec names "
+            'nothing else (held_by = "brake", "detent" or "pin" in [wheel])'
+        )
     station = mechanism.stations[0]
     if not isinstance(station, LawMotion):
         return out
@@ -43,6 +49,10 @@ def cautions(mechanism: Mechanism) -> list[str]:
         out.extend(_loose(mechanism))
     out.extend(_undercut(mechanism))
     return out
+
+
+def _no_lock(mechanism: Mechanism) -> bool:
+    return mechanism.spec.size.lock_radius_mm == 0.0 or mechanism.spec.drive.kind in UNLOCKED
 
 
 def turns_back(station: Station) -> tuple[float, float] | None:

@@ -1,172 +1,152 @@
-"""Does the design work? Each check with its value, its limit and a change that would pass."""
+"""Does the design work? Each check with its value and its limit."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli import loads
 from geneva_cli.cautions import SHOWN_UNDERCUT, turns_back
 from geneva_cli.drives import GEARED
 from geneva_cli.errors import GenevaError
-from geneva_cli.keys import Z_USUAL, Spec
-from geneva_cli.kinds import is_flat
-from geneva_cli.mechanism import Mechanism, build, matched_ratio_of
+from geneva_cli.keeps import keeps
+from geneva_cli.kinds import Z_DRAWN, is_flat
+from geneva_cli.mechanism import Mechanism
 from geneva_cli.peaks import Peaks, worst
-from geneva_cli.pitch import retraces
+from geneva_cli.proof import Proof
 from geneva_cli.station import LawDriven, LawMotion
-from geneva_cli.table import Table, rows_table
-
-STEPS = 60  # tried on the way to a motion of a whole turn
-NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
+from geneva_cli.undercut import undercut
 
 
 class Check(NamedTuple):
-    """One check; ``nearest`` names the smallest change found that passes, where it fails.
+    """One check of one design.
 
-    ``at_deg`` is the input angle at which the value occurs, where it is of one place.
+    ``passes`` is None where it cannot be told; ``nearest`` then says why, and where a check fails
+    it is the nearest change that would pass. ``at_deg`` is the input angle at which the value
+    occurs, where it is of one place.
     """
 
     name: str
-    value: float
+    value: float | None
     must_be: str
-    limit: float
-    passes: bool
+    limit: float | None
+    passes: bool | None
     nearest: str = ""
     at_deg: float | None = None
 
 
-def checks(mechanism: Mechanism, parts: bool = True) -> list[Check]:
+Asked: TypeAlias = dict[str, Callable[[], Check]]
+
+
+def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
-    shown = _parts(mechanism) if parts else []
-    return [*_motion(mechanism), *shown, *_limits(mechanism)]
+    motion = [ask() for ask in _motion(mechanism).values()]
+    shown = list(_parts(proof or Proof(mechanism))) if parts else []
+    return [*motion, *shown, *[ask() for ask in _limits(mechanism).values()]]
 
 
-def checks_table(mechanisms: list[Mechanism]) -> Table:
-    """One row a check, spec after spec."""
-    rows = [
-        (m.spec.path, c.name, c.value, c.at_deg, *c[2:6]) for m in mechanisms for c in checks(m)
-    ]
-    return rows_table(NAMES, rows)
+def each(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
+    """The same checks one by one as they are made, the dearest last."""
+    for ask in (_motion(mechanism) | _limits(mechanism)).values():
+        yield ask()
+    if parts:
+        yield from _parts(Proof(mechanism))
 
 
-def _motion(mechanism: Mechanism) -> list[Check]:
-    dwell = min(mechanism.dwell_deg(i) for i in range(len(mechanism.stations)))
-    out = [Check("dwell_deg", dwell, "at least", 0.0, dwell >= 0.0)]
+def one(mechanism: Mechanism, name: str) -> Check | None:
+    """A single check, for no more work than it takes; None if the design has none of this name."""
+    asked = _motion(mechanism) | _limits(mechanism)
+    if name in asked:
+        return asked[name]()
+    return next((c for c in _parts(Proof(mechanism)) if c.name == name), None)
+
+
+def _held(
+    name: str, value: float, must_be: str, limit: float, at_deg: float | None = None
+) -> Check:
+    return Check(name, value, must_be, limit, keeps(value, must_be, limit), at_deg=at_deg)
+
+
+def _motion(mechanism: Mechanism) -> Asked:
+    """The checks that every machine of its kind must pass, by name."""
+    asked: Asked = {"dwell_deg": lambda: _held("dwell_deg", _dwell(mechanism), "at least", 0.0)}
     if mechanism.spec.drive.kind in GEARED:
-        from geneva_cli.gears import convexity
-
-        for gear, least in convexity(mechanism)._asdict().items():
-            out.append(Check(f"{gear}_gear_convexity", least, "above", 0.0, least > 0.0))
+        for gear in ("driver", "driven"):
+            name = f"{gear}_gear_convexity"
+            asked[name] = partial(_convexity, mechanism, name)
     station = mechanism.stations[0]
-    if not isinstance(station, LawMotion):
-        return out
-    back = turns_back(station)
-    nearest = "lambda = " + f"{math.copysign(0.125, mechanism.spec.motion.lambda_):g}"
-    out.append(
-        Check(
-            "velocity_min",
-            back[0] if back else 0.0,
-            "at least",
-            0.0,
-            back is None,
-            "" if back is None else nearest if mechanism.spec.motion.law == "sine-group" else "",
-        )
-    )
-    if not isinstance(station, LawDriven):
-        return out
-    if mechanism.spec.limits.pressure_angle_max_deg is None:
-        pressure = loads.greatest(mechanism, "pressure_deg").max
-        out.append(_pressure(mechanism, pressure, 90.0))
-    out.append(_undercut(mechanism))
-    return out
+    if isinstance(station, LawMotion):
+        asked["velocity_min"] = lambda: _forwards(station)
+    if isinstance(station, LawDriven):
+        if mechanism.spec.limits.pressure_angle_max_deg is None:
+            asked["pressure_angle_deg"] = partial(_pressure, mechanism, 90.0)
+        asked["undercut_mm"] = lambda: _undercut(mechanism)
+    return asked
 
 
-def _parts(mechanism: Mechanism) -> list[Check]:
-    """Walls, shafts and the full turn, where the machine has flat parts."""
-    if not is_flat(mechanism.spec):
-        return []
-    from geneva_cli.clearances import clearances
-    from geneva_cli.full_turn import full_turn
-    from geneva_cli.outline import outlines
-
-    try:
-        found = outlines(mechanism)
-    except GenevaError as error:
-        return [Check("parts", 0.0, "at least", 1.0, False, str(error))]
-    return [
-        Check(
-            c.name,
-            c.value,
-            "at least" if c.at_least else "at most",
-            c.limit,
-            c.passes,
-            c.nearest,
-            c.at_deg,
-        )
-        for c in clearances(found, full_turn(found))
-    ]
+def _dwell(mechanism: Mechanism) -> float:
+    return min(mechanism.dwell_deg(i) for i in range(len(mechanism.stations)))
 
 
-def _pressure(mechanism: Mechanism, value: float, limit: float) -> Check:
-    name = "pressure_angle_deg"
-    if retraces(mechanism.stations[0]):
-        passes = value <= limit
-        nearest = "" if passes else _slower_wheel(mechanism, _pressure_below(limit))
-        return Check(name, value, "at most", limit, passes, nearest)
-    matched = matched_ratio_of(mechanism)
-    nearest = f'ratio = "matched" ({matched:.6g})' if matched is not None else ""
-    return Check(name, value, "at most", limit, False, nearest)
+def _convexity(mechanism: Mechanism, name: str) -> Check:
+    from geneva_cli.gears import convexity
+
+    least = convexity(mechanism)._asdict()[name.removesuffix("_gear_convexity")]
+    return _held(name, least, "above", 0.0)
 
 
-def _pressure_below(limit: float) -> Callable[[Mechanism], bool]:
-    return lambda m: loads.greatest(m, "pressure_deg").max <= limit
+def _forwards(station: LawMotion) -> Check:
+    value, at_deg = turns_back(station) or (0.0, None)
+    return _held("velocity_min", value, "at least", 0.0, at_deg)
 
 
 def _undercut(mechanism: Mechanism) -> Check:
-    from geneva_cli.undercut import undercut
-
-    def depth(spec: Spec) -> float:
-        found = undercut(mechanism._replace(spec=spec))
-        return found.depth_mm if found else 0.0
-
-    def sized(radius: float) -> Spec:
-        size = mechanism.spec.size._replace(roller_radius_mm=radius)
-        return mechanism.spec._replace(size=size)
-
-    value = depth(mechanism.spec)
-    name = "undercut_mm"
-    if value <= SHOWN_UNDERCUT:
-        return Check(name, value, "at most", SHOWN_UNDERCUT, True)
-    r = _passing(lambda r: depth(sized(r)) <= SHOWN_UNDERCUT, mechanism.spec.roller_radius_mm, 0.0)
-    nearest = f"roller_radius_mm = {r:.4g}" if r else ""
-    return Check(name, value, "at most", SHOWN_UNDERCUT, False, nearest)
+    found = undercut(mechanism)
+    depth, at_deg = (found.depth_mm, found.at_deg) if found else (0.0, None)
+    return _held("undercut_mm", depth, "at most", SHOWN_UNDERCUT, at_deg)
 
 
-def _limits(mechanism: Mechanism) -> list[Check]:
-    limits = mechanism.spec.limits
-    if not any(v is not None for v in limits):
-        return []
-    peaks = worst(mechanism)
-    out = []
-    for key, limit in limits._asdict().items():
-        if limit is None:
-            continue
-        name = key
+def _parts(proof: Proof) -> Iterator[Check]:
+    """Walls, shafts and the full turn, where the machine has flat parts."""
+    mechanism = proof.mechanism
+    if not is_flat(mechanism.spec):
+        yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
+        return
+    from geneva_cli.clearances import clearances
+
+    try:
+        held = bool(proof.found.sizes.lock) or mechanism.spec.wheel.held_by is not None
+    except GenevaError as error:
+        yield Check("parts", 0.0, "at least", 1.0, False, str(error))
+        return
+    yield Check("dwell_hold", float(held), "at least", 1.0, held)
+    for c in clearances(proof):
+        yield Check(c.name, c.value, c.must_be, c.limit, c.passes, at_deg=c.at_deg)
+
+
+def _unturned(mechanism: Mechanism) -> str:
+    """Why no full turn is made."""
+    spec = mechanism.spec
+    if spec.wheel.gearing == "spherical":
+        return "the parts of a spherical wheel are not drawn or turned against each other"
+    if spec.wheel.z > Z_DRAWN:
+        return f"wheels of more than {Z_DRAWN} slots are not drawn"
+    return f'the parts of kind = "{spec.drive.kind}" are not drawn or turned against each other'
+
+
+def _limits(mechanism: Mechanism) -> Asked:
+    """The spec's own limits, by the check's name."""
+    limits = {k: v for k, v in mechanism.spec.limits._asdict().items() if v is not None}
+    asked: Asked = {}
+    for key, limit in limits.items():
         if key in _INVARIANTS:
-            pick = _INVARIANTS[key]
-            value = pick(peaks)
-            nearest = "" if value <= limit else _slower_wheel(mechanism, _below(pick, limit))
-            out.append(Check(name, value, "at most", limit, value <= limit, nearest))
+            asked[key] = partial(_invariant, mechanism, key, limit)
         elif key == "pressure_angle_max_deg":
-            out.append(_pressure(mechanism, _load(mechanism, key), limit))
+            asked["pressure_angle_deg"] = partial(_pressure, mechanism, limit)
         else:
-            value = _load(mechanism, key)
-            passes = value <= limit
-            nearest = "" if passes else _eased(mechanism, key)
-            out.append(Check(name, value, "at most", limit, passes, nearest))
-    return out
+            asked[key] = partial(_load, mechanism, key, _LOADS[key], limit)
+    return asked
 
 
 _INVARIANTS: dict[str, Callable[[Peaks], float]] = {
@@ -178,99 +158,21 @@ _INVARIANTS: dict[str, Callable[[Peaks], float]] = {
 _LOADS = {
     "pin_force_max_N": "pin_force_N",
     "input_torque_max_Nm": "input_torque_Nm",
-    "pressure_angle_max_deg": "pressure_deg",
     "contact_stress_max_MPa": "contact_stress_MPa",
 }
 
 
-def _below(pick: Callable[[Peaks], float], limit: float) -> Callable[[Mechanism], bool]:
-    return lambda m: pick(worst(m)) <= limit
+def _invariant(mechanism: Mechanism, key: str, limit: float) -> Check:
+    return _held(key, _INVARIANTS[key](worst(mechanism)), "at most", limit)
 
 
-def _load(mechanism: Mechanism, key: str) -> float:
-    return loads.greatest(mechanism, _LOADS[key]).max
+def _pressure(mechanism: Mechanism, limit: float) -> Check:
+    found = loads.greatest(mechanism, "pressure_deg")
+    # At 90 degrees nothing turns the wheel, whatever the limit.
+    passes = keeps(found.max, "at most", limit) and found.max < 90.0
+    return Check("pressure_angle_deg", found.max, "at most", limit, passes, at_deg=found.at_deg)
 
 
-def _slower_wheel(mechanism: Mechanism, passes: Callable[[Mechanism], bool]) -> str:
-    """More slots, or, where the motion is given, less extra dwell."""
-    spec = mechanism.spec
-    if mechanism.law is None:
-        for z in range(spec.wheel.z + 1, Z_USUAL + 1):
-            changed = _built(spec._replace(wheel=spec.wheel._replace(z=z)))
-            if changed and passes(changed):
-                return f"z = {z}"
-        return ""
-
-    def with_dwell(alpha0: float) -> Mechanism | None:
-        return _built(spec._replace(motion=spec.motion._replace(alpha0_deg=alpha0)))
-
-    def works(alpha0: float) -> bool:
-        changed = with_dwell(alpha0)
-        return changed is not None and passes(changed)
-
-    # Outwards from the alpha_0 that fails, on both sides, to the nearest that passes.
-    now, motion = spec.motion.alpha0_deg, mechanism.stations[0].motion_deg
-    span = 360.0 / spec.drive.rollers
-    for i in range(1, STEPS):
-        for side in (-1.0, 1.0):
-            far = now + side * span * i / STEPS
-            if 0.0 < motion - side * span * i / STEPS < span and works(far):
-                found = _passing(works, now + side * span * (i - 1) / STEPS, far)
-                return f"alpha0_deg = {found:.9g}"
-    return ""
-
-
-def _eased(mechanism: Mechanism, key: str) -> str:
-    """A slower input shaft, or, where the resisting torque alone is too much, a larger machine."""
-    spec = mechanism.spec
-    limit: float = getattr(spec.limits, key)
-
-    def slower(n_rpm: float) -> bool:
-        changed = mechanism._replace(spec=spec._replace(drive=spec.drive._replace(n_rpm=n_rpm)))
-        return _load(changed, key) <= limit
-
-    n = _passing(slower, spec.drive.n_rpm, spec.drive.n_rpm * 1e-6)
-    if n is not None:
-        return f"n_rpm = {n:.4g}"
-    if key == "input_torque_max_Nm":
-        return ""
-
-    def larger(L: float) -> bool:
-        size = spec.size._replace(
-            center_distance_mm=L, roller_radius_mm=spec.roller_radius_mm * L / start
-        )
-        return _load(mechanism._replace(spec=spec._replace(size=size)), key) <= limit
-
-    start = spec.size.center_distance_mm
-    L = _passing(larger, start, 100.0 * start)
-    return f"center_distance_mm = {L:.4g} and the roller with it" if L is not None else ""
-
-
-def _built(spec: Spec) -> Mechanism | None:
-    try:
-        return build(spec)
-    except GenevaError:
-        return None
-
-
-def _passing(passes: Callable[[float], bool], fails_at: float, far: float) -> float | None:
-    """The value nearest to ``fails_at`` that passes, towards ``far``; None if far fails too."""
-    if not passes(far):
-        return None
-    good, bad = far, fails_at
-    for _ in range(40):
-        middle = 0.5 * (good + bad)
-        if passes(middle):
-            good = middle
-        else:
-            bad = middle
-        if abs(good - bad) <= 1e-5 * abs(good):
-            break
-    # Four digits are shown: round to the side that passes.
-    for digits in range(4, 9):
-        shown = float(f"{good:.{digits}g}")
-        step = abs(good) * 10.0 ** (1 - digits)
-        for value in (shown, shown + math.copysign(step, good - bad)):
-            if passes(value):
-                return value
-    return good
+def _load(mechanism: Mechanism, key: str, quantity: str, limit: float) -> Check:
+    found = loads.greatest(mechanism, quantity)
+    return _held(key, found.max, "at most", limit, found.at_deg)

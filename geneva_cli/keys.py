@@ -29,6 +29,11 @@ class Wheel(NamedTuple):
     steps_deg: Annotated[
         tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, a repeating pattern"
     ] = None
+    held_by: Annotated[
+        str | None,
+        OneOf(("brake", "detent", "pin")),
+        "what holds the wheel at rest, where no locking disc does",
+    ] = None
 
 
 class Drive(NamedTuple):

@@ -13,6 +13,7 @@ from geneva_cli.offset_slot import skew
 
 AXES_MIN = 1e-6  # degrees
 A_MAX = 1.0 - 0.999e-12  # of a side-crank's offset, and of the eccentricity of ellipses
+LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  # limits on loads
 
 
 class Place(NamedTuple):
@@ -127,6 +128,14 @@ def refuse_layout(spec: Spec) -> None:
             "in [size]",
             ("limits", "contact_stress_max_MPa"),
         )
+    if not (spec.load.inertia_kgm2 or spec.load.torque_Nm):
+        for key in LOADED:
+            if getattr(spec.limits, key) is not None:
+                raise GenevaError(
+                    f"{key} needs a load, and without one there is nothing to limit: set "
+                    "inertia_kgm2 or torque_Nm in [load]",
+                    ("limits", key),
+                )
     A = getattr(spec.kind, "A", None)
     if A is not None and abs(A) > A_MAX:
         raise GenevaError(

@@ -33,6 +33,12 @@ class Mechanism(NamedTuple):
     period_deg: float  # input angle after which the stations come round again
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
+    given: Spec | None = None  # the spec before a linkage gave it its centre distance
+
+    @property
+    def asked(self) -> Spec:
+        """The spec as it was given, from which ``build`` makes this machine again."""
+        return self.given or self.spec
 
     @property
     def law(self) -> Law | None:
@@ -66,8 +72,10 @@ def build(spec: Spec) -> Mechanism:
         motion = plan.station.motion_deg
         refuse_jam(spec.drive.rollers, motion, spec.wheel.gearing)
         period = 360.0 / spec.drive.rollers
-        spec = spec._replace(size=plan.size)
-        return Mechanism(spec, (plan.station,), period, plan.ratio, rollers_max(motion))
+        solved = spec._replace(size=plan.size)
+        return Mechanism(
+            solved, (plan.station,), period, plan.ratio, rollers_max(motion), given=spec
+        )
     return _straight(spec) if spec.motion.law is None else _curved(spec)
 
 

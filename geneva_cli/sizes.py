@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.drives import UNLOCKED
 from geneva_cli.errors import GenevaError
 from geneva_cli.plane import Plane
 from geneva_cli.station import LawDriven
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from geneva_cli.jet import Array
     from geneva_cli.station import Station
 
-UNLOCKED = ("four-bar", "slider-crank")  # whose crank is no disc about the line of centres
 TURN = 720  # input angles at which a roller's path is looked at
 
 

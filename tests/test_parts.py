@@ -27,7 +27,8 @@ from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from typer.testing import CliRunner
 
-from geneva_cli import cautions, clearances, curved_walls, full_turn, outline
+from geneva_cli import advice as adviser
+from geneva_cli import cautions, curved_walls, full_turn, outline, proof
 from geneva_cli.app import app
 from geneva_cli.spec import load
 from geneva_cli.template import KINDS
@@ -95,9 +96,9 @@ def made_once():
     outlines = kept(outline.outlines, of_mechanism)
     turned = kept(full_turn.full_turn, of_outlines)
     with pytest.MonkeyPatch.context() as patch:
-        for module in (outline, clearances):
+        for module in (outline, proof):
             patch.setattr(module, "outlines", outlines)
-        for module in (full_turn, clearances):
+        for module in (full_turn, proof):
             patch.setattr(module, "full_turn", turned)
         patch.setattr(curved_walls, "chain", kept(curved_walls.chain, of_slot))
         patch.setattr(cautions, "cautions", kept(cautions.cautions, of_mechanism))
@@ -622,7 +623,8 @@ def advice(said):
     return found[1], float(found[2])
 
 
-def test_a_machine_that_jams():
+def test_a_machine_that_jams(monkeypatch):
+    monkeypatch.setattr(adviser, "SECONDS", 20.0)  # however busy the computer is
     name = spec(JAMS)
     Path("old.dxf").write_text(OLD)
     said = refused(profile(name, "wheel", "old.dxf"), 1, "spec.toml: not written: ", "--force")
@@ -661,8 +663,9 @@ def test_a_machine_that_jams():
     assert chains(dxf_shapes(Path("new.dxf").read_text()), "WHEEL")
 
 
-def test_an_arc_that_collides():
+def test_an_arc_that_collides(monkeypatch):
     """At 24 slots the relief in one arc does not clear the wheel; left out, another one does."""
+    monkeypatch.setattr(adviser, "SECONDS", 20.0)
     text = size("center_distance_mm = 400", "roller_radius_mm = 8", wheel="z = 24")
     name = spec(text + 'relief = "arc"\n')
     said = refused(profile(name, "crank", "crank.dxf"), 1, "locking disc and wheel overlap by ")
@@ -723,11 +726,8 @@ def test_sizes_out_of_range(text, line, said):
 
 
 def test_a_roller_too_large_for_curved_slots(monkeypatch):
-    """Neighbouring slots cut each other; the roller that leaves a wall frees the machine.
-
-    For the time's sake that is the wall's own advice, and no size is tried by full turns.
-    """
-    monkeypatch.setattr(clearances, "freed", lambda found: "")
+    """Neighbouring slots cut each other; the roller that leaves a wall frees the machine."""
+    monkeypatch.setattr(adviser, "SECONDS", 20.0)
     text = DESIGNS["modified-sine-matched"].read_text(encoding="utf-8")
     large = "roller_radius_mm = 30"
     name = spec(text.replace("roller_radius_mm = 6", large))
@@ -839,8 +839,7 @@ def test_random_wheels(text):
     Path("wheel.dxf").unlink(missing_ok=True)
     # Freeing one takes a full turn for every try; here it only matters that it ends.
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(clearances, "TRIES", 1)
-        patch.setattr(clearances, "SHARES", (0.6,))
+        patch.setattr(adviser, "SECONDS", 0.0)
         found = profile(name, "wheel", "wheel.dxf")
     if found.exit_code:
         refused(found, found.exit_code, "spec.toml:")

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, warn
+from geneva_cli.commands.options import Format, Output
+from geneva_cli.errors import clean
 
 
 def run(
@@ -16,16 +18,18 @@ def run(
 ) -> None:
     """Does the design work? One line a check; exit status 1 where one fails.
 
-    The motion and the spec's own [limits]; where a check fails, the nearest change that passes.
+    The motion, the parts and the spec's own [limits]; where a check fails, the nearest change that
+    passes. Every spec is checked, also beside one that cannot be read.
     """
-    from geneva_cli.checks import NAMES, checks_table
+    from geneva_cli.batch import checks_table, verdicts
     from geneva_cli.output import show
-    from geneva_cli.spec import load
 
-    mechanisms = [load(spec) for spec in specs]
-    table = checks_table(mechanisms)
-    show(table, output, format, [file for m in mechanisms for file in m.spec.files])
-    for mechanism in mechanisms:
-        warn(mechanism)
-    if not all(table.columns[NAMES.index("passes")]):
-        raise typer.Exit(1)
+    found = list(verdicts(specs))
+    judged = [v for v in found if not v.error]
+    if judged:
+        show(checks_table(judged), output, format, [file for v in judged for file in v.files])
+    for v in found:
+        for said in [v.error] if v.error else [f"{v.path}: warning: {c}" for c in v.cautions]:
+            print(clean(said), file=sys.stderr)
+    if not all(v.passes for v in found):
+        raise typer.Exit(2 if len(judged) < len(found) else 1)

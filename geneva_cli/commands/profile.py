@@ -83,10 +83,10 @@ def run(
 
 def _refuse_jam(found: Outlines, force: bool) -> None:
     """Exit status 1 for a machine that does not turn; forced, a warning only."""
-    from geneva_cli.clearances import jam
-    from geneva_cli.full_turn import full_turn
+    from geneva_cli.advice import jammed
+    from geneva_cli.proof import Proof
 
-    why = jam(found, full_turn(found))
+    why = jammed(Proof(found.plane.mechanism, found))
     if not why:
         return
     path = found.plane.mechanism.spec.path

@@ -30,6 +30,7 @@ KINDS = {
     "cam": "cam",
 }
 
+UNLOCKED = ("four-bar", "slider-crank")  # whose crank is no disc about the line of centres
 GEARED = ("elliptical-gears", "noncircular-gears")  # whose ratio is a pair of pitch curves
 
 

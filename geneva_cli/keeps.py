@@ -1,0 +1,25 @@
+"""Does a value keep its limit? The one comparison of every check."""
+
+from __future__ import annotations
+
+import math
+
+# Of the limit. A value is computed to 1e-12 or so of itself, and a load, found by search, to 1e-10;
+# nobody can measure a billionth. So a size that was chosen to meet its limit exactly meets it.
+ROUNDING = 1e-9
+
+
+def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
+    """Whether a value is "at least", "at most" or "above" a limit, but for rounding.
+
+    ``noise`` is the rounding of the value itself, where that is larger than the limit's (a gap
+    that should be 0 is known as nearly as the outlines are). Raises ValueError for another word.
+    """
+    slack = max(ROUNDING * abs(limit), noise) if math.isfinite(limit) else 0.0
+    if must_be == "at least":
+        return value >= limit - slack
+    if must_be == "at most":
+        return value <= limit + slack
+    if must_be == "above":
+        return value > limit
+    raise ValueError(must_be)
