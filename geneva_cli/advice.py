@@ -128,8 +128,9 @@ class Adviser:
         for _ in range(LOOKS):
             if left <= enough or abs(x - y) <= NEARLY * abs(x - start):
                 break
-            # Time stays for a trial of what is found and, should that not hold, of what is known.
-            if time.process_time() + self.longest + 2.0 * self._whole(way) > self.deadline:
+            # Time stays to try what is found, and of gaps, should it not hold, what is known.
+            spare = (2.0 if failing.name in GAPS else 1.0) * self._whole(way)
+            if time.process_time() + self.longest + spare > self.deadline:
                 break
             known = math.isfinite(left) and math.isfinite(short)
             share = left / (left - short) if known else 0.5
