@@ -7,6 +7,7 @@ import math
 from geneva_cli import gearing, path_wheel
 from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
+from geneva_cli.jet import Coefficient, Jet, atan2
 from geneva_cli.keys import Size, Spec
 
 LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
@@ -24,12 +25,15 @@ def refuse_proportions(**lengths: float) -> None:
         )
 
 
-def plan_on(spec: Spec, path: path_wheel.Path, entry_deg: float | None) -> Plan:
+def plan_on(
+    spec: Spec, path: path_wheel.Path, entry_deg: float | None, link: path_wheel.Path
+) -> Plan:
     """The station of the wheel that a closed roller path can drive.
 
-    The path is given about the crank's axis, in millimetres, by the crank's angle in radians. Of
-    several wheels the gentlest is taken, or the one entered nearest to ``entry_deg``. Raises
-    GenevaError where none fits, or where the spec sets the centre distance, which follows.
+    The path is given about the crank's axis, in millimetres, by the crank's angle in radians;
+    ``link`` is a unit vector on the link that carries the roller. Of several wheels the gentlest
+    is taken, or the one entered nearest to ``entry_deg``. Raises GenevaError where none fits, or
+    where the spec sets the centre distance, which follows.
     """
     if spec.size.center_distance_mm != Size().center_distance_mm:
         raise GenevaError(
@@ -50,6 +54,13 @@ def plan_on(spec: Spec, path: path_wheel.Path, entry_deg: float | None) -> Plan:
         wanted = math.radians(entry_deg)
         fit = min(found, key=lambda f: abs(math.remainder(f.entry - wanted, math.tau)))
     station, L = path_wheel.station(path, fit, step, 0j)
+    middle = 0.5 * (fit.entry + fit.exit)
+
+    def turning(tau: Coefficient, order: int) -> Jet:
+        x, y = link(tau + middle, order + 1)
+        return atan2(y, x).derivative() * fit.sense
+
+    station.body = turning
     x, y = station.pin(0.0, 0)
     reach = math.hypot(1.0 - x.c[0], y.c[0])
     return Plan(station, reach, spec.size._replace(center_distance_mm=L))

@@ -1,193 +1,177 @@
 """What the motion costs: pin force, torque on the input shaft, contact stress, power.
 
-The wheel needs the torque T = I epsilon + M_r; the roller presses on the slot with N = |T| / h,
-where h is the lever of the contact normal about the wheel's axis, less what friction takes.
-Lengths in metres, forces in newtons.
+The wheel needs the torque T = I epsilon + M_r; the formulas are in ``forces``. Lengths in metres,
+forces in newtons.
 """
 
 from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.classic import SIGN
-from geneva_cli.jet import atan2
+from geneva_cli.contact import Contact, contact, is_straight
+from geneva_cli.forces import Greatest, Row, Setting, forces, setting, sliding
+from geneva_cli.jet import Coefficient, Jet
 from geneva_cli.keys import Limits
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.pitch import pitch, pitch_at_retrace, retraces
-from geneva_cli.roots import maximum
-from geneva_cli.station import LawDriven, Station
+from geneva_cli.pitch import retraces
+from geneva_cli.station import Station
 from geneva_cli.units import omega
+
+if TYPE_CHECKING:
+    from geneva_cli.jet import Number
 
 
 class State(NamedTuple):
-    """The loads at one input angle."""
+    """The loads at one input angle, or at an array of them.
 
-    torque_Nm: float  # that the wheel needs
-    pin_force_N: float
-    input_torque_Nm: float
-    contact_stress_MPa: float | None  # None where it cannot be said
-    pressure_deg: float
-
-
-class Greatest(NamedTuple):
-    """A greatest load (infinite where nothing bounds it), and its input angle."""
-
-    max: float
-    at_deg: float
-
-
-class Contact(NamedTuple):
-    """What the loads at one input angle need of the motion and the slot; lengths over L."""
-
-    velocity: float
-    acceleration: float
-    lever: float  # of the contact normal about the wheel's axis
-    pressure: float  # radians
-    curvature: float  # of the pitch curve, positive to the left of the way in
-    along: float  # the roller's speed along the slot, per input radian
-    crank: float  # the crank's speed, per input radian
-
-
-def state(mechanism: Mechanism, station: Station, input_deg: float) -> State:
-    """The loads of a station at an input angle from its mid-motion."""
-    spec = mechanism.spec
-    load, L = spec.load, spec.size.center_distance_mm / 1000.0
-    r = spec.roller_radius_mm / 1000.0
-    w = omega(spec.drive.n_rpm)
-    sign = SIGN[spec.wheel.gearing]
-    at = contact(station, sign, input_deg)
-    torque = load.inertia_kgm2 * w * w * at.acceleration + load.torque_Nm
-    # Speed at which the roller would rub if it did not roll: its own way along the slot, and the
-    # turning of crank against wheel at its rim.
-    drives = math.copysign(1.0, torque)
-    slip = at.along + drives * sign * (at.crank + sign * at.velocity) * r / L
-    # Friction shortens the lever on one side of the slot's axis and lengthens it on the other.
-    grip = at.lever - math.copysign(load.friction, slip) * (r / L)
-    force = abs(torque) / (grip * L) if grip > 0.0 else math.inf if torque else 0.0
-    shaft = 0.0
-    if math.isfinite(force):
-        shaft = torque * at.velocity + load.friction * force * abs(slip) * L
-    if shaft > 0.0:
-        shaft /= load.efficiency
-    # The roller drives (T > 0) on the wall ahead: outside, to the right of its way in.
-    wall = -drives * sign * at.curvature
-    stress = contact_stress(mechanism, force, r, wall / L)
-    return State(torque, force, shaft, stress, math.degrees(at.pressure))
-
-
-@lru_cache(maxsize=8192)
-def contact(station: Station, sign: float, input_deg: float) -> Contact:
-    """Motion and slot at an input angle; the loads of many speeds and sizes share them."""
-    _, v, a = station.motion(input_deg, 2).derivatives()
-    x, y = station.pin(input_deg, 1)
-    crank = atan2(y, (1.0 - x) * sign).c[1]
-    straight = station.rail(input_deg)
-    if straight:
-        return Contact(v, a, straight[0], 0.0, 0.0, straight[1], crank)
-    back = retraces(station)
-    middle = input_deg == 0.0
-    at = pitch_at_retrace(station) if middle and back else pitch(station, input_deg)
-    lever = math.hypot(at.x, at.y) * math.cos(at.pressure)
-    if middle:
-        return Contact(v, a, lever if back else 0.0, at.pressure, 0.0, 0.0, crank)
-    way = math.copysign(1.0, input_deg)
-    return Contact(v, a, lever, at.pressure, -way * at.turning / at.speed, way * at.speed, crank)
-
-
-def contact_stress(
-    mechanism: Mechanism, force_N: float, radius_m: float, curvature: float
-) -> float | None:
-    """Hertz pressure of the roller's line contact in MPa; ``curvature`` of the wall, per metre.
-
-    p0 = sqrt(N E* / (pi b R_e)), E* = E / (2 (1 - nu²)) for two bodies of one material. A wall
-    whose pitch curve curves towards it is convex, with the roller's radius less. Where such a
-    wall is sharper than the roller itself, as it is beside a cusp at mid-motion, it ends in an
-    edge and not in a cylinder, and the formula says nothing: None, and the undercut is reported.
+    Force and stress are infinite where nothing bounds them: where friction alone holds the wheel,
+    at mid-motion of a slot across the way, and where the bearing wall ends in an edge.
     """
-    width = mechanism.spec.size.face_width_mm
-    if width is None:
-        return None
-    load = mechanism.spec.load
-    modulus = load.youngs_modulus_GPa * 1e9 / (2.0 * (1.0 - load.poisson_ratio**2))
-    # Wall at a roller's radius from a pitch curve of this curvature.
-    bent = 1.0 - curvature * radius_m
-    if bent < 0.5:
-        return None
-    relative = max(0.0, 1.0 / radius_m + curvature / bent)
-    return math.sqrt(force_N * modulus * relative / (math.pi * width / 1000.0)) / 1e6
+
+    torque_Nm: Number  # that the wheel needs
+    pin_force_N: Number
+    input_torque_Nm: Number
+    contact_stress_MPa: Number | None  # None without a face width
+    pressure_deg: Number
+
+
+def state(mechanism: Mechanism, station: Station, input_deg: Coefficient) -> State:
+    """The loads of a station at an input angle from its mid-motion, or at an array of angles."""
+    import numpy as np
+
+    given = setting(mechanism)
+    x = np.atleast_1d(np.asarray(input_deg, dtype=float))
+    at = contact(station, x)
+    torque = at.acceleration.c[0] * given.inertia_Nm + given.resists_Nm
+    drives = np.copysign(1.0, torque)
+    slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
+    bound = np.where(torque == 0.0, 0.0, np.inf)
+    with np.errstate(all="ignore"):
+        found = forces(given, at, drives, slides)
+        held = found.grip.c[0] > 0.0
+        force = np.where(held, found.force.c[0], bound)
+        rubbed = np.where(held, found.shaft.c[0], bound) if given.friction else found.shaft.c[0]
+        shaft = rubbed / np.where(rubbed > 0.0, given.efficiency, 1.0)
+        stress = None
+        if found.edge is not None and found.square is not None:
+            square = np.where(held & (found.edge.c[0] > 0.0), found.square.c[0], bound)
+            stress = np.sqrt(square)
+    pressure = np.degrees(np.arctan2(abs(at.aside.c[0]), at.lever.c[0])) + 0.0 * x
+    if isinstance(input_deg, (int, float)):
+        one = None if stress is None else float(stress[0])
+        return State(float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0]))
+    return State(torque, force, shaft, stress, pressure)
 
 
 def greatest(mechanism: Mechanism, quantity: str) -> Greatest:
     """The greatest size of a field of ``State`` over all stations."""
     best = Greatest(0.0, 0.0)
     for station in mechanism.stations:
-        found = _greatest(mechanism, station, quantity)
+        found = _greatest(station, setting(mechanism))[quantity]
         if found.max > best.max:
             best = Greatest(found.max, station.mid_deg + found.at_deg)
     return best
 
 
-def _greatest(mechanism: Mechanism, station: Station, quantity: str) -> Greatest:
-    def size(x: float) -> float:
-        value: float | None = getattr(state(mechanism, station, x), quantity)
-        return abs(value or 0.0)
+@lru_cache(maxsize=256)
+def _greatest(station: Station, given: Setting) -> dict[str, Greatest]:
+    """The greatest of each field of ``State``, at the station's own input angles."""
+    from geneva_cli.load_peaks import maxima
 
-    if isinstance(station, LawDriven) and not retraces(station):
-        if quantity == "pressure_deg":
-            return Greatest(90.0, 0.0)
-        w = omega(mechanism.spec.drive.n_rpm)
-        a = station.motion(0.0, 2).derivatives()[2]
-        load = mechanism.spec.load
-        needed = load.inertia_kgm2 * w * w * a + load.torque_Nm
-        largest = load.inertia_kgm2 * w * w * abs(station.motion(station.entry_deg / 2, 2).c[2])
-        if quantity != "input_torque_Nm" and abs(needed) > 1e-12 * (largest + load.torque_Nm):
-            return Greatest(math.inf, 0.0)
-    value, at = 0.0, station.entry_deg
-    breaks = station.breaks_deg
-    for a, b in zip(breaks, breaks[1:], strict=False):
-        x, y = maximum(size, a, b)
-        if y > value * (1.0 + 1e-12):
-            value, at = y, x
-    return Greatest(value, at)
+    def rows(at: Contact, drives: Coefficient, slides: Coefficient) -> list[Row]:
+        found = forces(given, at, drives, slides)
+        grip = found.grip if given.friction else None
+        slope = at.aside / at.lever
+        out = [
+            Row(found.torque * drives),
+            Row(found.force, found.grip),
+            Row(found.shaft * (1.0 / given.efficiency), grip),
+            Row(-found.shaft, grip),
+            Row(slope * slope),
+        ]
+        if found.square is not None:
+            out.append(Row(found.square, found.edge))
+        return out
+
+    torque, force, driving, driven, slope, *square = maxima(station, given, rows)
+    pressure = Greatest(math.degrees(math.atan(math.sqrt(slope.max))), slope.at_deg)
+    if not is_straight(station) and not retraces(station):
+        pressure = Greatest(90.0, 0.0)
+    stress = Greatest(math.sqrt(square[0].max), square[0].at_deg) if square else Greatest(0.0, 0.0)
+    return {
+        "torque_Nm": torque,
+        "pin_force_N": force,
+        "input_torque_Nm": max(driving, driven, key=lambda found: found.max),
+        "contact_stress_MPa": force if square and math.isinf(force.max) else stress,
+        "pressure_deg": pressure,
+    }
 
 
 def fastest_rpm(mechanism: Mechanism) -> float | None:
     """The highest input speed at which the limits on force, torque and stress hold.
 
-    None where there are no such limits, or where no speed keeps them.
+    Infinite where they hold at any speed, or where there are none; None where no speed keeps them.
     """
-    limits = mechanism.spec.limits
-    held = {q: limit for q, limit in zip(LIMITED, load_limits(limits), strict=True) if limit}
-    if not held:
-        return None
-
-    def excess(n_rpm: float) -> float:
-        drive = mechanism.spec.drive._replace(n_rpm=n_rpm)
-        changed = mechanism._replace(spec=mechanism.spec._replace(drive=drive))
-        return max(greatest(changed, q).max / limit for q, limit in held.items()) - 1.0
-
-    # Loads rise with n², from what the resisting torque alone takes: regula falsi in n².
-    low, high = 0.0, mechanism.spec.drive.n_rpm**2
-    below, above = excess(1e-9), excess(math.sqrt(high))
-    while above < 0.0 and high < 1e18:
-        low, below, high = high, above, 16.0 * high
-        above = excess(math.sqrt(high))
-    if below > 0.0 or above < 0.0 or math.isinf(above):
-        return None
-    for _ in range(60):
-        square = low - below * (high - low) / (above - below)
-        here = excess(math.sqrt(square))
-        if here > 0.0:
-            high, above, below = square, here, 0.5 * below
-        else:
-            low, below, above = square, here, 0.5 * above
-        if abs(here) < 1e-6:  # more digits of a speed than anybody sets
-            break
-    return math.sqrt(square)
+    limits = load_limits(mechanism.spec.limits)
+    if not any(limits):
+        return math.inf
+    load = mechanism.spec.load
+    given = setting(mechanism)._replace(inertia_Nm=load.inertia_kgm2)  # at 1 rad/s
+    least = max(_slowness(station, given, limits) for station in mechanism.stations)
+    rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
+    # Speeds below it may be too low where inertia helps against the resistance, and this one too.
+    tried = mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm
+    drive = mechanism.spec.drive._replace(n_rpm=tried)
+    changed = mechanism._replace(spec=mechanism.spec._replace(drive=drive))
+    kept = all(
+        greatest(changed, quantity).max <= limit * KEPT
+        for quantity, limit in zip(LIMITED, limits, strict=True)
+        if limit
+    )
+    return rpm if kept else None
 
 
+def _slowness(
+    station: Station, given: Setting, limits: tuple[float | None, float | None, float | None]
+) -> float:
+    """The greatest of 1 / (highest speed that a place allows)²; infinite where it allows none.
+
+    With the load q (T) = q1 T, of a factor q1 that no speed changes, and T = w² I a + M, the
+    limit holds up to w² = (limit - q1 M) / (q1 I a).
+    """
+    import numpy as np
+
+    from geneva_cli.load_peaks import maxima
+
+    force_max, torque_max, stress_max = limits
+    unit = given._replace(inertia_Nm=0.0, resists_Nm=1.0)
+
+    def rows(at: Contact, drives: Coefficient, slides: Coefficient) -> list[Row]:
+        found = forces(unit, at, drives, slides)
+        needed = at.acceleration * given.inertia_Nm
+        held: list[tuple[float, Jet]] = []
+        if force_max:
+            held.append((force_max, found.force))
+        if torque_max:
+            held.append((torque_max, found.shaft * (1.0 / given.efficiency)))
+            held.append((torque_max, -found.shaft))
+        if stress_max and found.square is not None:
+            held.append((stress_max * stress_max, found.square))
+        out = []
+        for limit, factor in held:
+            load = needed * factor
+            left = limit - factor * given.resists_Nm
+            spare = np.where(np.asarray(load.c[0]) > 0.0, left.c[0], 1.0)
+            out.append(Row(load / left, Jet((spare,))))
+        return out
+
+    still = given._replace(resists_Nm=0.0)
+    return max(found.max for found in maxima(station, still, rows))
+
+
+KEPT = 1.0 + 1e-9  # a limit met at the fastest speed may be missed by rounding
 LIMITED = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from geneva_cli import classic, drives, gearing, kinds
 from geneva_cli.classic import SIGN, half_motion_deg, refuse_jam, rollers_max
 from geneva_cli.errors import GenevaError
-from geneva_cli.jet import Coefficient, Jet
+from geneva_cli.jet import Coefficient, Jet, atan2
 from geneva_cli.keys import Spec
 from geneva_cli.law_of import law_of
 from geneva_cli.laws import Law
@@ -110,7 +110,13 @@ def _slot_driven(spec: Spec, front: drives.Turn, place: Place) -> SlotDriven:
         def height(tau: Coefficient, order: int) -> Jet:
             return top - here.advance(tau, order)[1] * (ball.sin_S * ball.sin_th)
 
-        return SphereDriven(mid, step.b, anchors, height)
+        def cone(tau: Coefficient, order: int) -> Jet:
+            sine, versine = here.advance(tau, order + 1)
+            return atan2(sine, 1.0 - versine).derivative() * -ball.cos_th
+
+        ball_driven = SphereDriven(mid, step.b, anchors, height)
+        ball_driven.body = cone
+        return ball_driven
     if place.offset:
         slot = skew(step, place.offset)
         anchors = tuple(_anchor(pose, front, place.crank_deg) for pose in slot.poses)

@@ -74,7 +74,7 @@ class OffsetDriven(SlotDriven):
         self, mid_deg: float, half_step: float, anchors: tuple[Anchor, ...], slot: Skew
     ) -> None:
         super().__init__(mid_deg, half_step, anchors)
-        self.slot = slot
+        self.slot, self.offset = slot, slot.e
 
     def motion(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The slot's direction, taken from the nearest anchor: exactly at rest at both ends."""
@@ -127,10 +127,10 @@ class OffsetDriven(SlotDriven):
         depth = self._depth(self.anchors[1].way(input_deg, order)[0])[0]
         return turned(depth, depth * 0.0 - self.slot.e, self.slot.tilt)
 
-    def rail(self, input_deg: float) -> tuple[float, float]:
+    def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = self._depth(self.anchors[1].way(input_deg, 1)[0])[0]
-        return depth.c[0], depth.c[1]
+        depth = self._depth(self.anchors[1].way(input_deg, order + 1)[0])[0]
+        return Jet(depth.c[:-1]), depth.derivative()
 
 
 def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet, value: Coefficient) -> Jet:

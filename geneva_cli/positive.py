@@ -47,8 +47,8 @@ def positive_drive(mechanism: Mechanism) -> Drive | None:
     play = PLAY_MM + 2.0 * mechanism.spec.size.slot_clearance_mm
     loose = []
     for side, degrees in ((1.0, x), (-1.0, -x)):
-        torque = [loads.state(mechanism, station, float(d)).torque_Nm for d in degrees]
-        missing = (gap > play) & (side * np.sign(lead) * np.array(torque) < 0.0)
+        torque = loads.state(mechanism, station, degrees).torque_Nm
+        missing = (gap > play) & (side * np.sign(lead) * torque < 0.0)
         loose += [float(d) for d in degrees[missing]]
     step = abs(station.entry_deg) / SAMPLES
     worst = int(np.argmax(gap))

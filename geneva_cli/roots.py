@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import TypeAlias
 
@@ -75,24 +74,3 @@ def extrema(f: Curve, a: float, b: float) -> list[float]:
         elif d_p * d_q < 0.0:
             found.append(root(lambda t: f(t)[1:], p, q))
     return found
-
-
-def maximum(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
-    """Place and value of the maximum of a function that may have kinks: scan, golden section.
-
-    For loads, which friction and the change of the driving wall make only piecewise smooth.
-    """
-    steps = 8 * SCAN
-    places = [a + (b - a) * i / steps for i in range(steps)] + [b]
-    values = [f(x) for x in places]
-    i = max(range(len(values)), key=values.__getitem__)
-    best = (places[i], values[i])
-    low, high = places[max(i - 1, 0)], places[min(i + 1, steps)]
-    share = (math.sqrt(5.0) - 1.0) / 2.0
-    for _ in range(60):
-        width = share * (high - low)
-        left, right = high - width, low + width
-        f_left, f_right = f(left), f(right)
-        best = max(best, (left, f_left), (right, f_right), key=lambda p: p[1])
-        low, high = (low, right) if f_left > f_right else (left, high)
-    return best

@@ -66,6 +66,11 @@ class Station(ABC):
     # which way the crank turns where the roller is not on its arm: with the wheel (-1) or against
     # it (1); 0 where it is, and the pin's direction is the crank's
     crank_sense = 0.0
+    # of a straight slot: by how much its axis misses the wheel's centre
+    offset = 0.0
+    # input angle, radians, and order -> how fast the body that carries the roller turns, positive
+    # with the wheel; None where that is the crank, on whose arm the roller sits
+    body: Callable[[Coefficient, int], Jet] | None = None
 
     def __init__(self, mid_deg: float, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.mid_deg = mid_deg  # the machine's input angle at this station's mid-motion
@@ -111,11 +116,29 @@ class Station(ABC):
         """The station whose roller runs through the whole slot: this one, as a rule."""
         return self
 
-    def rail(self, input_deg: float) -> tuple[float, float] | None:
+    def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet] | None:
         """Of a straight slot: the lever of its normal about the wheel's axis, and the pin's speed
         along it. None for a curved one.
         """
         return None
+
+    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """Rate at which the body that carries the roller turns, positive with the wheel.
+
+        About the roller's own axis, in radians per input radian.
+        """
+        if self.body:
+            return self.body(radians(input_deg), order)
+        x, y = self.pin(input_deg, order + 1)
+        return atan2(y, x - 1.0).derivative()
+
+    def upright(self, input_deg: Coefficient, order: int = 0) -> Jet | float:
+        """Cosine of the angle between the roller's axis and the wheel's."""
+        return 1.0
+
+    def touches(self, input_deg: Coefficient) -> Coefficient:
+        """1 where the roller drives the wheel, 0 where something else does."""
+        return 1.0
 
     def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's centre in the wheel's frame: the slot's pitch curve."""
@@ -208,10 +231,10 @@ class SlotDriven(Station):
         depth = _length(*middle.place(input_deg, order))
         return turned(depth, depth * 0.0, self.ahead - middle.wheel)
 
-    def rail(self, input_deg: float) -> tuple[float, float]:
+    def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = _length(*self.anchors[1].place(input_deg, 1))
-        return depth.c[0], depth.c[1]
+        depth = _length(*self.anchors[1].place(input_deg, order + 1))
+        return Jet(depth.c[:-1]), depth.derivative()
 
 
 class SphereDriven(SlotDriven):
@@ -237,10 +260,14 @@ class SphereDriven(SlotDriven):
         polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
         return polar, polar * 0.0
 
-    def rail(self, input_deg: float) -> tuple[float, float]:
+    def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
         """The lever is the pin's distance from the wheel's axis."""
-        polar = self.pitch(input_deg, 1)[0]
-        return math.sin(polar.c[0]), polar.c[1]
+        polar = self.pitch(input_deg, order + 1)[0]
+        return sin_cos(Jet(polar.c[:-1]))[0], polar.derivative()
+
+    def upright(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """The roller's axis passes the sphere's centre, at the polar angle of the pin."""
+        return sin_cos(self.pitch(input_deg, order)[0])[1]
 
 
 def _length(x: Jet, y: Jet) -> Jet:

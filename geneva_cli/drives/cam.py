@@ -82,10 +82,14 @@ class CamDriven(LawMotion):
         rho, _ = self.distances(input_deg, order)
         return rho, rho * 0.0
 
-    def rail(self, input_deg: float) -> tuple[float, float]:
+    def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
         """The lever is the pin's distance from the wheel's axis."""
-        rho, _ = self.distances(input_deg, 1)
-        return rho.c[0], rho.c[1]
+        rho, _ = self.distances(input_deg, order + 1)
+        return Jet(rho.c[:-1]), rho.derivative()
+
+    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """The roller slides along the crank, and turns with it."""
+        return Jet((input_deg * 0.0 - self.sign, *[0.0] * order))
 
     def groove(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The fixed groove's pitch curve, the crank's axis being the origin."""

@@ -61,6 +61,8 @@ def plan(spec: Spec) -> Plan:
     )
     station = SlotDriven(0.0, step.b, anchors)
     station.crank_sense = 1.0
+    # The roller sits on the planet, which turns c times as fast as the carrier.
+    station.body = lambda tau, order: Jet((tau * 0.0 - c, *[0.0] * order))
     return Plan(station, R0 + rp, spec.size)
 
 

@@ -50,17 +50,21 @@ def plan(spec: Spec) -> Plan:
     angle = math.radians(keys.point_deg)
     p, q = keys.point_mm * math.cos(angle), keys.point_mm * math.sin(angle)
 
-    def path(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def coupler(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
         sine, cosine = sin_cos(Jet.variable(phi, order))
         dx, dy = g - cosine * a, sine * -a  # from A to the rocker's pivot
         D = dx * dx + dy * dy
         along = (D + (b - c) * (b + c)) / (D * (2.0 * b))
         # 4 b² D - (b² + D - c²)² as a product (Heron)
         across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2.0 * b)) * side
-        ex, ey = dx * along - dy * across, dy * along + dx * across  # from A towards B
+        return dx * along - dy * across, dy * along + dx * across  # from A towards B
+
+    def path(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
+        sine, cosine = sin_cos(Jet.variable(phi, order))
+        ex, ey = coupler(phi, order)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
-    return plan_on(spec, path, keys.entry_deg)
+    return plan_on(spec, path, keys.entry_deg, coupler)
 
 
 def _refuse_linkage(keys: Keys) -> None:

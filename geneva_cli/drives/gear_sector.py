@@ -84,11 +84,20 @@ class SectorDriven(Station):
         """The slot's shape is that of the plain wheel whose slot it is."""
         return self.inner
 
-    def rail(self, input_deg: float) -> tuple[float, float]:
-        """In the gears the lever is the wheel's pitch radius, L/(1+u)."""
-        if abs(input_deg) < self.half_sector:
-            return 1.0 / (1.0 + self.u), 0.0
-        return self.inner.rail(self._slot_deg(input_deg))
+    def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
+        """In the gears the lever is the wheel's pitch radius, L/(1+u), and nothing slides."""
+        lever, along = self.inner.rail(self._slot_deg(input_deg), order)
+        slot = self.touches(input_deg)
+        return lever * slot + (1.0 - slot) / (1.0 + self.u), along * slot
+
+    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """The roller sits on the crank."""
+        return self.inner.carrier(self._slot_deg(input_deg), order)
+
+    def touches(self, input_deg: Coefficient) -> Coefficient:
+        """Not while the gears drive."""
+        slot = abs(input_deg) >= self.half_sector
+        return float(slot) if isinstance(slot, bool) else slot.astype(float)
 
 
 def plan(spec: Spec) -> Plan:

@@ -46,10 +46,13 @@ def plan(spec: Spec) -> Plan:
     angle = math.radians(keys.point_deg)
     p, q = keys.point_mm * math.cos(angle), keys.point_mm * math.sin(angle)
 
+    def rod(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
+        ey = (h - sin_cos(Jet.variable(phi, order))[0] * a) / b  # unit vector from A towards B
+        return sqrt((1.0 - ey) * (ey + 1.0)), ey
+
     def path(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
         sine, cosine = sin_cos(Jet.variable(phi, order))
-        ey = (h - sine * a) / b  # unit vector from A towards B
-        ex = sqrt((1.0 - ey) * (ey + 1.0))
+        ex, ey = rod(phi, order)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
-    return plan_on(spec, path, keys.entry_deg)
+    return plan_on(spec, path, keys.entry_deg, rod)
