@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.jet import Array
     from geneva_cli.scan import Mask, Whole
 
-ZERO = 1e-12  # share of a torque, or lever over L, that is rounding
+ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
 TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier is meant
 
 
@@ -232,9 +232,9 @@ def _towards_mid_motion(station: Station, piece: Stretch, rows: Rows, row: int) 
 
 
 def _at_break(x: float, station: Station) -> float:
-    """The break beside which a stretch began or ended, or the place itself."""
-    beside = (math.nextafter(x, math.inf), math.nextafter(x, -math.inf))
-    return next((b for b in station.breaks_deg if b in beside), x)
+    """The place, or the break from which only rounding parts it."""
+    near = min(station.breaks_deg, key=lambda place: abs(place - x))
+    return near if abs(near - x) <= ZERO * station.motion_deg else x
 
 
 def _brink(

@@ -9,6 +9,7 @@ from geneva_cli import loads
 from geneva_cli.cautions import cautions
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds import is_flat
+from geneva_cli.load_cautions import load_cautions
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.peaks import Peaks, peaks, worst
 from geneva_cli.station import LawDriven, Station
@@ -29,7 +30,7 @@ def report_table(mechanism: Mechanism) -> Table:
     values |= _drive(mechanism)
     values |= _sizes(mechanism)
     values |= _parts(mechanism)
-    found = cautions(mechanism)
+    found = [*cautions(mechanism), *load_cautions(mechanism)]
     values |= {f"warnings.{i}": text for i, text in enumerate(found, 1)} or {"warnings": "none"}
     title = mechanism.spec.title
     return record_table(values, f"{title}\n\n{words(mechanism)}" if title else words(mechanism))
@@ -71,11 +72,13 @@ def _timing(mechanism: Mechanism, i: int, where: str) -> dict[str, Any]:
     timing = timings(mechanism)[i]
     values: dict[str, Any] = {f"{where}timing.{k}": v for k, v in timing._asdict().items()}
     # Krasniqi's (15) and (16): t = phi/omega, shortest at the highest speed that the limits on
-    # force, torque and stress allow (n itself where there are none), and the work coefficient of
-    # one roller, k_r = phi/(2 pi - phi).
+    # force, torque and stress allow (n itself where none bounds it; none where no speed keeps
+    # them), and the work coefficient of one roller, k_r = phi/(2 pi - phi).
     motion = mechanism.stations[i].motion_deg
-    fastest = loads.fastest_rpm(mechanism) or mechanism.spec.drive.n_rpm
-    values[f"{where}timing.shortest_motion_s"] = motion / (6.0 * fastest)
+    fastest = loads.fastest_rpm(mechanism)
+    if fastest is not None and math.isinf(fastest):
+        fastest = mechanism.spec.drive.n_rpm
+    values[f"{where}timing.shortest_motion_s"] = motion / (6.0 * fastest) if fastest else None
     values[f"{where}timing.k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
     return values
 

@@ -38,7 +38,7 @@ ROWS = [
     ["full_turn", "part_drawing"],
     ["part", "proof"],
     ["clearances"],
-    ["cautions", "law_values", "survey", "template"],
+    ["cautions", "load_cautions", "law_values", "survey", "template"],
     ["synthesis_wish"],
     ["synthesis"],
     ["checks", "remedies", "synthesis_spec"],

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from geneva_cli import loads
-from geneva_cli.keys import Drive, Limits, Load, Motion, Size, Spec, Wheel
-from geneva_cli.mechanism import Mechanism, build
+from geneva_cli.keys import Drive, Load, Motion, Size, Spec, Wheel
+from geneva_cli.mechanism import build
 
 OMEGA = 2.0 * math.pi
 # Krasniqi's press: peak inertia torque 345.2 N m on straight slots, resisting torque 497 N m.
@@ -71,65 +71,12 @@ def test_near_mid_motion_it_grows_as_published() -> None:
 def test_inertia_factors(z: int, force: float, power: float) -> None:
     """F L/(I w²) and T/(I w²) of external wheels under inertia alone, 20 digits elsewhere.
 
-    The places are found by golden section, flat to the square root of an ulp: 1e-14 in value.
+    16 ulp, for a peak that grows with 1/(1 - sin b)³.
     """
     spec = Spec(Wheel(z), Drive(n_rpm=30.0 / math.pi), size=Size(1000.0), load=Load(1.0))
     mechanism = build(spec)
-    assert loads.greatest(mechanism, "pin_force_N").max == pytest.approx(force, rel=1e-13)
-    assert loads.greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=1e-13)
-
-
-def friction_balance(gearing: str, f: float, x: float) -> tuple[float, float]:
-    """Pin force and input torque by statics in the plane, without the program's formulas.
-
-    The roller's centre is at P; the wall ahead (or behind) presses with N along its normal and
-    rubs with f N against the slip of the roller, which does not turn on its pin.
-    """
-    mechanism = build(
-        Spec(
-            Wheel(6, gearing),
-            Drive(n_rpm=30.0 / math.pi),
-            size=Size(1000.0, 60.0),
-            load=Load(1.0, 0.3, friction=f),
-        )
-    )
-    station = mechanism.stations[0]
-    psi, psi1, psi2 = station.motion(x, 2).derivatives()
-    torque = psi2 + 0.3
-    P = complex(*(c.c[0] for c in station.pin(x, 0)))
-    P1 = complex(*(c.c[1] for c in station.pin(x, 1)))
-    turn = -1.0 if gearing == "external" else 1.0  # the crank's sense, the wheel's being positive
-    ahead = math.copysign(1.0, torque)
-    along = np.exp(1j * psi)
-    contact = P + 0.06 * 1j * along * ahead
-    roller = P1 + 1j * turn * (contact - P)
-    wheel = 1j * psi1 * contact
-    slip = (roller - wheel) @ along if False else ((roller - wheel) * along.conjugate()).real
-
-    def moment(N: float) -> float:
-        force = N * 1j * along * ahead + f * N * math.copysign(1.0, slip) * along
-        return float((contact.conjugate() * force).imag)
-
-    N = torque / moment(1.0)
-    return N, torque * psi1 + f * N * abs(slip)
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-@pytest.mark.parametrize("x", [-55.0, -20.0, 10.0, 40.0])
-def test_friction_against_statics(gearing: str, x: float) -> None:
-    """10 ulp: a dozen operations on each side."""
-    mechanism = build(
-        Spec(
-            Wheel(6, gearing),
-            Drive(n_rpm=30.0 / math.pi),
-            size=Size(1000.0, 60.0),
-            load=Load(1.0, 0.3, friction=0.2),
-        )
-    )
-    at = loads.state(mechanism, mechanism.stations[0], x)
-    N, shaft = friction_balance(gearing, 0.2, x)
-    assert at.pin_force_N == pytest.approx(N, rel=3e-15)
-    assert at.input_torque_Nm == pytest.approx(shaft, rel=1e-14)
+    assert loads.greatest(mechanism, "pin_force_N").max == pytest.approx(force, rel=4e-15)
+    assert loads.greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=4e-15)
 
 
 def test_power_closes_over_a_cycle() -> None:
@@ -140,11 +87,3 @@ def test_power_closes_over_a_cycle() -> None:
     torque = [loads.state(mechanism, station, float(60.0 * t)).input_torque_Nm for t in x]
     work = float(np.dot(torque, weights)) * math.radians(60.0)
     assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves
-
-
-def test_the_fastest_speed_meets_its_limit() -> None:
-    mechanism: Mechanism = build(PRESS._replace(limits=Limits(pin_force_max_N=3000.0)))
-    n = loads.fastest_rpm(mechanism)
-    assert n is not None
-    again = build(PRESS._replace(drive=Drive(n_rpm=n)))
-    assert loads.greatest(again, "pin_force_N").max == pytest.approx(3000.0, rel=2e-6)

@@ -1,0 +1,213 @@
+"""Loads by Newton and Euler: every body cut free, its balance solved as a 3 x 3 system.
+
+The wheel, the body that carries the roller (its pin does not turn in that body) and whatever
+carries that body again have each two forces and a moment in balance; only the wheel has mass. From
+one body to the next the solved forces are passed on reversed, up to the torque on the input shaft.
+Work and power are used nowhere, so that they can be checked. 50 digits, lengths in units of the
+centre distance, the wheel's axis the origin, the crank's at 1. Imports nothing of the program.
+"""
+
+from typing import NamedTuple
+
+from machine_witness import Front, fitted, linkage, motions
+from witness import mp, to_radians
+
+
+class Chain(NamedTuple):
+    """What carries the roller: places and angles as functions of the input angle."""
+
+    body: object  # angle of the body that carries the roller
+    shaft: object  # contact point and force on the roller, input angle -> torque on the input shaft
+    sense: int  # which way the input shaft turns: 1 with the wheel, -1 against it
+
+
+class Loads(NamedTuple):
+    torque: object
+    force: object
+    shaft: object
+    rubbing: object  # friction's force times the speed of sliding, per input radian
+
+
+def rate(f, x):
+    return mp.diff(f, x, h=mp.mpf(10) ** -18)
+
+
+def balance(*unknown, force, at):
+    """Sizes of unknown forces (unit force, place) or couples (None, 1) that hold a known force.
+
+    All moments are about the origin.
+    """
+    columns = [(0, 0, p) if d is None else (d.real, d.imag, cross(p, d)) for d, p in unknown]
+    left = mp.matrix(3, 3)
+    for j, column in enumerate(columns):
+        for i in range(3):
+            left[i, j] = column[i]
+    right = mp.matrix([-force.real, -force.imag, -cross(at, force)])
+    return list(mp.lu_solve(left, right))
+
+
+def cross(a, b):
+    a, b = mp.mpc(a), mp.mpc(b)
+    return a.real * b.imag - a.imag * b.real
+
+
+X, Y = mp.mpc(1), mp.mpc(0, 1)
+
+
+def crank(g):
+    """The body is the crank on the input shaft itself."""
+
+    def shaft(x, contact, force):
+        _, _, torque = balance((X, 1), (Y, 1), (None, 1), force=force, at=contact)
+        return torque
+
+    return Chain(None, shaft, -g)
+
+
+def coulisse(g, A):
+    """The body is a coulisse on the crank's axis; a block on the input crank drives it."""
+
+    def on(v):  # from the crank's own axes, on which it points at the wheel at 0
+        return 1 - g * (mp.conj(v) if g > 0 else v) / 10
+
+    def shaft(x, contact, force):
+        block, axis = on(A + mp.expj(x)), on(A)
+        way = (block - 1) / abs(block - 1)
+        push = balance((X, 1), (Y, 1), (1j * way, block), force=force, at=contact)[2]
+        back = -push * 1j * way  # on the input crank
+        return balance((X, axis), (Y, axis), (None, 1), force=back, at=block)[2]
+
+    return Chain(None, shaft, -g)
+
+
+def planet(spec):
+    """The body is a planet on a carrier, in mesh with a fixed gear about the crank's axis."""
+    keys, z = spec.kind, spec.wheel.z
+    u = mp.mpf(2 * z) / (z - 2)
+    c = 1 + u if keys.fixed == "sun" else 1 - u
+    l = mp.sin(mp.pi / z)
+    rp = l / (c * c - 1) if keys.planet_ratio == "shockless" else mp.mpf(keys.planet_ratio)
+    R0 = l + rp
+    fixed = R0 * u / (u + 1) if keys.fixed == "sun" else R0 * u / (u - 1)  # pitch radius
+
+    def shaft(x, contact, force):
+        arm = -mp.expj(-x)
+        pin, mesh = 1 + R0 * arm, 1 + fixed * arm
+        a, b, _ = balance((X, pin), (Y, pin), (1j * arm, mesh), force=force, at=contact)
+        return balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(a, b), at=pin)[2]
+
+    return Chain(lambda x: -c * x, shaft, -1)
+
+
+def groove(g, pin):
+    """The body slides along the crank, and its roller runs in a fixed groove."""
+
+    def shaft(x, contact, force):
+        way = rate(pin, x)
+        arm = (pin(x) - 1) / abs(pin(x) - 1)
+        wall = 1j * way / abs(way)
+        across = 1j * arm
+        _, push, couple = balance(
+            (wall, pin(x)), (across, pin(x)), (None, 1), force=force, at=contact
+        )
+        back = -push * across
+        return balance((X, 1), (Y, 1), (None, 1), force=back, at=pin(x))[2] + couple
+
+    return Chain(None, shaft, -g)
+
+
+def link(spec, entry_deg, exit_deg):
+    """A four-bar's or slider-crank's coupler: the chain, and the motion (wheel, pin, entry)."""
+    keys, kind = spec.kind, spec.drive.kind
+    path, b = linkage(kind, keys), mp.pi / spec.wheel.z
+    entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))
+    middle = (entry + exit_) / 2
+    sense = 1 if mp.arg((path(exit_) - centre) / (path(entry) - centre)) > 0 else -1
+
+    def turned(z):
+        return z if sense > 0 else mp.conj(z)
+
+    def world(z):
+        return turned((z - centre) / -centre)
+
+    def way(v):
+        return turned(v / -centre)
+
+    def pin(x):
+        return world(path(middle + x))
+
+    first = mp.arg(pin(entry - middle))
+
+    def wheel(x):
+        return mp.arg(pin(x) * mp.expj(-first)) - b
+
+    def joint(x):
+        return mp.mpf(keys.crank_mm) * mp.expj(middle + x)
+
+    def coupler(x):  # its angle on the path's axes: C is an arm at a fixed angle from A
+        return mp.arg((path(middle + x) - joint(x)) / mp.expj(to_radians(keys.point_deg)))
+
+    def shaft(x, contact, force):
+        A = joint(x)
+        if kind == "four-bar":  # the rocker pulls along itself
+            B = A + mp.mpf(keys.coupler_mm) * mp.expj(coupler(x))
+            hold = B - mp.mpf(keys.ground_mm)
+        else:  # the slider's guide pushes across itself
+            B, hold = A + mp.mpf(keys.rod_mm) * mp.expj(coupler(x)), mp.mpc(0, 1)
+        at = world(A)
+        hold = way(hold) / abs(way(hold))
+        p, q, _ = balance((X, at), (Y, at), (hold, world(B)), force=force, at=contact)
+        return balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(p, q), at=at)[2]
+
+    def angle(x):
+        return sense * coupler(x)
+
+    return Chain(angle, shaft, sense), wheel, pin
+
+
+def machine(spec, near=None):
+    """The chain, the wheel's angle and the roller's place of the machine's first station."""
+    if near:
+        return link(spec, *near)
+    kind = spec.drive.kind
+    g = -1 if spec.wheel.gearing == "internal" else 1
+    motion = motions(spec)[0]
+    wheel, pin = motion.wheel, motion.pin
+    if kind == "epicyclic":
+        chain = planet(spec)
+    elif kind == "cam":
+        chain = groove(g, pin)
+    else:
+        A = Front(spec.drive, spec.kind).A
+        chain = coulisse(g, A) if A else crank(g)
+    if chain.body is None:
+        chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) / (pin(mp.mpf(0)) - 1)))
+    return chain, wheel, pin
+
+
+def loads(spec, chain, wheel, pin, deg):
+    """The loads at an input angle in degrees from mid-motion; torques in N m, force in N."""
+    x = to_radians(deg)
+    L = mp.mpf(spec.size.center_distance_mm) / 1000
+    r = mp.mpf(spec.roller_radius_mm) / 1000 / L
+    f = mp.mpf(spec.load.friction)
+    w = mp.mpf(spec.drive.n_rpm) * mp.pi / 30
+    speed = rate(wheel, x)
+    bend = mp.diff(wheel, x, 2, h=mp.mpf(10) ** -15)
+    torque = mp.mpf(spec.load.inertia_kgm2) * w * w * bend + mp.mpf(spec.load.torque_Nm)
+    # The slot's tangent: the way of the roller's centre as the wheel sees it.
+    place, turn = pin(x), mp.expj(wheel(x))
+    seen = rate(lambda t: pin(t) * mp.expj(-wheel(t)), x) * turn
+    tangent = seen / abs(seen)
+    # The wall that bears pushes the wheel the way of the torque it needs.
+    normal = 1j * tangent
+    normal = normal if cross(place, normal) * torque > 0 else -normal
+    contact = place + r * normal
+    roller = rate(pin, x) + 1j * rate(chain.body, x) * (contact - place)
+    rubs = ((roller - 1j * speed * contact) * mp.conj(tangent)).real
+    unit = normal + f * mp.sign(rubs) * tangent  # force on the wheel for a pin force of 1
+    # Wheel: bearing and torque of the load; its moment fixes the pin force.
+    held = balance((X, 0), (Y, 0), (None, 1), force=unit, at=contact)[2]
+    force = -torque / held / L
+    shaft = chain.shaft(x, contact, -force * unit) * L * chain.sense
+    return Loads(torque, force, shaft, f * force * abs(rubs) * L), speed
