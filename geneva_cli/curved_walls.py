@@ -169,7 +169,7 @@ def _next(around: list[Wall], last: Place) -> Place:
                 continue
             away = np.hypot(*(wall.points[start : end + 1] - here).T)
             i = start + int(np.argmin(away))
-            along = float(wall.curve(wall.t[i : i + 1])[1][0] @ travel)
+            along = float((wall.curve(wall.t[i : i + 1])[1][0] * travel).sum())
             way = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
             rest_of_run = end - i if way > 0 else i - start
             score = (float(away[i - start]), -rest_of_run)

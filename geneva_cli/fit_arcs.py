@@ -15,6 +15,7 @@ import numpy as np
 
 from geneva_cli.drawing import Arc, Line
 from geneva_cli.fit_path import PIECES_MAX, TARGET, Path, inside, peaks, points_of, respread
+from geneva_cli.linear import gram, inverse2, product
 
 if TYPE_CHECKING:
     from geneva_cli.jet import Array
@@ -189,8 +190,8 @@ def _solved(knots: Knots, found: Biarcs) -> Knots:
     # In the mean length, a tilt is as large as an offset.
     unit = float(length.mean())
     shape[..., 1::2] *= (length / unit)[:, None, None]
-    square = shape.transpose(0, 2, 1) @ shape
-    pull = -(shape.transpose(0, 2, 1) @ found.miss.reshape(count, -1, 1))[..., 0]
+    square = gram(shape, shape)
+    pull = -gram(shape, found.miss.reshape(count, -1, 1))[..., 0]
     diagonal = square[:-1, 2:, 2:] + square[1:, :2, :2]
     right = pull[:-1, 2:] + pull[1:, :2]
     moved = _block_tridiagonal(diagonal, square[1:-1, :2, 2:], right)
@@ -207,24 +208,25 @@ def _block_tridiagonal(diagonal: Array, upper: Array, right: Array) -> Array:
     """
     out: Array = np.empty_like(right)
     if len(right) == 1:
-        out[...] = np.linalg.solve(diagonal, right[..., None])[..., 0]
+        out[...] = product(inverse2(diagonal), right[..., None])[..., 0]
         return out
     odd = len(right) // 2  # how many unknowns go out: the second, the fourth, ...
     before, after = upper[::2], upper[1::2]  # from an even one to the next odd one, and back
-    put = np.linalg.inv(diagonal[1::2])
+    put = inverse2(diagonal[1::2])
     lower = before.transpose(0, 2, 1)
     kept = diagonal[::2].copy()
     rest = right[::2].copy()
-    kept[:odd] -= before @ put @ lower
-    rest[:odd] -= (before @ put @ right[1::2, :, None])[..., 0]
+    ahead = product(before, put)
+    kept[:odd] -= product(ahead, lower)
+    rest[:odd] -= product(ahead, right[1::2, :, None])[..., 0]
     more = len(after)
-    back = after.transpose(0, 2, 1) @ put[:more]
-    kept[1 : more + 1] -= back @ after
-    rest[1 : more + 1] -= (back @ right[1::2, :, None][:more])[..., 0]
-    even = _block_tridiagonal(kept, -(before[:more] @ put[:more] @ after), rest)
-    known = right[1::2, :, None] - lower @ even[:odd, :, None]
-    known[:more] -= after @ even[1 : more + 1, :, None]
-    out[::2], out[1::2] = even, (put @ known)[..., 0]
+    back = product(after.transpose(0, 2, 1), put[:more])
+    kept[1 : more + 1] -= product(back, after)
+    rest[1 : more + 1] -= product(back, right[1::2, :, None][:more])[..., 0]
+    even = _block_tridiagonal(kept, -product(ahead[:more], after), rest)
+    known = right[1::2, :, None] - product(lower, even[:odd, :, None])
+    known[:more] -= product(after, even[1 : more + 1, :, None])
+    out[::2], out[1::2] = even, product(put, known)[..., 0]
     return out
 
 

@@ -82,7 +82,7 @@ class Path:
 
     def _complex(self, t: Array) -> tuple[Array, Array]:
         points, tangents = self.curve(t)
-        return points @ np.array([1.0, 1j]), tangents @ np.array([1.0, 1j])
+        return points[:, 0] + 1j * points[:, 1], tangents[:, 0] + 1j * tangents[:, 1]
 
 
 def inside(places: Array, count: int) -> Array:

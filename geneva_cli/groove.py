@@ -10,6 +10,7 @@ import numpy as np
 
 from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
+from geneva_cli.linear import solve
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.pitch import WALLED
 from geneva_cli.table import Table
@@ -65,7 +66,7 @@ def _distances(station: CamDriven, input_deg: Array) -> list[Array]:
         for order, value in enumerate(end):
             conditions.append([_power(k, order, u) for k in range(6)])
             values.append(value * span**order)
-    shape = np.polynomial.Polynomial(np.linalg.solve(np.array(conditions), np.array(values)))
+    shape = np.polynomial.Polynomial(solve(np.array(conditions), np.array(values)))
     rest = np.radians(at[~moving] - station.exit_deg) / span
     for order, column in enumerate(out):
         column[~moving] = shape.deriv(order)(rest) / span**order

@@ -33,11 +33,9 @@ def read_law(spec: Spec) -> Law:
     if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
         raise GenevaError(f"{path}: a law runs from 0,0 to 1,1; the first or last point does not")
     u, s = [p[0] for p in points], [p[1] for p in points]
-    from scipy.interpolate import make_interp_spline
+    from geneva_cli.spline import at_rest
 
-    flat = [(1, 0.0), (2, 0.0)]
-    spline = make_interp_spline(u, s, k=5, bc_type=(flat, flat))
-    return _law(spline)
+    return _law(at_rest(u, s))
 
 
 def _law(spline: Any) -> Law:

@@ -16,8 +16,8 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 ROWS = [
     ["geneva_cli"],
     ["drawing", "errors", "jet", "keeps", "roots", "rules", "table", "units"],
-    ["fit_path", "measure", "points", "scan"],
-    ["classic", "fit_arcs", "fit_balance", "kernel", "keys", "laws", "pieces"],
+    ["fit_path", "linear", "measure", "points", "scan"],
+    ["classic", "fit_arcs", "fit_balance", "kernel", "keys", "laws", "pieces", "spline"],
     ["fit_chords", "fit_cubics", "gearing", "law_table", "many", "station", "synthesis_closed"],
     ["drives", "fit", "law_of", "offset_slot", "path_wheel", "synthesis_limit"],
     ["coulisse", "linkage"],

@@ -47,7 +47,7 @@ def front(spec: Spec) -> Callable[[float], Front]:
 
 
 def _from_file(points: list[tuple[float, float]]) -> Callable[[float], Front]:
-    from scipy.interpolate import make_interp_spline
+    from geneva_cli.spline import periodic
 
     key = ("drive", "ratio_file")
     x, i = [math.radians(p[0]) for p in points], [p[1] for p in points]
@@ -59,7 +59,7 @@ def _from_file(points: list[tuple[float, float]]) -> Callable[[float], Front]:
         raise GenevaError(
             f"not realisable as gears: the ratio falls to {min(i):g}, not above 0", key
         )
-    spline = make_interp_spline(x, i, k=5, bc_type="periodic")
+    spline = periodic(x, i)
     mean = float(spline.integrate(0.0, math.tau)) / math.tau
     if abs(mean - 1.0) > MEAN:
         raise GenevaError(
