@@ -10,13 +10,15 @@ class Table(NamedTuple):
     """Named columns (lists or arrays) of equal length; the names carry the units.
 
     A ``record`` has one row, whose dotted names are a tree: json nests it, and people read it
-    line by line. A None is a value that does not exist (an empty field, ``null`` in json).
+    line by line. A None is a value that does not exist (an empty field, ``null`` in json). In a
+    record a value may be a tuple of texts, or a table of its own. ``prose`` stands below the title.
     """
 
     names: tuple[str, ...]
     columns: Sequence[Any]
     record: bool = False
     title: str = ""
+    prose: str = ""
 
     def __len__(self) -> int:
         return len(self.columns[0]) if self.columns else 0
@@ -40,6 +42,23 @@ def rows_table(names: Sequence[str], rows: Sequence[Sequence[Any]], title: str =
     return Table(tuple(names), columns, title=title)
 
 
-def record_table(values: dict[str, Any], title: str = "") -> Table:
+def record_table(values: dict[str, Any], title: str = "", prose: str = "") -> Table:
     """A table of one row, to be read line by line."""
-    return Table(tuple(values), [(v,) for v in values.values()], record=True, title=title)
+    return Table(tuple(values), [(v,) for v in values.values()], True, title, prose)
+
+
+def flat(table: Table) -> Table:
+    """A record with one text or number a name: ``name.1``, ``name.2`` for texts and tables in it.
+
+    For formats that cannot nest. No texts at all are the word none.
+    """
+    values: dict[str, Any] = {}
+    for name, value in zip(table.names, next(table.rows()), strict=True):
+        if isinstance(value, Table):
+            for i, row in enumerate(value.rows(), 1):
+                values |= {f"{name}.{i}.{key}": v for key, v in zip(value.names, row, strict=True)}
+        elif isinstance(value, tuple):
+            values |= {f"{name}.{i}": text for i, text in enumerate(value, 1)} or {name: "none"}
+        else:
+            values[name] = value
+    return record_table(values, table.title, table.prose)

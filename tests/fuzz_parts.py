@@ -14,7 +14,8 @@ from fuzz_machines import machine_text
 from fuzz_spec import consistent, read, sound
 from fuzzing import campaign, in_time
 
-from geneva_cli.checks import checks_table
+from geneva_cli.advice import judged
+from geneva_cli.batch import Verdict, checks_table
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds import is_flat
 from geneva_cli.motion import motion_table
@@ -22,7 +23,8 @@ from geneva_cli.outline import outlines
 from geneva_cli.part import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.peaks import peaks_table
 from geneva_cli.pieces import pieces_table
-from geneva_cli.report import report_table
+from geneva_cli.report import report
+from geneva_cli.table import flat
 
 SECONDS = 30  # of one machine with all that is made of it
 TOLERANCE = 0.01  # mm at L = 100, of the drawings
@@ -51,8 +53,8 @@ def one(text):
         consistent(found)
         sound(peaks_table(found))
         sound(motion_table(found, 97))
-        sound(report_table(found), BOUNDLESS)
-        sound(checks_table([found]), BOUNDLESS)
+        sound(flat(report(found).table), BOUNDLESS)
+        sound(checks_table([Verdict("", checks=tuple(judged(found)))]), BOUNDLESS)
         tolerance = TOLERANCE * found.spec.size.center_distance_mm / 100.0
         for part in PARTS:
             for samples in (None, 33, 50) if is_table(found, part, False) else ():

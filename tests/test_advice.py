@@ -133,17 +133,17 @@ def test_advice_passes_when_it_is_taken(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # However busy the machine is: the time has a test of its own.
-    monkeypatch.setattr(advice, "SECONDS", 20.0)
+    monkeypatch.setattr(advice, "SECONDS", 6.0)
     parts = name in PARTS  # of the others the motion and the limits: their parts take their time
     rows, _ = advised(read(tmp_path, ALL[name]), parts)
     stands(ALL[name], tmp_path, rows, name not in HELPLESS, parts)
 
 
 def test_advice_takes_a_second_at_most(tmp_path: Path) -> None:
-    """Of the processor; a trial is begun only if it is likely to end in time, so half more."""
+    """Of the processor; a trial that is begun is ended, and takes up to a second on a busy day."""
     for name in ("rim-inside", "law", "slider", "bore"):
         rows, longest = advised(read(tmp_path, ALL[name]), parts=True)
-        assert longest < 1.5 * advice.SECONDS
+        assert longest < 3.0 * advice.SECONDS
         stands(ALL[name], tmp_path, rows, needed=False, parts=True)
 
 

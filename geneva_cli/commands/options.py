@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
@@ -29,5 +30,10 @@ def warn(mechanism: Mechanism) -> None:
     """Say on standard error what a number alone would hide."""
     from geneva_cli.cautions import cautions
 
-    for caution in cautions(mechanism):
-        print(clean(f"{mechanism.spec.path}: warning: {caution}"), file=sys.stderr)
+    say(mechanism.spec.path, cautions(mechanism))
+
+
+def say(path: str, cautions: Iterable[str]) -> None:
+    """Cautions about a spec, a line each."""
+    for caution in cautions:
+        print(clean(f"{path}: warning: {caution}"), file=sys.stderr)

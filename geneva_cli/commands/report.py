@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from geneva_cli.commands.options import Format, Output, SpecPath, warn
+import typer
+
+from geneva_cli.commands.options import Format, Output, SpecPath, say
 
 
 def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
-    """One page on a design, for a person: words, timing, peaks, loads, sizes and warnings."""
-    from geneva_cli.output import show
-    from geneva_cli.report import report_table
-    from geneva_cli.spec import load
+    """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.
 
-    mechanism = load(spec)
-    show(report_table(mechanism), output, format, mechanism.spec.files)
-    warn(mechanism)
+    Exit status 1 where `check` has it: where a check fails.
+    """
+    from geneva_cli.output import show
+    from geneva_cli.report import report
+    from geneva_cli.spec import load_and
+
+    mechanism, found = load_and(spec, lambda m: (m, report(m)))
+    show(found.table, output, format, mechanism.spec.files)
+    say(mechanism.spec.path, found.cautions)
+    if not found.passes:
+        raise typer.Exit(1)

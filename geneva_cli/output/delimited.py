@@ -6,13 +6,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table
+from geneva_cli.table import Table, flat
 
 BLOCK = 1024  # rows at a time
 
 
 def chunks(table: Table, terminal: bool) -> Iterator[str]:
     """The header, then blocks of rows."""
+    if table.record:
+        table = flat(table)
     yield ",".join(table.names) + "\n"
     if table.columns and all(getattr(c, "dtype", "") == "float64" for c in table.columns):
         yield from _numbers(table)

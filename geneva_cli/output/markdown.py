@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.output.text import cell
-from geneva_cli.table import Table
+from geneva_cli.table import Table, flat
 
 # HTML by its own names, which every renderer reads alike; Markdown by its backslash
 ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", **{c: f"\\{c}" for c in "\\`*[]|"}}
@@ -15,8 +15,11 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
     """The table, line by line."""
     if table.title:
         yield f"# {_escaped(table.title)}\n\n"
+    if table.prose:
+        yield f"{_escaped(table.prose)}\n\n"
     if table.record:
         yield "| quantity | value |\n| --- | ---: |\n"
+        table = flat(table)
         for name, value in zip(table.names, next(table.rows()), strict=True):
             yield f"| {name} | {_escaped(value)} |\n"
         return

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table
+from geneva_cli.table import Table, flat
 
 WIDTH = 90
 NOISE = 1e-13
@@ -22,6 +22,8 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
         return
     if table.title:
         yield "\n".join(paragraphs(table.title)) + "\n\n"
+    if table.prose:
+        yield "\n".join(paragraphs(table.prose)) + "\n\n"
     yield from _record(table) if table.record else _plain(table)
 
 
@@ -92,8 +94,11 @@ def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:
 
 def _record(table: Table) -> Iterator[str]:
     """One line a value, a heading where the first part of the dotted name changes."""
-    row = next(table.rows())
-    split = [name.rpartition(".") for name in table.names]
+    table = flat(table)
+    # What does not apply is no line for a person.
+    shown = [pair for pair in zip(table.names, next(table.rows()), strict=True) if _is(pair[1])]
+    row = [value for _, value in shown]
+    split = [name.rpartition(".") for name, _ in shown]
     width = max(len(name) + (2 if group else 0) for group, _, name in split)
     current = ""
     for (group, _, name), value in zip(split, row, strict=True):
@@ -102,6 +107,10 @@ def _record(table: Table) -> Iterator[str]:
             current = group
         label = f"  {name}" if group else name
         yield f"{label.ljust(width)}  {cell(value)}\n"
+
+
+def _is(value: Any) -> bool:
+    return value is not None and value != ""
 
 
 def _rich(table: Table) -> Iterator[str]:
