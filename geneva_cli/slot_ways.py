@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 FINE = 1e-7  # of the centre distance: how finely the roller's ways are sampled
 COVERED = 1e-6  # of the centre distance: a wall passed over by less is not
 STEPS = 97  # samples of the roller's circle, at least, and of its own outline
+BLOCK = 64  # samples that are looked at together
 ROUNDING = 1e-7  # of the centre distance: a fold as small as this is none
 
 
@@ -187,15 +188,27 @@ def _tangent_in(station: LawDriven) -> tuple[float, float]:
 
 
 def _free(points: Array, path: Array, w: float, L: float) -> NDArray[np.bool_]:
-    """Which points the roller passes over nowhere: none of its places is nearer than w."""
-    out = np.empty(len(points), dtype=bool)
+    """Which points the roller passes over nowhere: none of its places is nearer than w.
+
+    A block of neighbouring points looks only at the part of the way that comes near its circle.
+    """
+    out = np.ones(len(points), dtype=bool)
     start, way = path[:-1], np.diff(path, axis=0)
     square = np.maximum((way * way).sum(axis=1), 1e-300)
-    for block in range(0, len(points), 256):
-        here = points[block : block + 256]
-        off = here[:, None, :] - start
-        share = np.clip((off * way).sum(axis=2) / square, 0.0, 1.0)
-        off = off - share[..., None] * way
-        nearest = (off * off).sum(axis=2).min(axis=1)
-        out[block : block + 256] = nearest > (w - COVERED * L) ** 2
+    half, middle = 0.5 * np.sqrt(square), start + 0.5 * way
+    least = w - COVERED * L
+    for block in range(0, len(points), BLOCK):
+        here = points[block : block + BLOCK]
+        centre = 0.5 * (here.min(axis=0) + here.max(axis=0))
+        reach = least + float(np.hypot(*(here - centre).T).max())
+        near = np.flatnonzero(np.hypot(*(middle - centre).T) <= reach + half)
+        if not len(near):
+            continue
+        x, y = way[near].T
+        off_x, off_y = here[:, :1] - start[near, 0], here[:, 1:] - start[near, 1]
+        share = np.clip((off_x * x + off_y * y) / square[near], 0.0, 1.0)
+        off_x -= share * x
+        off_y -= share * y
+        nearest = (off_x * off_x + off_y * off_y).min(axis=1)
+        out[block : block + BLOCK] = nearest > least * least
     return out
