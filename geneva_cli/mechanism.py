@@ -16,6 +16,7 @@ from geneva_cli.laws import Law
 from geneva_cli.layout import Place, places, refuse_layout
 from geneva_cli.many import acceleration_peak
 from geneva_cli.offset_slot import OffsetDriven, skew
+from geneva_cli.size_rules import refuse_sizes
 from geneva_cli.station import Anchor, LawDriven, LawMotion, SlotDriven, SphereDriven, Station
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
@@ -67,6 +68,12 @@ def build(spec: Spec) -> Mechanism:
     Raises GenevaError, naming the key, where the values do not make a machine together.
     """
     refuse_layout(spec)
+    mechanism = _built(spec)
+    refuse_sizes(mechanism.spec, mechanism.ratio)
+    return mechanism
+
+
+def _built(spec: Spec) -> Mechanism:
     if kinds.own_path(spec.drive.kind):
         plan: drives.Plan = kinds.module(spec.drive.kind).plan(spec)
         motion = plan.station.motion_deg

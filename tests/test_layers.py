@@ -23,7 +23,7 @@ ROWS = [
     ["coulisse", "linkage"],
     ["drives.*"],
     ["kinds"],
-    ["layout"],
+    ["layout", "size_rules"],
     ["mechanism", "pitch"],
     ["contact", "spec", "timing"],
     ["forces"],
