@@ -26,6 +26,7 @@ LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: how far a sector's edge reaches
 TINY = 1e-9
 THIN = 0.1  # of the disc's radius: a locking sector is no thinner
+POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
 SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
 SAME = 1e-9  # radians: directions nearer to each other are one
 
@@ -174,7 +175,7 @@ def _floor(
     radius, off = radius[inside], off[inside]
     at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
     spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
-    edge = at_edge + spare
+    edge = max(at_edge + spare, POINTED * sizes.lock)
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)
     beyond = np.abs(x - ex) > TINY * edge
