@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import math
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.table import Table
+from geneva_cli.table import Table, pieces
 
-SAMPLES_MAX = 10_000_000
+if TYPE_CHECKING:
+    from geneva_cli.jet import Array
+
+SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
+HELD = 100_000  # rows; longer tables are computed as they are written
 NAMES = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
 
 
@@ -25,12 +32,22 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
+    if samples > HELD:
+        return Table(
+            NAMES, pieces(samples, len(NAMES), lambda i, j: _rows(mechanism, samples, i, j))
+        )
+    return Table(NAMES, _rows(mechanism, samples, 0, samples))
+
+
+def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Array]:
+    """The columns' rows from ``begin`` up to ``end``, left out, of ``samples`` in all."""
     stations = mechanism.stations
     start = stations[0].mid_deg + stations[0].entry_deg
-    input_deg = start + mechanism.period_deg * np.arange(samples) / (samples - 1)
-    input_deg[-1] = start + mechanism.period_deg
-    wheel = np.empty(samples)
-    rates = [np.zeros(samples) for _ in range(3)]
+    input_deg = start + mechanism.period_deg * np.arange(begin, end) / (samples - 1)
+    if end == samples:
+        input_deg[-1] = start + mechanism.period_deg
+    wheel = np.empty(len(input_deg))
+    rates = [np.zeros(len(input_deg)) for _ in range(3)]
     first = 0
     for i, station in enumerate(stations):
         # What stays constant within a cycle: the steps that are done before it.
@@ -38,16 +55,16 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
         base -= stations[0].half_step
         exit_ = station.mid_deg + station.exit_deg
         last = int(np.searchsorted(input_deg, exit_, side="right"))
-        next_entry = exit_ + mechanism.dwell_deg(i)
+        if last > first:
+            local = np.clip(
+                input_deg[first:last] - station.mid_deg, station.entry_deg, station.exit_deg
+            )
+            for out, values in zip([wheel, *rates], station.derivatives(local), strict=True):
+                out[first:last] = values
+            wheel[first:last] += base
         following = i + 1 < len(stations)
-        end = int(np.searchsorted(input_deg, next_entry, side="left")) if following else samples
-        local = np.clip(
-            input_deg[first:last] - station.mid_deg, station.entry_deg, station.exit_deg
-        )
-        for out, values in zip([wheel, *rates], station.derivatives(local), strict=True):
-            out[first:last] = values
-        wheel[first:last] += base
-        wheel[last:end] = base + station.half_step
-        first = end
+        next_entry = exit_ + mechanism.dwell_deg(i) if following else math.inf
+        first = int(np.searchsorted(input_deg, next_entry, side="left"))
+        wheel[last:first] = base + station.half_step
     time = (input_deg - start) / (6.0 * mechanism.spec.drive.n_rpm)
-    return Table(NAMES, [time, input_deg, np.degrees(wheel), *rates])
+    return [time, input_deg, np.degrees(wheel), *rates]

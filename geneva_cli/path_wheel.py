@@ -128,7 +128,8 @@ def _candidates(path: Path, b: float) -> Iterator[tuple[float, float]]:
     phi = np.arange(GRID) * (math.tau / GRID)
     x, y = path(phi, 1)
     p, v = x.c[0] + 1j * y.c[0], x.c[1] + 1j * y.c[1]
-    t = v / np.abs(v)
+    speed = np.abs(v)
+    t = np.divide(v, speed, out=np.zeros_like(v), where=speed > 0.0)  # none where the point rests
     # Rows are entries; column j is an exit j + 1 grid steps later.
     later = (np.arange(GRID)[:, None] + np.arange(1, GRID)[None, :]) % GRID
     chord, both = p[later] - p[:, None], t[later] + t[:, None]

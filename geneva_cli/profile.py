@@ -25,6 +25,9 @@ ROUNDS = 6  # of moving a given number of nodes to where they are needed
 SURVEY = 2048  # intervals on which the curve's density is integrated
 FLOOR = 0.05  # least density, as a share of its mean: an inflection needs nodes too
 INSIDE = np.arange(1, 16) / 16.0  # where a chord's distance from the curve is measured
+# Nearer to mid-motion than this a sample is at it: where the pin stops there, its direction would
+# be rounding, and the curve has turned by less than that rounding since.
+MIDDLE_DEG = 1e-9
 MIDDLE = np.array([0.25, 0.5, 0.75])  # the same for many short chords, which are parabolas
 
 
@@ -50,6 +53,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     L = size.center_distance_mm
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     back = retraces(station)
+    input_deg = np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg)
     at = pitch_at(station, input_deg, back)
     # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
     # flanks keep the sides they had on the way in.
@@ -78,7 +82,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
 
 def pitch_at(station: Station, input_deg: Array, back: bool) -> Pitch:
     """The pitch curve, with its limit put in at a retracing mid-motion."""
-    middle = np.flatnonzero(input_deg == 0.0) if back else np.array([], dtype=int)
+    middle = np.flatnonzero(np.abs(input_deg) < MIDDLE_DEG) if back else np.array([], dtype=int)
     safe = input_deg.copy()
     safe[middle] = 0.5 * station.entry_deg  # any regular place; overwritten below
     at = pitch(station, safe)

@@ -22,6 +22,7 @@ NAMES = (
     "rollers_max",
 )
 ROWS_MAX = 10_000
+SOLVED_MAX = 1_000  # of wheels without a closed form, whose peak is searched for: milliseconds each
 
 
 def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
@@ -40,10 +41,16 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
             "--rollers with --A: the stations differ, so one row cannot describe them; write a "
             'spec with kind = "side-crank" and use `geneva report`'
         )
-    rows = []
-    for slots in parse_z(z):
+    rows, wheels = [], parse_z(z)
+    solved = bool(A) or gearing == "spherical"
+    if solved and len(wheels) > SOLVED_MAX:
+        what = "with --A" if A else "of spherical wheels"
+        raise GenevaError(
+            f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; ask for fewer"
+        )
+    for slots in wheels:
         try:
-            if A or gearing == "spherical":
+            if solved:
                 rows.append(_general(slots, gearing, n_rpm, rollers, A))
             else:
                 rows.append(_classic(slots, gearing, n_rpm, rollers))

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
+
+PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 
 
 class Table(NamedTuple):
@@ -34,6 +36,47 @@ class Table(NamedTuple):
         """Rows one by one."""
         for block in self.blocks():
             yield from block
+
+
+class _Pieces:
+    """Rows of a table too long to be held; the piece that was made last is kept."""
+
+    def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
+        self.length, self.make = length, make
+        self.start = -1
+        self.columns: Sequence[Any] = ()
+
+    def at(self, start: int) -> Sequence[Any]:
+        """The columns of the piece that begins there."""
+        if start != self.start:
+            self.columns = self.make(start, min(start + PIECE, self.length))
+            self.start = start
+        return self.columns
+
+
+class Column:
+    """One column of such a table: it has a length, and gives slices within a piece."""
+
+    dtype = "float64"
+
+    def __init__(self, pieces: _Pieces, number: int) -> None:
+        self.pieces, self.number = pieces, number
+
+    def __len__(self) -> int:
+        return self.pieces.length
+
+    def __getitem__(self, rows: slice) -> Any:
+        start = rows.start - rows.start % PIECE
+        return self.pieces.at(start)[self.number][rows.start - start : rows.stop - start]
+
+
+def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -> list[Column]:
+    """``count`` columns of numbers of which ``make(start, stop)`` gives the rows, as arrays.
+
+    A table of them takes the memory of one piece, however many rows are written.
+    """
+    made = _Pieces(length, make)
+    return [Column(made, number) for number in range(count)]
 
 
 def rows_table(names: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> Table:

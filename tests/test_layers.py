@@ -44,7 +44,7 @@ ROWS = [
     ["checks", "remedies", "synthesis_spec"],
     ["advice"],
     ["batch", "report"],
-    ["output.ezdxf_alone", "output.files", "output.inks", "output.text"],
+    ["output.ezdxf_alone", "output.files", "output.finite", "output.inks", "output.text"],
     ["output.*"],
     ["output"],
     ["accuracy", "accuracy.formulas", "accuracy.method", "accuracy.timing_pairs"],

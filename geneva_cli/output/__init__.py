@@ -44,6 +44,9 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
         raise GenevaError(
             f"--format {cut(name)}: {_wrong(name)}it must be one of {', '.join(FORMATS)}"
         )
+    from geneva_cli.output.finite import checked
+
+    table = checked(table, _progress)
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
     _put(module.chunks(table, output == "-" and sys.stdout.isatty()), output, inputs)
 
@@ -111,6 +114,14 @@ def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
 
 def _wrong(name: str) -> str:
     return f"{name} holds a drawing, and this is a table; " if name in DRAWN else ""
+
+
+def _progress(done: int, rows: int) -> None:
+    """How far a long table is, on a terminal where nothing else is being written."""
+    if sys.stderr.isatty() and not sys.stdout.isatty():
+        line = f"{done:,} of {rows:,} rows"
+        sys.stderr.write(f"\r{line}" if done < rows else f"\r{' ' * len(line)}\r")
+        sys.stderr.flush()
 
 
 def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:

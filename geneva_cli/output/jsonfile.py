@@ -17,8 +17,13 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
         return
     yield '{"rows": ['
     separator = "\n"
+    numbers = "{" + ", ".join(f"{json.dumps(name)}: %r" for name in table.names) + "}"
+    flat = not any("." in name for name in table.names)
     for block in table.blocks():
-        lines = [json.dumps(_nested(table.names, row), allow_nan=False) for row in block]
+        if flat and all(type(v) is float and math.isfinite(v) for row in block for v in row):
+            lines = [numbers % tuple(v + 0.0 for v in row) for row in block]
+        else:
+            lines = [json.dumps(_nested(table.names, row), allow_nan=False) for row in block]
         yield separator + ",\n".join(lines)
         separator = ",\n"
     yield "\n]}\n"

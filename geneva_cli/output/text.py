@@ -11,13 +11,14 @@ from geneva_cli.errors import clean
 from geneva_cli.table import Table, flat
 
 WIDTH = 90
+HELD = 10_000  # rows that a terminal gets with frames: they are laid out as a whole
 NOISE = 1e-13
 DIGITS = 7  # significant digits for people; csv and json carry all
 
 
 def chunks(table: Table, terminal: bool) -> Iterator[str]:
     """The table as text, line by line."""
-    if terminal and not table.record:
+    if terminal and not table.record and len(table) <= HELD:
         yield from _rich(table)
         return
     if table.title:

@@ -1,0 +1,72 @@
+"""The last line of defence: nothing that is not a number is written as one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.table import Column, Table, pieces
+
+# Where infinity is an answer: the radius of a straight line, a check's value that has no bound, and
+# motion over dwell where there is no dwell.
+BOUNDLESS = {"curvature_radius_mm", "value", "k"}
+
+
+def checked(table: Table, progress: Callable[[int, int], None]) -> Table:
+    """The table, looked at; one that is made while it is written is looked at then.
+
+    ``progress`` is told of each piece: the rows that are made, of how many. Raises GenevaError as
+    ``refuse_nonsense`` does.
+    """
+    first = table.columns[0] if table.columns else None
+    if not isinstance(first, Column):
+        refuse_nonsense(table.names, table.columns)
+        return table
+    source = first.pieces
+
+    def make(start: int, stop: int) -> Sequence[Any]:
+        found = source.make(start, stop)
+        refuse_nonsense(table.names, found)
+        progress(stop, source.length)
+        return found
+
+    columns = pieces(source.length, len(table.columns), make)
+    return Table(table.names, columns, False, table.title, table.prose)
+
+
+def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
+    """Raise GenevaError for columns, lists or arrays, with a NaN, or an infinity out of place.
+
+    Such a number is a fault of ours wherever it comes from, and a file that holds it misleads.
+    """
+    for name, column in zip(names, columns, strict=True):
+        boundless = name.rpartition(".")[2] in BOUNDLESS
+        if hasattr(column, "dtype"):
+            wrong = (column != column).any() if boundless else _any_endless(column)
+        else:
+            wrong = any(_wrong(v, boundless) for v in column)
+        if wrong:
+            raise GenevaError(
+                f"{name}: a value is not a number, which is a fault of this program; please report "
+                "it with the spec"
+            )
+
+
+def _any_endless(column: Any) -> bool:
+    if column.dtype.kind != "f":
+        return False
+    low, high = (float(f()) if len(column) else 0.0 for f in (column.min, column.max))
+    return not (math.isfinite(low) and math.isfinite(high))
+
+
+def _wrong(value: Any, boundless: bool) -> bool:
+    if isinstance(value, Table):
+        refuse_nonsense(value.names, value.columns)
+        return False
+    if isinstance(value, (tuple, list)):
+        return any(_wrong(v, boundless) for v in value)
+    if not isinstance(value, float):
+        return False
+    return value != value if boundless else not math.isfinite(value)
