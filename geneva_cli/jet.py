@@ -149,7 +149,7 @@ def sqrt(x: Jet) -> Jet:
     """Square root of a positive jet."""
     q = [library(x.c[0]).sqrt(x.c[0])]
     for k in range(1, len(x.c)):
-        q.append((x.c[k] - sum(q[i] * q[k - i] for i in range(1, k))) / (2.0 * q[0]))
+        q.append((x.c[k] - sum(q[i] * q[k - i] for i in range(1, k))) / (2 * q[0]))
     return Jet(q)
 
 

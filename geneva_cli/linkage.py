@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from decimal import Decimal, localcontext
 
-from geneva_cli import gearing, path_wheel
+from geneva_cli import digits, gearing, path_wheel
 from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
-from geneva_cli.jet import Coefficient, Jet, atan2
+from geneva_cli.jet import Coefficient, Jet, atan2, sin_cos
 from geneva_cli.keys import Size, Spec
 
 LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
@@ -25,15 +26,18 @@ def refuse_proportions(**lengths: float) -> None:
         )
 
 
-def plan_on(
-    spec: Spec, path: path_wheel.Path, entry_deg: float | None, link: path_wheel.Path
-) -> Plan:
+def exact_point(reach_mm: float, angle_deg: float) -> tuple[Decimal, Decimal]:
+    """A point's places along a line and aside, to 50 digits, from its distance and angle."""
+    with localcontext(digits.FIFTY):
+        sine, cosine = digits.sin_cos(digits.of_degrees(angle_deg))
+        return Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
+
+
+def plan_on(spec: Spec, path: path_wheel.Path, entry_deg: float | None) -> Plan:
     """The station of the wheel that a closed roller path can drive.
 
-    The path is given about the crank's axis, in millimetres, by the crank's angle in radians;
-    ``link`` is a unit vector on the link that carries the roller. Of several wheels the gentlest
-    is taken, or the one entered nearest to ``entry_deg``. Raises GenevaError where none fits, or
-    where the spec sets the centre distance, which follows.
+    Of several wheels the gentlest is taken, or the one entered nearest to ``entry_deg``. Raises
+    GenevaError where none fits, or where the spec sets the centre distance, which follows.
     """
     if spec.size.center_distance_mm != Size().center_distance_mm:
         raise GenevaError(
@@ -41,7 +45,7 @@ def plan_on(
             ("size", "center_distance_mm"),
         )
     step = gearing.Step(1, spec.wheel.z)
-    found = path_wheel.fits(path, step.b)
+    found = path_wheel.fits(path, step)
     if not found:
         raise GenevaError(
             f"no wheel of z = {spec.wheel.z} slots fits this path: no two of its tangents meet at "
@@ -52,12 +56,12 @@ def plan_on(
     fit = found[0]
     if entry_deg is not None:
         wanted = math.radians(entry_deg)
-        fit = min(found, key=lambda f: abs(math.remainder(f.entry - wanted, math.tau)))
-    station, L = path_wheel.station(path, fit, step, 0j)
-    middle = 0.5 * (fit.entry + fit.exit)
+        fit = min(found, key=lambda f: abs(math.remainder(float(f.entry) - wanted, math.tau)))
+    station, L = path_wheel.station(path, fit, step)
+    middle = float((fit.entry + fit.exit) / 2)
 
     def turning(tau: Coefficient, order: int) -> Jet:
-        x, y = link(tau + middle, order + 1)
+        x, y = path.link(*sin_cos(Jet.variable(tau + middle, order + 1)))
         return atan2(y, x).derivative() * fit.sense
 
     station.body = turning

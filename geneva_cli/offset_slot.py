@@ -103,7 +103,7 @@ class OffsetDriven(SlotDriven):
 
     def _inside(self, x: Coefficient, order: int) -> Jet:
         """About mid-motion: the pin's direction, and less what the slot's gains on it."""
-        e, deepest, mid = self.slot.e, self.slot.deepest, self.anchors[1]
+        e, deepest, mid = self.slot.e, self.slot.deepest, self.middle
         toward, across = mid.way(x, order)
         s, rho2 = self._depth(toward)
         along = toward + mid.along
@@ -124,12 +124,12 @@ class OffsetDriven(SlotDriven):
 
     def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
-        depth = self._depth(self.anchors[1].way(input_deg, order)[0])[0]
+        depth = self._depth(self.middle.way(input_deg, order)[0])[0]
         return turned(depth, depth * 0.0 - self.slot.e, self.slot.tilt)
 
     def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = self._depth(self.anchors[1].way(input_deg, order + 1)[0])[0]
+        depth = self._depth(self.middle.way(input_deg, order + 1)[0])[0]
         return Jet(depth.c[:-1]), depth.derivative()
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
@@ -39,7 +40,7 @@ class Anchor(NamedTuple):
         return along + self.along, across
 
 
-NEAR_END = 0.75  # share of the way to an end from which the end's own anchor serves
+NEAR_END = 0.75  # share of the way to an end from the last anchor before it; beyond, its own serves
 END_DEG = 0.05  # closer than this to entry or exit, relative accuracy is kept too
 
 
@@ -164,9 +165,14 @@ class SlotDriven(Station):
         self.classic = classic
         self.mirrored = mirrored  # False where the path's two halves differ
         self.ahead = ahead  # direction of the middle anchor's ray, from the line of centres
-        degs = [a.input_deg for a in anchors]
+        self.middle = anchors[len(anchors) // 2]
         # Each anchor serves what is near it; entry and exit, only where the motion goes to zero.
-        self._cuts = [degs[1] + NEAR_END * (end - degs[1]) for end in (degs[0], degs[-1])]
+        first, *inner, last = [a.input_deg for a in anchors]
+        self._cuts = [
+            inner[0] + NEAR_END * (first - inner[0]),
+            *[0.5 * (a + b) for a, b in pairwise(inner)],
+            inner[-1] + NEAR_END * (last - inner[-1]),
+        ]
 
     @property
     def symmetric(self) -> bool:
@@ -222,18 +228,17 @@ class SlotDriven(Station):
 
     def pin(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
-        along, across = self.anchors[1].place(input_deg, order)
+        along, across = self.middle.place(input_deg, order)
         return turned(along, across, self.ahead)
 
     def pitch(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
-        middle = self.anchors[1]
-        depth = _length(*middle.place(input_deg, order))
-        return turned(depth, depth * 0.0, self.ahead - middle.wheel)
+        depth = _length(*self.middle.place(input_deg, order))
+        return turned(depth, depth * 0.0, self.ahead - self.middle.wheel)
 
     def rail(self, input_deg: Coefficient, order: int = 0) -> tuple[Jet, Jet]:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = _length(*self.anchors[1].place(input_deg, order + 1))
+        depth = _length(*self.middle.place(input_deg, order + 1))
         return Jet(depth.c[:-1]), depth.derivative()
 
 

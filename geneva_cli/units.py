@@ -22,13 +22,13 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
     multiplies that by 12 on the way to its peak acceleration. Here the argument is an exact
     fraction, reduced to an eighth of a turn, and both series are summed in integers of 128 bits.
     """
-    s, c = _scaled_sin_cos(p, q)
+    s, c = scaled_sin_cos(p, q)
     return s / _ONE, c / _ONE
 
 
 def one_minus_sin_pi(p: int, q: int) -> float:
     """1 - sin(pi p/q), correctly rounded however near to 1 the sine is."""
-    return (_ONE - _scaled_sin_cos(p, q)[0]) / _ONE
+    return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
 
 
 def cos_squared_less(p: int, q: int, x: float) -> float:
@@ -37,12 +37,13 @@ def cos_squared_less(p: int, q: int, x: float) -> float:
     The square is rounded to 112 bits, which its series are exact to: cos² 30° is 3/4.
     """
     drop = 2 * _BITS - 112
-    square = (_scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
+    square = (scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
     n, d = x.as_integer_ratio()
     return (square * d - (n << 112)) / (d << 112)
 
 
-def _scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
+def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
+    """sin(pi p/q) and cos(pi p/q) times 2**128, each to its last digits."""
     quarter = (4 * p + q) // (2 * q)  # nearest number of quarter turns
     x = _PI * (2 * p - quarter * q) // (2 * q)
     sums = [_ONE, x]  # cosine, sine

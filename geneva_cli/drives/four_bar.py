@@ -7,14 +7,15 @@ not given but solved for.
 
 from __future__ import annotations
 
-import math
-from typing import Annotated, NamedTuple
+from decimal import Decimal
+from typing import Annotated, Any, NamedTuple
 
 from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
-from geneva_cli.jet import Coefficient, Jet, sin_cos, sqrt
+from geneva_cli.jet import Jet, sqrt
 from geneva_cli.keys import Spec
-from geneva_cli.linkage import plan_on, refuse_proportions
+from geneva_cli.linkage import exact_point, plan_on, refuse_proportions
+from geneva_cli.path_wheel import Path, Way
 from geneva_cli.rules import POSITIVE, OneOf, Range
 
 
@@ -45,26 +46,79 @@ def plan(spec: Spec) -> Plan:
         point_mm=keys.point_mm,
     )
     _refuse_linkage(keys)
-    a, g, b, c = keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm
-    side = 1.0 if keys.branch == "+" else -1.0
-    angle = math.radians(keys.point_deg)
-    p, q = keys.point_mm * math.cos(angle), keys.point_mm * math.sin(angle)
+    return plan_on(spec, CouplerPath(keys), keys.entry_deg)
 
-    def coupler(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
-        sine, cosine = sin_cos(Jet.variable(phi, order))
-        dx, dy = g - cosine * a, sine * -a  # from A to the rocker's pivot
+
+class _Links(NamedTuple):
+    """Crank, ground, coupler, rocker and the point's place on the coupler (along it, aside)."""
+
+    a: Any
+    g: Any
+    b: Any
+    c: Any
+    p: Any
+    q: Any
+
+
+class CouplerPath(Path):
+    """The path of a point of the coupler.
+
+    With d the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²),
+    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D).
+    """
+
+    def __init__(self, keys: Keys) -> None:
+        lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
+        a, g, b, c = (Decimal(x) for x in lengths)
+        p, q = exact_point(keys.point_mm, keys.point_deg)
+        self.exact = _Links(a, g, b, c, p, q)
+        self.rough = _Links._make(float(x) for x in self.exact)
+        self.side = 1 if keys.branch == "+" else -1
+
+    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """The coupler's unit vector e, from A towards B."""
+        a, g, b, c, _, _ = self.exact if exact else self.rough
+        dx, dy = g - cosine * a, sine * -a
         D = dx * dx + dy * dy
-        along = (D + (b - c) * (b + c)) / (D * (2.0 * b))
-        # 4 b² D - (b² + D - c²)² as a product (Heron)
-        across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2.0 * b)) * side
-        return dx * along - dy * across, dy * along + dx * across  # from A towards B
+        along = (D + (b - c) * (b + c)) / (D * (2 * b))
+        # N² as a product (Heron)
+        across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2 * b)) * self.side
+        return dx * along - dy * across, dy * along + dx * across
 
-    def path(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
-        sine, cosine = sin_cos(Jet.variable(phi, order))
-        ex, ey = coupler(phi, order)
+    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """Crank, and e turned and stretched to the point."""
+        a, _, _, _, p, q = self.exact if exact else self.rough
+        ex, ey = self.link(sine, cosine, exact)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
-    return plan_on(spec, path, keys.entry_deg, coupler)
+    def about(self, sine: Decimal, cosine: Decimal) -> Way:
+        """The change of each of A, D, 1/D, N, k and e, from the one before it."""
+        a, g, b, c, p, q = self.exact
+        D0 = g * g + a * a - 2 * g * a * cosine
+        above, below = (b + c) ** 2 - D0, D0 - (b - c) ** 2
+        N0, m = (above * below).sqrt(), (b - c) * (b + c)
+        k0 = ((1 + m / D0) / (2 * b), self.side * N0 / (D0 * 2 * b))
+        x0, y0 = float(g - cosine * a), float(-sine * a)
+        s, t = float(a * sine), float(a * cosine)
+        high, low, steep = float(above), float(below), float(above - below)
+        root, inverse, span = float(N0), float(1 / D0), float(2 * g)
+        real, imag = float(k0[0]), float(k0[1])
+        by_u, by_N = float(m / (2 * b)), float(self.side / (2 * b))
+        P, Q = float(p), float(q)
+
+        def way(sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+            x, y = sine * -s - versine * t, sine * t - versine * s
+            D = x * -span
+            u = 1.0 / (D + 1.0 / inverse)
+            du = D * u * -inverse
+            N = D * (steep - D) / (sqrt((high - D) * (D + low)) + root)
+            k, n = du * by_u, (N * u + du * root) * by_N
+            kk, nn = k + real, n + imag
+            ex = y * nn - x * kk + k * x0 - n * y0
+            ey = n * x0 - x * nn - y * kk + k * y0
+            return x + ex * P - ey * Q, y + ey * P + ex * Q
+
+        return way
 
 
 def _refuse_linkage(keys: Keys) -> None:

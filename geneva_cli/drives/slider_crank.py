@@ -7,14 +7,15 @@ centre is not given but solved for.
 
 from __future__ import annotations
 
-import math
-from typing import Annotated, NamedTuple
+from decimal import Decimal
+from typing import Annotated, Any, NamedTuple
 
 from geneva_cli.drives import Plan
 from geneva_cli.errors import GenevaError
-from geneva_cli.jet import Coefficient, Jet, sin_cos, sqrt
+from geneva_cli.jet import Jet, sqrt
 from geneva_cli.keys import Spec
-from geneva_cli.linkage import plan_on, refuse_proportions
+from geneva_cli.linkage import exact_point, plan_on, refuse_proportions
+from geneva_cli.path_wheel import Path, Way
 from geneva_cli.rules import LENGTH, POSITIVE, Range
 
 
@@ -43,16 +44,52 @@ def plan(spec: Spec) -> Plan:
             f"be shorter than the rod, so the crank below {b - abs(h):.6g}",
             ("drive", "crank_mm"),
         )
-    angle = math.radians(keys.point_deg)
-    p, q = keys.point_mm * math.cos(angle), keys.point_mm * math.sin(angle)
+    return plan_on(spec, RodPath(keys), keys.entry_deg)
 
-    def rod(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
-        ey = (h - sin_cos(Jet.variable(phi, order))[0] * a) / b  # unit vector from A towards B
-        return sqrt((1.0 - ey) * (ey + 1.0)), ey
 
-    def path(phi: Coefficient, order: int) -> tuple[Jet, Jet]:
-        sine, cosine = sin_cos(Jet.variable(phi, order))
-        ex, ey = rod(phi, order)
+class _Rod(NamedTuple):
+    """Crank, rod, height and the point's place on the rod (along it, aside), of either kind."""
+
+    a: Any
+    b: Any
+    h: Any
+    p: Any
+    q: Any
+
+
+class RodPath(Path):
+    """The path of a point of the connecting rod."""
+
+    def __init__(self, keys: Keys) -> None:
+        a, b, h = (Decimal(x) for x in (keys.crank_mm, keys.rod_mm, keys.height_mm))
+        p, q = exact_point(keys.point_mm, keys.point_deg)
+        self.exact = _Rod(a, b, h, p, q)
+        self.rough = _Rod._make(float(x) for x in self.exact)
+
+    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """The rod's unit vector, from A towards B."""
+        a, b, h, _, _ = self.exact if exact else self.rough
+        ey = (h - sine * a) / b
+        return sqrt((1 - ey) * (ey + 1)), ey
+
+    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """Crank, and the rod's vector turned and stretched to the point."""
+        a, _, _, p, q = self.exact if exact else self.rough
+        ex, ey = self.link(sine, cosine, exact)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
-    return plan_on(spec, path, keys.entry_deg, rod)
+    def about(self, sine: Decimal, cosine: Decimal) -> Way:
+        """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
+        a, b, _, p, q = self.rough
+        level = (self.exact.h - sine * self.exact.a) / self.exact.b
+        s, c, ey = float(sine), float(cosine), float(level)
+        less, more, ex = float(1 - level), float(1 + level), float((1 - level * level).sqrt())
+
+        def way(sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+            x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
+            dy = y / -b
+            now = sqrt((less - dy) * (dy + more))
+            dx = dy * (dy + 2.0 * ey) / -(now + ex)
+            return x + dx * p - dy * q, y + dy * p + dx * q
+
+        return way
