@@ -33,7 +33,7 @@ COMMANDS = {
     "report": "One page on a design, for a person.",
     "check": "Does the design work? Exit status 1 where a check fails.",
     "laws": "The motion laws and their characteristic values.",
-    "synth": "From a wish (tau, k, angle, time, acceleration) to all machines for it.",
+    "synth": "From a wish (tau, k, angle, time, acceleration) to machines for it.",
     "new": "Write a commented spec to start from.",
     "bench": "Run time against error: ours beside what else is in use.",
 }

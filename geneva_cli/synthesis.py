@@ -3,13 +3,19 @@
 A wish fixes the motion angle (by tau, k, the angle itself, or a time), or bounds the peak
 acceleration. For every number of slots, gearing and number of rollers there are up to four ways:
 the plain crank where it happens to fit, a side-crank, elliptical gears, and curved slots with an
-extra dwell alpha_0.
+extra dwell alpha_0. Shafts that meet do so at a right angle, or, with a plain crank, at the angle
+that makes the motion.
+
+A side-crank and gears carry one roller: several would move the wheel differently. Straight slots
+take as many rollers as leave a dwell. Curved slots take as many as those of the plain wheel, and
+more for as long as their parts can be built.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import count
 from typing import Any, NamedTuple, TypeAlias
 
 from geneva_cli import synthesis_closed as closed
@@ -17,16 +23,18 @@ from geneva_cli import synthesis_limit as limits
 from geneva_cli.classic import half_motion_deg, rollers_max
 from geneva_cli.drives import elliptical_gears, side_crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.keys import Drive, Motion, Spec, Wheel
+from geneva_cli.keys import Drive, Limits, Motion, Spec, Wheel
 from geneva_cli.law_values import Characteristic, characteristic
 from geneva_cli.laws import named
 from geneva_cli.mechanism import Mechanism, build
 from geneva_cli.peaks import acceleration_peak, worst
+from geneva_cli.synthesis_parts import parts
 from geneva_cli.synthesis_wish import MARGIN, Wish
 from geneva_cli.table import Table, rows_table
 from geneva_cli.timing import timings
 from geneva_cli.units import omega
 
+ROUNDING = 2e-15  # share of the natural motion: what a difference of two angles may be off by
 EXACT = 1e-6  # share of the motion angle by which the plain crank may miss the wish
 
 
@@ -40,6 +48,7 @@ class Way(NamedTuple):
     A: float | None
     eccentricity: float | None
     phase: str | None
+    axes_deg: float | None
     alpha0_deg: float | None
     law: str | None
     ratio: float
@@ -54,14 +63,15 @@ class Way(NamedTuple):
     power_max: float
     n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
     acceleration_max_rad_s2: float | None
+    parts: str | None  # whether they can be built (synthesis_parts)
 
 
 NAMES = ("no", *Way._fields)
-CONSTANT = ("rollers", "law", "motion_deg", "dwell_deg", "tau", "k", "n_rpm")  # told once
+CONSTANT = ("rollers", "law", "motion_deg", "dwell_deg", "tau", "k", "n_rpm", "parts")  # told once
 
 
 def synthesis(wish: Wish) -> list[tuple[Spec, Way]]:
-    """Every machine that grants the wish, the lowest peak acceleration first.
+    """The machines that grant the wish, the lowest peak acceleration first, sized to be built.
 
     Raises GenevaError, saying what is within reach, where there is none.
     """
@@ -73,7 +83,9 @@ def synthesis(wish: Wish) -> list[tuple[Spec, Way]]:
             machine = build(spec)
         except GenevaError:  # no R/L matches the law, or the rollers jam
             continue
-        found.append((spec, _way(machine, wish, costs)))
+        fitted = parts(machine)
+        asked = Limits(acceleration_max=wish.acceleration_max)
+        found.append((fitted.spec._replace(limits=asked), _way(machine, wish, costs, fitted.said)))
     if not found:
         raise GenevaError(_out_of_reach(wish, reached))
     found.sort(key=lambda f: _rank(f[1]))
@@ -90,8 +102,10 @@ def synthesis_table(wish: Wish) -> Table:
     """One row a machine, numbered from 1."""
     ways = synthesis(wish)
     rows = [(i, *way) for i, (_, way) in enumerate(ways, 1)]
-    count = f"{len(rows)} machines, the" if len(rows) > 1 else "One machine, of"
-    return rows_table(NAMES, rows, f"{wish.words}: {count} lowest peak acceleration first.")
+    title = (
+        f"{len(rows)} machines, lowest peak acceleration first" if len(rows) > 1 else "1 machine"
+    )
+    return rows_table(NAMES, rows, f"{wish.words}: {title}.")
 
 
 def for_people(table: Table) -> Table:
@@ -126,7 +140,8 @@ def _specs(wish: Wish, costs: dict[str, Characteristic], reached: list[float]) -
 
 
 def _natural(z: int, gearing: str) -> float:
-    return 2.0 * half_motion_deg(gearing, 1, z)
+    """The plain crank's motion angle, with shafts that meet at a right angle."""
+    return 180.0 if gearing == "spherical" else 2.0 * half_motion_deg(gearing, 1, z)
 
 
 def _rollers(wish: Wish, natural: float) -> range:
@@ -136,24 +151,66 @@ def _rollers(wish: Wish, natural: float) -> range:
     return range(1, rollers_max(natural) + 1)
 
 
+def _more_rollers(wish: Wish, natural: float, curved: Callable[[int], Spec]) -> Iterator[Spec]:
+    """More rollers than the straight slots take, while the curved ones can be built."""
+    if wish.rollers is not None:
+        return
+    for m in count(rollers_max(natural) + 1):
+        spec = curved(m)
+        try:
+            machine = build(spec)
+        except GenevaError:
+            return
+        if parts(machine).why:
+            return
+        yield spec
+
+
 def _lasting(wish: Wish, z: int, gearing: str) -> Iterator[Spec]:
     """The ways to a motion angle, in closed form."""
     natural = _natural(z, gearing)
-    for m in _rollers(wish, natural):
+
+    def motion(m: int) -> float:
         wanted = wish.motion_for(m)
-        motion = natural if wanted is None else wanted
-        fits = abs(motion - natural) <= EXACT * natural
-        if fits:
+        return natural if wanted is None or _fits(wanted, natural) else wanted
+
+    for m in _rollers(wish, natural):
+        if motion(m) == natural:
             yield _plain(wish, z, gearing, m)
         elif m == 1:
-            A = closed.side_crank(z, natural, motion)
+            A = closed.side_crank(natural, motion(m))
             if A is not None:
                 yield _side_crank(wish, z, gearing, A)
-            gears = closed.elliptical_gears(natural, motion)
+            gears = closed.elliptical_gears(natural, motion(m))
             if gears is not None:
                 yield _gears(wish, z, gearing, *gears)
-        for law in wish.laws:
-            yield _curved(wish, z, gearing, m, 0.0 if fits else natural - motion, law)
+    if gearing == "spherical":
+        yield from _inclined(wish, z)
+        return
+    for law in wish.laws:
+
+        def curved(m: int, law: str = law) -> Spec:
+            return _curved(wish, z, gearing, m, natural, motion(m), law)
+
+        yield from map(curved, _rollers(wish, natural))
+        yield from _more_rollers(wish, natural, curved)
+
+
+def _fits(motion: float, natural: float) -> bool:
+    return abs(motion - natural) <= EXACT * natural
+
+
+def _inclined(wish: Wish, z: int) -> Iterator[Spec]:
+    """Plain cranks on shafts that meet at another angle than a right one."""
+    least = _natural(z, "external")
+    for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
+        motion = wish.motion_for(m)
+        if motion is None or _fits(motion, 180.0):
+            continue
+        axes = closed.axes(z, motion)
+        if axes is not None:
+            spec = _plain(wish, z, "spherical", m)
+            yield spec._replace(wheel=spec.wheel._replace(axes_deg=axes))
 
 
 def _below(
@@ -169,6 +226,8 @@ def _below(
         return
     if not wish.rollers or natural * wish.rollers < 360.0:
         reached.append(plain)
+    if gearing == "spherical":
+        return
     limit = wish.acceleration_max * (1.0 - MARGIN)
     if 1 in every:
         for ratio, make in ((limits.side_crank, _side_crank), (limits.elliptical_gears, _eased)):
@@ -176,16 +235,22 @@ def _below(
             reached.append(least)
             if x is not None:
                 yield make(wish, z, gearing, x)
-    for m in every:
-        for law in wish.laws:
-            step, whole = 2.0 * math.pi / z, 2.0 * math.pi / m
-            motion = closed.law_motion_deg(step, costs[law].acceleration, limit)
-            inside, fast = gearing == "internal", costs[law].velocity * step
-            if inside and fast >= 0.5 * math.radians(motion) and motion < natural:
-                motion = natural  # the limit's own motion is too quick for any R/L inside
+    for law in wish.laws:
+        step = 2.0 * math.pi / z
+        motion = closed.law_motion_deg(step, costs[law].acceleration, limit)
+        inside, fast = gearing == "internal", costs[law].velocity * step
+        if inside and fast >= 0.5 * math.radians(motion) and motion < natural:
+            motion = natural  # the limit's own motion is too quick for any R/L inside
+
+        def curved(m: int, motion: float = motion, law: str = law) -> Spec:
+            return _curved(wish, z, gearing, m, natural, motion, law)
+
+        for m in every:
+            whole = 2.0 * math.pi / m
             if not inside or fast < 0.5 * whole:
                 reached.append(costs[law].acceleration * step / whole**2)
-            yield _curved(wish, z, gearing, m, natural - motion, law)
+            yield curved(m)
+        yield from _more_rollers(wish, natural, curved)
 
 
 def _plain(wish: Wish, z: int, gearing: str, m: int) -> Spec:
@@ -206,12 +271,20 @@ def _eased(wish: Wish, z: int, gearing: str, e: float) -> Spec:
     return _gears(wish, z, gearing, *closed.phased(e))
 
 
-def _curved(wish: Wish, z: int, gearing: str, m: int, alpha0_deg: float, law: str) -> Spec:
-    motion = Motion(law, alpha0_deg=alpha0_deg, ratio="matched")
-    return _plain(wish, z, gearing, m)._replace(motion=motion)
+def _curved(
+    wish: Wish, z: int, gearing: str, m: int, natural: float, motion: float, law: str
+) -> Spec:
+    """Curved slots, with the shortest alpha_0 that makes the motion."""
+    alpha0, spare = natural - motion, ROUNDING * natural
+    # A motion that is shorter, by however little, would break a limit that it just keeps.
+    most = alpha0 if wish.acceleration_max else alpha0 + spare
+    given = Motion(law, alpha0_deg=closed.shortest(alpha0 - spare, most), ratio="matched")
+    return _plain(wish, z, gearing, m)._replace(motion=given)
 
 
-def _way(machine: Mechanism, wish: Wish, costs: dict[str, Characteristic]) -> Way:
+def _way(
+    machine: Mechanism, wish: Wish, costs: dict[str, Characteristic], parts: str | None
+) -> Way:
     spec, time = machine.spec, timings(machine)[0]
     curved = spec.motion.law is not None
     own: dict[str, Any] = spec.kind._asdict() if spec.kind else {}
@@ -225,6 +298,7 @@ def _way(machine: Mechanism, wish: Wish, costs: dict[str, Characteristic]) -> Wa
         own.get("A"),
         own.get("eccentricity"),
         own.get("phase"),
+        spec.wheel.axes_deg if spec.wheel.gearing == "spherical" else None,
         spec.motion.alpha0_deg if curved else None,
         spec.motion.law,
         machine.ratio,
@@ -235,6 +309,7 @@ def _way(machine: Mechanism, wish: Wish, costs: dict[str, Characteristic]) -> Wa
         *invariants,
         n,
         invariants[1] * omega(n) ** 2 if n else None,
+        parts,
     )
 
 

@@ -4,52 +4,36 @@ from __future__ import annotations
 
 from typing import Any
 
-from geneva_cli.cautions import SHOWN_UNDERCUT
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.keys import Limits, Spec
-from geneva_cli.mechanism import build
+from geneva_cli.keys import Spec
 from geneva_cli.spec import TABLES, fields, kind_keys
 from geneva_cli.synthesis import Way
+from geneva_cli.synthesis_built import Built, built
 from geneva_cli.synthesis_wish import Wish
 
-RADII = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 
 
-def chosen(wish: Wish, ways: list[tuple[Spec, Way]], number: int) -> tuple[Spec, str]:
+def chosen(wish: Wish, ways: list[tuple[Spec, Way]], number: int) -> tuple[Built, str]:
     """Row ``number`` of what ``synthesis(wish)`` found: the spec, and its text with comments.
 
-    Raises GenevaError where there is no such row, or no roller is small enough for its slot.
+    The parts are turned through a whole turn, unless it is known that they cannot be built. Raises
+    GenevaError where there is no such row.
     """
     if not 1 <= number <= len(ways):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ways)}")
     spec, way = ways[number - 1]
-    spec = _sized(spec)
-    if wish.acceleration_max is not None:
-        spec = spec._replace(limits=Limits(acceleration_max=wish.acceleration_max))
-    return spec, "\n".join([*_heading(wish, number, way), *_tables(spec)]) + "\n"
+    no, _, why = (way.parts or "").partition(": ")
+    found = Built(spec, f"its parts cannot be built: {why}") if no == "no" else built(spec)
+    return found, commented(wish, number, way, found)
 
 
-def _sized(spec: Spec) -> Spec:
-    """With the largest usual roller that does not undercut its slot."""
-    if spec.motion.law is None:
-        return spec
-    from geneva_cli.undercut import undercut
-
-    machine = build(spec)
-    for percent in RADII:
-        radius = 0.01 * percent * spec.size.center_distance_mm
-        sized = spec._replace(size=spec.size._replace(roller_radius_mm=radius))
-        found = undercut(machine._replace(spec=sized))
-        if found is None or found.depth_mm <= SHOWN_UNDERCUT:
-            return spec if percent == RADII[0] else sized
-    raise GenevaError(
-        f'law = "{spec.motion.law}" in so short a motion bends the slot so sharply that no roller '
-        "fits; take another row"
-    )
+def commented(wish: Wish, number: int, way: Way, found: Built) -> str:
+    """The text of a spec that synthesis found."""
+    return "\n".join([*_heading(wish, number, way, found), *_tables(found.spec)]) + "\n"
 
 
-def _heading(wish: Wish, number: int, way: Way) -> list[str]:
+def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
     z = f"{way.z} slots, {way.gearing}"
     slots = f"curved slots ({way.law})" if way.law else way.drive
     lines = [
@@ -60,10 +44,8 @@ def _heading(wish: Wish, number: int, way: Way) -> list[str]:
         "# Invariants: " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[:3]) + ",",
         "# " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[3:]) + ".",
     ]
-    if way.law:
-        lines.append(
-            "# The slots are solved for: `geneva check` and `report` say what they can do."
-        )
+    if found.trouble:
+        lines.append(f"# Beware: {found.trouble}.")
     return lines
 
 

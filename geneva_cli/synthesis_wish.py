@@ -9,6 +9,7 @@ from geneva_cli.laws import LAWS
 from geneva_cli.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.survey import parse_z
 
+GEARINGS = ("external", "internal", "spherical")
 WHEELS_MAX = 200  # numbers of slots in one call: each costs some hundredths of a second
 CYCLE = Range(1e-6, 1e6)
 STEP = Range(360.0 / Z_MAX, 120.0)
@@ -21,7 +22,7 @@ class Wish(NamedTuple):
 
     words: str
     z: tuple[int, ...]
-    gearings: tuple[str, ...] = ("external", "internal")
+    gearings: tuple[str, ...] = GEARINGS
     rollers: int | None = None
     laws: tuple[str, ...] = ("modified-sine",)
     tau: float | None = None
@@ -50,6 +51,7 @@ def read_wish(
     z: str = "",
     internal: bool = False,
     external: bool = False,
+    spherical: bool = False,
     rollers: int | None = None,
     law: str = "modified-sine",
 ) -> Wish:
@@ -71,11 +73,11 @@ def read_wish(
         raise GenevaError(f"{said}; a wish is exactly one of {', '.join(asked)}")
     if rollers is not None and not 1 <= rollers <= Z_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
-    both = internal == external
+    chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     wish = Wish(
         "",
         _slots(z),
-        ("external", "internal") if both else ("internal",) if internal else ("external",),
+        tuple(g for g, asked in chosen.items() if asked) or GEARINGS,
         rollers,
         _laws(law),
         cycle_s=number("--cycle", cycle, CYCLE) if cycle else None,

@@ -33,7 +33,7 @@ class Undercut(NamedTuple):
     to_cusp: bool  # whether it reaches a cusp at mid-motion, which no roller is small enough for
 
 
-def undercut(mechanism: Mechanism) -> Undercut | None:
+def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, on the way in or out; None if there is none."""
     station, size = mechanism.stations[0], mechanism.spec.size
     if not isinstance(station, LawDriven):
@@ -41,7 +41,7 @@ def undercut(mechanism: Mechanism) -> Undercut | None:
     L = size.center_distance_mm
     r = (mechanism.spec.roller_radius_mm + size.slot_clearance_mm) / L
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
-    x = station.entry_deg * (1.0 - np.arange(SAMPLES) / SAMPLES) ** 2
+    x = station.entry_deg * (1.0 - np.arange(samples) / samples) ** 2
     inward, outward = pitch(station, x), pitch(station, -x)
     turn = np.arctan2(inward.y, inward.x) - np.arctan2(outward.y, outward.x)
     near = np.abs(x) < NEAR * abs(station.entry_deg)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Annotated
 
 import typer
@@ -28,8 +29,9 @@ def run(
     z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24")] = "",
     internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
     external: Annotated[bool, typer.Option("--external", help="External wheels.")] = False,
+    spherical: Annotated[bool, typer.Option("--spherical", help="Spherical wheels.")] = False,
     rollers: Annotated[
-        int | None, typer.Option(metavar="M", help="Rollers; without: all that do not jam.")
+        int | None, typer.Option(metavar="M", help="Rollers; without: see above.")
     ] = None,
     law: Annotated[
         str, typer.Option(metavar="NAME", help="Law of the curved slots, or all.")
@@ -40,12 +42,17 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """From a wish to all machines that grant it, the lowest peak acceleration first.
+    """From a wish to machines that grant it, the lowest peak acceleration first.
 
     One of --tau, --k, --motion-deg, --step with --cycle, or --acceleration-max; numbers may be
-    fractions. The plain crank is shown where it misses the motion by at most a millionth.
+    fractions. Listed for each wheel: the plain crank, where it misses the motion by at most a
+    millionth; a side-crank; equal elliptical gears; curved slots with an extra dwell (flat wheels);
+    another angle between the shafts (spherical wheels, which stand at 90 deg otherwise, and are
+    listed for --acceleration-max only as they are). Side-crank and gears carry one roller, straight
+    slots as many as leave a dwell, curved ones also more while their parts can be built. The column
+    `parts`: yes, no (why) or maybe, by walls, lock, undercut and islands; --write turns the parts.
     """
-    from geneva_cli.errors import GenevaError, cut
+    from geneva_cli.errors import GenevaError, clean, cut
     from geneva_cli.output import format_of, show, show_text
     from geneva_cli.synthesis import for_people, synthesis, synthesis_table
     from geneva_cli.synthesis_wish import read_wish
@@ -61,6 +68,7 @@ def run(
         z=z,
         internal=internal,
         external=external,
+        spherical=spherical,
         rollers=rollers,
         law=law,
     )
@@ -78,6 +86,9 @@ def run(
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
-    spec, text = chosen(wish, synthesis(wish), write)
+    found, text = chosen(wish, synthesis(wish), write)
     show_text(text, output)
-    warn(build(spec._replace(path="<stdout>" if output == "-" else output)))
+    path = "<stdout>" if output == "-" else output
+    if found.trouble:
+        print(clean(f"{path}: warning: {found.trouble}"), file=sys.stderr)
+    warn(build(found.spec._replace(path=path)))
