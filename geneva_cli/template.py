@@ -26,11 +26,77 @@ KINDS: dict[str, tuple[str, dict[str, dict[str, Any]]]] = {
         "curved slots for a given motion law, at the mid condition",
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
     ),
+    "spherical": (
+        "a spherical wheel: shafts that meet, motion and dwell equal",
+        {"wheel": {"z": 6, "gearing": "spherical"}},
+    ),
+    "elliptical-gears": (
+        "equal elliptical gears in front: a slower, softer index",
+        {"wheel": {"z": 6}, "drive": {"kind": "elliptical-gears", "eccentricity": 0.3}},
+    ),
+    "noncircular-gears": (
+        "noncircular gears in front, with the ratio of a side-crank",
+        {"wheel": {"z": 6}, "drive": {"kind": "noncircular-gears", "A": 0.6}},
+    ),
+    "geneva-pair": (
+        "two wheels in series: one index in many turns",
+        {"wheel": {"z": 4}, "drive": {"kind": "geneva-pair", "first_z": 4}},
+    ),
+    "four-bar": (
+        "the roller on a four-bar's coupler",
+        {
+            "wheel": {"z": 4, "held_by": "detent"},
+            "drive": {
+                "kind": "four-bar",
+                "crank_mm": 40.0,
+                "ground_mm": 90.0,
+                "coupler_mm": 100.0,
+                "rocker_mm": 100.0,
+                "point_mm": 161.51903573811165,
+                "point_deg": -36.13836508095113,
+                "entry_deg": 123.3,
+            },
+            "size": {"roller_radius_mm": 2.0},
+        },
+    ),
+    "slider-crank": (
+        "the roller on a slider-crank's rod",
+        {
+            "wheel": {"z": 8, "held_by": "detent"},
+            "drive": {
+                "kind": "slider-crank",
+                "crank_mm": 40.0,
+                "rod_mm": 100.0,
+                "point_mm": 80.0,
+                "point_deg": 90.0,
+            },
+            "size": {"roller_radius_mm": 6.0},
+        },
+    ),
+    "epicyclic": (
+        "a gear-Geneva: the roller on a planet enters without a jump",
+        {
+            "wheel": {"z": 4},
+            "drive": {"kind": "epicyclic", "planet_ratio": "shockless", "fixed": "sun"},
+            "size": {"roller_radius_mm": 4.0},
+        },
+    ),
+    "gear-sector": (
+        "slot, gears at a constant ratio, slot",
+        {
+            "wheel": {"z": 3},
+            "drive": {"kind": "gear-sector", "sector_deg": 60.0, "gear_ratio": "shockless"},
+        },
+    ),
+    "cam": (
+        "a cam-Geneva: straight slots, and a law that a fixed cam makes",
+        {"wheel": {"z": 6}, "drive": {"kind": "cam"}, "motion": {"law": "cycloidal"}},
+    ),
 }
 
 
 def template(kind: str) -> str:
-    """The text of a valid spec; every key is there, with its default and its meaning.
+    """The text of a valid spec; every key that it can have is there, its default and its meaning.
 
     Raises GenevaError for a kind that is not known.
     """

@@ -12,7 +12,10 @@ from geneva_cli.commands.options import Output
 def run(
     kind: Annotated[
         str,
-        typer.Argument(metavar="KIND", help="external, internal, rollers, side-crank or curved."),
+        typer.Argument(
+            metavar="KIND",
+            help="external, internal, spherical, rollers, curved or a kind of drive.",
+        ),
     ],
     output: Output = "-",
 ) -> None:
