@@ -113,11 +113,13 @@ def _cut_at_zeros(
 
 
 def _zero(of: Callable[[float], Jet], low: float, high: float) -> float:
-    def line(x: float) -> tuple[float, float]:
-        c = of(x).c
+    """Where a jet is zero, to a last place of the bracket: near 0 doubles are finer than angles."""
+
+    def line(way: float) -> tuple[float, float]:
+        c = of(low + way).c
         return c[0], c[1] * DEGREE
 
-    return root(line, low, high)
+    return low + root(line, 0.0, high - low)
 
 
 def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
@@ -145,7 +147,7 @@ def maxima(station: Station, given: Setting, rows: Rows) -> list[Greatest]:
     out = []
     for i in range(len(found.value)):
 
-        def at(x: float, piece: Stretch, order: int, i: int = i) -> Row:
+        def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row:
             return rows(contact(station, x, order), piece.drives, piece.slides)[i]
 
         out.append(_greatest(found, i, pieces, at, ends, station))
@@ -156,7 +158,7 @@ def _greatest(
     found: Scan,
     row: int,
     pieces: tuple[Stretch, ...],
-    at: Callable[[float, Stretch, int], Row],
+    at: Callable[[Coefficient, Stretch, int], Row],
     middle: list[float],
     station: Station,
 ) -> Greatest:
@@ -172,11 +174,10 @@ def _greatest(
     for i in hopeful(found, row):
         piece = pieces[found.span[i]]
 
-        def slope(x: float, piece: Stretch = piece) -> tuple[float, float]:
-            c = at(x, piece, 2).value.c
-            return c[1], 2.0 * c[2] * DEGREE
+        def slope(x: float, piece: Stretch = piece) -> Jet:
+            return at(x, piece, 2).value.derivative()
 
-        x = root(slope, float(found.x[i]), float(found.x[i + 1]))
+        x = _zero(slope, float(found.x[i]), float(found.x[i + 1]))
         places.append((x, at(x, piece, 0).value.c[0]))
     most = max(v for _, v in places)
     if not most > 0.0:
@@ -213,8 +214,9 @@ def _at_mid_motion(
         values = []
         for i, row in enumerate(asked):
             room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])
-            if room > ZERO:
-                values.append(float(np.ravel(row.value.c[0])[0]))
+            value = float(np.ravel(row.value.c[0])[0])
+            if room > ZERO and math.isfinite(value):
+                values.append(value)
             elif loaded:
                 values.append(math.inf)
             else:
@@ -241,7 +243,7 @@ def _brink(
     found: Scan,
     lost: Mask,
     pieces: tuple[Stretch, ...],
-    at: Callable[[float, Stretch, int], Row],
+    at: Callable[[Coefficient, Stretch, int], Row],
 ) -> float:
     """Where a quantity ceases to have a value: at the first place where what it needs is 0."""
     turns = np.flatnonzero((lost[1:] != lost[:-1]) & found.joined)
@@ -251,8 +253,10 @@ def _brink(
     piece = pieces[found.span[i]]
 
     def room(x: float) -> Jet:
-        needed = at(x, piece, 1).room
+        # as an array, whose quotients by what is needed may be infinite
+        needed = at(np.array([x]), piece, 1).room
         assert needed is not None
-        return needed
+        return Jet([float(np.ravel(c)[0]) for c in needed.c])
 
-    return _zero(room, float(found.x[i]), float(found.x[i + 1]))
+    with np.errstate(all="ignore"):
+        return _zero(room, float(found.x[i]), float(found.x[i + 1]))

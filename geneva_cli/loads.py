@@ -164,7 +164,7 @@ def _slowness(
             load = needed * factor
             left = limit - factor * given.resists_Nm
             spare = np.where(np.asarray(load.c[0]) > 0.0, left.c[0], 1.0)
-            out.append(Row(load / left, Jet((spare,))))
+            out.append(Row(load / left, Jet((spare, *left.c[1:]))))
         return out
 
     still = given._replace(resists_Nm=0.0)

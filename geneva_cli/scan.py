@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 # places and the numbers of their spans -> values and slopes, a row for each function
 Functions: TypeAlias = "Callable[[Array, Whole], tuple[Array, Array]]"
 
+ROUNDING = 1e-12  # share of a value that no sampling makes any surer
 CROWDED = 16  # places towards each end, each four times as near to it as the one before
 
 
@@ -81,7 +82,8 @@ def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
         least, most = _range(value)
         low, high = np.fmin(low, least), np.fmax(high, most)
         predicted = 0.5 * (left[2] + right[2]) + (right[0] - x) * (left[3] - right[3]) / 4.0
-        missed = np.any(np.abs(value - predicted) > PREDICTED * (high - low), axis=0)
+        bar = PREDICTED * (high - low) + ROUNDING * np.fmax(np.abs(high), np.abs(low))
+        missed = np.any(np.abs(value - predicted) > bar, axis=0)
         here = _taken(middle, missed)
         left, right = (
             _joined(_taken(left, missed), here),
