@@ -14,7 +14,7 @@ from geneva_cli.keys import Drive, Limits, Load, Motion, Size, Spec, Wheel
 from geneva_cli.load_cautions import load_cautions
 from geneva_cli.mechanism import build
 from geneva_cli.peaks import worst
-from geneva_cli.report import report_table
+from geneva_cli.report import report
 from geneva_cli.scan import hopeful, scan
 
 OMEGA = 2.0 * math.pi
@@ -190,7 +190,7 @@ def test_a_limit_that_no_speed_keeps():
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
     assert loads.fastest_rpm(mechanism) is None
     assert any("no speed keeps pin_force_max_N = 20" in t for t in load_cautions(mechanism))
-    table = report_table(mechanism)
+    table = report(mechanism).table
     row = dict(zip(table.names, table.columns, strict=True))
     assert list(row["timing.shortest_motion_s"]) == [None]
 
