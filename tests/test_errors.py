@@ -331,6 +331,13 @@ POINTS = [
     ("huge", ROWS.replace("0.4,0.3", "0.4,1e308"), 4, "s"),
     ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "above the one before"),
     ("twice", ROWS.replace("0.4,0.3", "0.2,0.3"), 4, "above the one before"),
+    (
+        "ninety-thousand",
+        "".join(f"{k / 90_000},{(k / 90_000) ** 3}\n" for k in range(90_001)),
+        2,
+        "by 9e-05 or more",
+        "rounding; thin them out",
+    ),
     ("crowded", ROWS.replace("0.2,0.1", "1e-320,0.1"), 3, "u"),
     ("short", "u,s\n0,0\n0.5,0.5\n1,1\n", 0, "3 points", "at least"),
     ("empty", "", 0, "0 points", "at least"),

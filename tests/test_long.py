@@ -17,6 +17,7 @@ import pytest
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import HELD, SAMPLES_MAX, motion_table
 from geneva_cli.output import show
+from geneva_cli.peaks import peaks
 from geneva_cli.profile import profile_table
 from geneva_cli.spec import load
 from geneva_cli.survey import survey
@@ -88,6 +89,18 @@ def test_progress_on_a_terminal():
 def test_too_many_rows_that_are_solved(gearing):
     with pytest.raises(GenevaError, match=r"--z 3\.\.10002: that is more than 1000 rows"):
         survey("3..10002", gearing, 60.0, 1, 0.0 if gearing == "spherical" else 0.3)
+
+
+def test_the_closest_points_that_are_read():
+    """Their rounding moves the jerk by no more than law_table.py says, in a second or two."""
+    n = 10_000
+    rows = [(k / n, k / n - math.sin(math.tau * k / n) / math.tau) for k in range(n)] + [(1.0, 1.0)]
+    put("law.csv", "".join(f"{u!r},{s!r}\n" for u, s in rows))
+    put("table.toml", '[wheel]\nz = 6\n[motion]\nlaw = "table"\nfile = "law.csv"\n')
+    put("named.toml", '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\n')
+    found, wanted = (peaks(load(name).stations[0]) for name in ("table.toml", "named.toml"))
+    assert found.jerk.max == pytest.approx(wanted.jerk.max, rel=3e-4)
+    assert found.acceleration.max == pytest.approx(wanted.acceleration.max, rel=1e-6)
 
 
 # Numbers that are none
