@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from geneva_cli import spec as reader
 from geneva_cli.checks import Check, checks, each, one
-from geneva_cli.clearances import gap_about, jam, jams
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Spec
 from geneva_cli.mechanism import Mechanism, build
-from geneva_cli.proof import Proof
 from geneva_cli.remedies import Value, Way, value_now, ways
+
+if TYPE_CHECKING:
+    from geneva_cli.proof import Proof
 
 SECONDS = 1.0  # of the processor, for one check
 NONE = "none found"
@@ -45,6 +46,8 @@ def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
 
 def jammed(proof: Proof) -> str:
     """Why a machine does not turn, where, and what would free it; nothing if it turns."""
+    from geneva_cli.clearances import jam, jams
+
     start = time.process_time()
     failing = jams(proof)
     if not failing:
@@ -163,9 +166,7 @@ class Adviser:
             raise _OutOfTime
         try:
             if failing.name in GAPS:
-                found = Proof(build(spec)).found
-                clear = gap_about(found, failing.at_deg or 0.0) >= -found.close
-                return math.inf if clear else -math.inf  # parts that touch have no gap to go by
+                return _clears(build(spec), failing.at_deg or 0.0)
             row = one(build(spec), failing.name)
             return _spare(row) if row else math.inf
         except GenevaError:
@@ -188,6 +189,15 @@ class Adviser:
             return all(c.passes is not False for c in rows if c.name in must)
         except GenevaError:
             return False
+
+
+def _clears(mechanism: Mechanism, at_deg: float) -> float:
+    """Whether no parts overlap about one input angle, as an infinity: what touches has no gap."""
+    from geneva_cli.clearances import gap_about
+    from geneva_cli.outline import outlines
+
+    found = outlines(mechanism)
+    return math.inf if gap_about(found, at_deg) >= -found.close else -math.inf
 
 
 def _spare(check: Check) -> float:

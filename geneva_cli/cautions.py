@@ -97,7 +97,7 @@ def _loose(mechanism: Mechanism) -> list[str]:
     return [
         f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): the "
         "wall that the torque needs there is cut away by the slot's other branch, up to "
-        f'{drive.gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, and '
+        f'{drive.loose_gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, and '
         "less torque_Nm against the inertia makes the interval shorter"
     ]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli import loads
 from geneva_cli.cautions import SHOWN_UNDERCUT, turns_back
@@ -14,9 +14,10 @@ from geneva_cli.keeps import keeps
 from geneva_cli.kinds import Z_DRAWN, is_flat
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.peaks import Peaks, worst
-from geneva_cli.proof import Proof
 from geneva_cli.station import LawDriven, LawMotion
-from geneva_cli.undercut import undercut
+
+if TYPE_CHECKING:
+    from geneva_cli.proof import Proof
 
 
 class Check(NamedTuple):
@@ -42,7 +43,7 @@ Asked: TypeAlias = dict[str, Callable[[], Check]]
 def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
     motion = [ask() for ask in _motion(mechanism).values()]
-    shown = list(_parts(proof or Proof(mechanism))) if parts else []
+    shown = list(_parts(mechanism, proof)) if parts else []
     return [*motion, *shown, *[ask() for ask in _limits(mechanism).values()]]
 
 
@@ -51,7 +52,7 @@ def each(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
     for ask in (_motion(mechanism) | _limits(mechanism)).values():
         yield ask()
     if parts:
-        yield from _parts(Proof(mechanism))
+        yield from _parts(mechanism)
 
 
 def one(mechanism: Mechanism, name: str) -> Check | None:
@@ -59,7 +60,7 @@ def one(mechanism: Mechanism, name: str) -> Check | None:
     asked = _motion(mechanism) | _limits(mechanism)
     if name in asked:
         return asked[name]()
-    return next((c for c in _parts(Proof(mechanism)) if c.name == name), None)
+    return next((c for c in _parts(mechanism) if c.name == name), None)
 
 
 def _held(
@@ -102,19 +103,22 @@ def _forwards(station: LawMotion) -> Check:
 
 
 def _undercut(mechanism: Mechanism) -> Check:
+    from geneva_cli.undercut import undercut
+
     found = undercut(mechanism)
     depth, at_deg = (found.depth_mm, found.at_deg) if found else (0.0, None)
     return _held("undercut_mm", depth, "at most", SHOWN_UNDERCUT, at_deg)
 
 
-def _parts(proof: Proof) -> Iterator[Check]:
+def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     """Walls, shafts and the full turn, where the machine has flat parts."""
-    mechanism = proof.mechanism
     if not is_flat(mechanism.spec):
         yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
         return
     from geneva_cli.clearances import clearances
+    from geneva_cli.proof import Proof
 
+    proof = proof or Proof(mechanism)
     try:
         held = bool(proof.found.sizes.lock) or mechanism.spec.wheel.held_by is not None
     except GenevaError as error:

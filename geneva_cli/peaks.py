@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geneva_cli import classic
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.roots import extrema
 from geneva_cli.station import Station
-from geneva_cli.table import Table, record_table
+from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.timing import timings
 from geneva_cli.units import DEGREE
 
@@ -164,20 +164,19 @@ def _placed(found: Peaks, mid_deg: float) -> Peaks:
 
 
 def peaks_table(mechanism: Mechanism) -> Table:
-    """The greatest peaks, then those of each station where the stations differ."""
-    first = timings(mechanism)[0]
-    values = _record(worst(mechanism)) | {
-        "motion_deg": first.motion_deg,
-        "dwell_deg": first.dwell_deg,
-    }
-    if len(mechanism.stations) > 1:
-        for i, (station, time) in enumerate(
-            zip(mechanism.stations, timings(mechanism), strict=True)
-        ):
-            found = _placed(peaks(station), station.mid_deg)
-            one = _record(found) | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
-            values |= {f"station_{i + 1}.{name}": value for name, value in one.items()}
-    return record_table(values)
+    """The greatest peaks, then those of each station where the stations differ (None if not)."""
+    times = timings(mechanism)
+    rows = [
+        _record(_placed(peaks(station), station.mid_deg))
+        | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
+        for station, time in zip(mechanism.stations, times, strict=True)
+    ]
+    differ = len(rows) > 1
+    values: dict[str, Any] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
+    values |= _record(worst(mechanism)) if differ else rows[0]
+    values |= {"motion_deg": times[0].motion_deg, "dwell_deg": times[0].dwell_deg}
+    each = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+    return record_table(values | {"stations": each if differ else None})
 
 
 def _record(found: Peaks) -> dict[str, float]:

@@ -27,6 +27,7 @@ class Drive(NamedTuple):
     share: float  # of the motion that they take
     gap_mm: float  # greatest distance of the two branches, along the wheel's circumference
     gap_at_deg: float
+    loose_gap_mm: float = 0.0  # the same where the needed wall is missing
 
 
 def positive_drive(mechanism: Mechanism) -> Drive | None:
@@ -45,11 +46,12 @@ def positive_drive(mechanism: Mechanism) -> Drive | None:
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)
     play = PLAY_MM + 2.0 * mechanism.spec.size.slot_clearance_mm
-    loose = []
+    loose, wide = [], 0.0
     for side, degrees in ((1.0, x), (-1.0, -x)):
         torque = loads.state(mechanism, station, degrees).torque_Nm
         missing = (gap > play) & (side * np.sign(lead) * torque < 0.0)
         loose += [float(d) for d in degrees[missing]]
+        wide = max(wide, float(gap[missing].max(initial=0.0)))
     step = abs(station.entry_deg) / SAMPLES
     worst = int(np.argmax(gap))
     return Drive(
@@ -57,6 +59,7 @@ def positive_drive(mechanism: Mechanism) -> Drive | None:
         len(loose) / (2.0 * SAMPLES),
         float(gap[worst]),
         float(x[worst]),
+        wide,
     )
 
 

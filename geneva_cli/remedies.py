@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Z_USUAL, Size
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.plane import plane
-from geneva_cli.sizes import Sizes, sizes
+
+if TYPE_CHECKING:
+    from geneva_cli.sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 STEPS = 24  # to the far end, where values beyond one that passes may fail again
@@ -88,6 +89,9 @@ WORDS = ("ratio", "held_by")  # keys that say something new where they are set a
 def _size(mechanism: Mechanism, key: str) -> float | None:
     if key not in _SIZES:
         return None
+    from geneva_cli.plane import plane
+    from geneva_cli.sizes import sizes
+
     try:
         return _SIZES[key](sizes(plane(mechanism)))
     except GenevaError:

@@ -51,7 +51,7 @@ def one(text):
         if isinstance(found, str):
             return "refused"
         consistent(found)
-        sound(peaks_table(found))
+        sound(flat(peaks_table(found)))
         sound(motion_table(found, 97))
         sound(flat(report(found).table), BOUNDLESS)
         sound(checks_table([Verdict("", checks=tuple(judged(found)))]), BOUNDLESS)

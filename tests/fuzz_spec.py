@@ -26,6 +26,7 @@ from geneva_cli.motion import motion_table
 from geneva_cli.peaks import peaks_table
 from geneva_cli.rules import OneOf, Range
 from geneva_cli.spec import TABLES, fields, kind_keys, load
+from geneva_cli.table import flat
 
 SECONDS = 10  # for one spec; one takes some milliseconds
 PLACE = re.compile(r"(<stdin>|law\.csv|ratio\.csv)(:(\d+))?: ", re.DOTALL)
@@ -178,7 +179,7 @@ def one(text):
         if isinstance(found, str):
             return "refused"
         consistent(found)
-        sound(peaks_table(found))
+        sound(flat(peaks_table(found)))
         for samples in (33, 50):  # with mid-motion among them, and without
             sound(motion_table(found, samples))
         return "machine"

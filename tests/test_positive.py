@@ -1,5 +1,6 @@
 """Where a curved slot lacks the wall that its load needs (the one-track theorem)."""
 
+import cmath
 import math
 
 import pytest
@@ -50,3 +51,21 @@ def test_the_caution_names_the_cam():
     assert any("not positively driven" in text and '"cam"' in text for text in said)
     cam = PRESS._replace(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
     assert not cautions(build(cam))
+
+
+def test_the_caution_s_gap_lies_where_it_says():
+    """Between the branches at the places that lack the wall, not the slot's greatest elsewhere."""
+    load = Load(4.0, 40.0)  # the wall is missing near mid-motion and mouth, not where most is cut
+    mechanism = build(PRESS._replace(motion=Motion("sine-group", ratio=0.5), load=load))
+    found, station = positive_drive(mechanism), mechanism.stations[0]
+
+    def apart(degrees):
+        here, there = (complex(*[v.c[0] for v in station.pitch(d, 0)]) for d in (degrees, -degrees))
+        return 441.89 * abs(here) * abs(cmath.phase(here / there))
+
+    places = [a + (b - a) * i / 200 for a, b in found.loose_deg for i in range(201)]
+    # The intervals end half a step, a sixth of a degree, beyond the places that were tried.
+    assert found.loose_gap_mm == pytest.approx(max(map(apart, places)), rel=0.02)
+    assert found.loose_gap_mm < 0.95 * found.gap_mm
+    (said,) = [text for text in cautions(mechanism) if "not positively" in text]
+    assert f"up to {found.loose_gap_mm:.3g} mm off" in said

@@ -137,3 +137,14 @@ def test_without_a_good_spec_nothing_is_printed(tmp_path: Path) -> None:
     found = run("check", str(tmp_path / "a.toml"), str(tmp_path / "b.toml"))
     assert (found.exit_code, found.stdout) == (2, "")
     assert len(found.stderr.splitlines()) == 2
+
+
+def test_peaks_begin_with_spec_and_title() -> None:
+    for name, stations in (("projector", 0), ("two-rollers-side-crank", 2)):
+        spec = str(DESIGNS / f"{name}.toml")
+        tree = json.loads(run("peaks", spec, "--format", "json").stdout)
+        assert list(tree)[:2] == ["spec", "title"]
+        assert tree["spec"] == spec
+        assert len(tree["stations"] or []) == stations
+        greatest = max(s["jerk"]["max"] for s in tree["stations"] or [tree])
+        assert tree["jerk"]["max"] == greatest
