@@ -2,10 +2,14 @@
 
 import json
 import re
+import subprocess
+import sys
+from importlib.util import find_spec
 
 import pytest
 from typer.testing import CliRunner
 
+from geneva_cli.accuracy import bench_export, bench_start
 from geneva_cli.accuracy.bench import SUBJECTS, measure
 from geneva_cli.accuracy.method import Row, beats, with_frontier
 from geneva_cli.accuracy.timing_pairs import median_ratio, ratios
@@ -124,6 +128,42 @@ def test_people_see_small_errors():
     assert re.search(r"\d\.\de-1[5-8]", found.stdout)
 
 
+def test_export_names_the_libraries_that_are_missing(monkeypatch):
+    real = bench_export.importlib.util.find_spec
+    monkeypatch.setattr(
+        bench_export.importlib.util,
+        "find_spec",
+        lambda name: None if name == "polars" else real(name),
+    )
+    found = invoke("export", "--quick", "--format", "json")
+    assert found.exit_code == 0, found.output
+    assert "polars" in found.stderr
+    assert "geneva-cli[bench]" in found.stderr
+    methods = {row["method"] for row in json.loads(found.stdout)["rows"]}
+    assert "polars" not in methods
+    assert "orjson" in methods  # of the tests' own needs
+
+
+@pytest.mark.parametrize("name", [n for n in bench_export.LIBRARIES if find_spec(n)])
+def test_libraries_write_the_same_numbers(name):
+    """What they write reads back as it was; else a rival would be slandered."""
+    subject = bench_export.subject(True)
+    (task,) = subject.tasks
+    (method,) = [m for m in task.methods if m.name == name]
+    assert task.error(method.run()) == 0.0
+
+
+def test_scripts_of_the_start_print_the_row():
+    """The competitors do what they are there for."""
+    for code in bench_start.SCRIPTS.values():
+        run = subprocess.run(
+            [sys.executable, "-c", code, "table", "--z", "6"], capture_output=True, text=True
+        )
+        assert run.returncode == 0, run.stderr
+        numbers = [float(v) for v in run.stdout.split()]
+        assert numbers == pytest.approx([6, 120, 240, 0.5, 1 / 3, 1.0], rel=1e-15)
+
+
 def test_unknown_subject():
     found = invoke("peak")
     assert found.exit_code == 2
@@ -131,8 +171,6 @@ def test_unknown_subject():
 
 
 def test_plots_without_matplotlib(monkeypatch, tmp_path):
-    import sys
-
     for name in ("matplotlib", "matplotlib.figure"):
         monkeypatch.setitem(sys.modules, name, None)
     found = invoke("start", "--quick", "--plots", str(tmp_path))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib.util
 import io
 import tracemalloc
 from collections.abc import Callable
@@ -52,6 +53,33 @@ def savetxt(table: Table, out: Sink) -> None:
     np.savetxt(out, np.column_stack(table.columns), "%.17g", ",", header=header, comments="")
 
 
+def with_polars(table: Table, out: Sink) -> None:
+    """Polars, from NumPy's columns."""
+    import polars
+
+    out.write(polars.DataFrame(dict(zip(table.names, table.columns, strict=True))).write_csv())
+
+
+def with_pyarrow(table: Table, out: Sink) -> None:
+    """Apache Arrow's csv, from NumPy's columns."""
+    import pyarrow
+    from pyarrow import csv as arrow
+
+    text = io.BytesIO()
+    columns = [pyarrow.array(c) for c in table.columns]
+    arrow.write_csv(pyarrow.Table.from_arrays(columns, names=list(table.names)), text)
+    out.write(text.getvalue().decode())
+
+
+def with_orjson(table: Table, out: Sink) -> None:
+    """orjson writes json; the rows of an array, brackets made line ends, are csv."""
+    import orjson
+
+    rows = orjson.dumps(np.column_stack(table.columns), option=orjson.OPT_SERIALIZE_NUMPY)
+    out.write(",".join(table.names) + "\n")
+    out.write(rows[2:-2].replace(b"],[", b"\n").decode() + "\n")
+
+
 def ours(table: Table, out: Sink) -> None:
     """The program's own csv."""
     out.writelines(delimited.chunks(table, False))
@@ -64,21 +92,27 @@ WRITERS: list[tuple[str, Callable[[Table, Sink], None], bool]] = [
     (SAVETXT, savetxt, False),
     ("ours", ours, True),
 ]
+# Libraries that take part where they are installed.
+LIBRARIES = {"orjson": with_orjson, "polars": with_polars, "pyarrow": with_pyarrow}
 
 
 def subject(quick: bool) -> Subject:
     """Every writer at every number of rows."""
     mechanism = build(Spec(Wheel(6)))
+    absent = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
+    found = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
     tasks = []
     for count in COUNTS[:1] if quick else COUNTS:
         table = motion_table(mechanism, count)
         methods = [
             Method(name, count, _call(run, table), is_ours, memory=_memory(run, table, count))
-            for name, run, is_ours in WRITERS
+            for name, run, is_ours in (*found, *WRITERS)
         ]
         base = _call(savetxt, table)
         tasks.append(Task(f"{count} rows x 6", SAVETXT, base, _error(table), methods))
-    return Subject("Export with every digit", "numbers that read back differently", tasks)
+    return Subject(
+        "Export with every digit", "numbers that read back differently", tasks, absent=absent
+    )
 
 
 def _call(run: Callable[[Table, Sink], None], table: Table) -> Callable[[], Any]:
@@ -92,7 +126,10 @@ def _call(run: Callable[[Table, Sink], None], table: Table) -> Callable[[], Any]
 def _memory(
     run: Callable[[Table, Sink], None], table: Table, count: int
 ) -> Callable[[], float] | None:
-    """Peak of what a writer allocates besides the table itself; being traced, it takes long."""
+    """Peak of what a writer allocates besides the table itself; being traced, it takes long.
+
+    Python's memory: of a library with an allocator of its own, only what it hands over.
+    """
     if count > TRACED:
         return None
 

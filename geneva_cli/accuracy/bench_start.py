@@ -30,6 +30,28 @@ EAGER = (
     "from geneva_cli.app import COMMANDS\n"
     "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
 )
+# What one would write instead: a row of the table as handbooks have it, by a script of its own.
+ROW = """
+def row(z):
+    import math
+    a = math.pi / z
+    l = math.sin(a)
+    t = 0.5 - 1 / z
+    print(z, 180 - 360 / z, 180 + 360 / z, t / (1 - t), t, l / (1 - l))
+"""
+SCRIPTS = {
+    "a script with argparse, fewer columns": ROW + "import argparse\n"
+    "parser = argparse.ArgumentParser()\n"
+    "table = parser.add_subparsers().add_parser('table')\n"
+    "table.add_argument('--z', type=int)\n"
+    "row(parser.parse_args().z)\n",
+    "a Typer app of lazy commands, fewer columns": ROW + "import typer\n"
+    "app = typer.Typer()\n"
+    "app.callback()(lambda: None)\n"
+    "@app.command()\n"
+    "def table(z: int = 6): row(z)\n"
+    "app()\n",
+}
 BASELINE = "python -c 'import typer'"
 
 
@@ -51,6 +73,8 @@ def subject(quick: bool) -> Subject:
             "ours: lazy imports": (RUN, words),
             "everything imported first": (EAGER + RUN, words),
         }
+        if name == "table":
+            runs |= {way: (code, words) for way, code in SCRIPTS.items()}
         tasks.append(_task("geneva " + " ".join(words), runs, spec))
     return Subject("Start-up of whole runs", "none", tasks)
 

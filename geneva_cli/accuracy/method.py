@@ -43,6 +43,7 @@ class Subject(NamedTuple):
     processes: bool = False  # runs are whole processes: times come from ``pairs`` of them
     slack: float = SLACK
     floor: float = FLOOR
+    absent: Sequence[str] = ()  # libraries with methods of their own that are not installed
 
 
 class Row(NamedTuple):

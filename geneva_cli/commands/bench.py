@@ -28,6 +28,7 @@ def run(
     Errors against 50 digits; times as ratios to a baseline in the same run, which has a row.
     """
     import os
+    import sys
 
     from geneva_cli.accuracy.bench import bench_table, measure, names
     from geneva_cli.errors import GenevaError, cut
@@ -45,6 +46,12 @@ def run(
     for name in names(subject):
         about, found = measure(name, quick)
         rows += found
+        if about.absent:
+            print(
+                f"{name}: not measured, for want of {', '.join(about.absent)}; "
+                "pip install 'geneva-cli[bench]'",
+                file=sys.stderr,
+            )
         if plots:
             write(os.path.join(plots, f"{name}.svg"), [svg(about, found)])
     show(bench_table(rows, people), output, format)
