@@ -83,7 +83,8 @@ def _off_the_mid_condition(mechanism: Mechanism) -> str:
     )
     return (
         f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
-        f"condition, so the pin force there has no bound unless the torque is zero; {helps}"
+        "condition, so without friction the pin force there has no bound unless the torque is zero; "
+        f"{helps}"
     )
 
 
