@@ -20,6 +20,13 @@ from geneva_cli.station import LawDriven
 
 PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
 LOOKS = 400  # places at which the branches of a curved slot are compared
+_NO_WALL = {  # what it means that a wall is less than nothing
+    "wall_between_slots_mm": "neighbouring slots cut each other",
+    "horn_mm": "the recess breaks into the slot",
+    "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
+    "crank_bore_wall_mm": "the crank's bore breaks through the relief",
+    "outer_wall_mm": "the slots break through the wheel's outside",
+}
 BESIDE = np.geomspace(0.01, 3.0, 12)  # degrees of the input, beside a place that is looked at
 
 
@@ -92,10 +99,18 @@ def gap_about(found: Outlines, at_deg: float) -> float:
 
 
 def jams(proof: Proof) -> list[Clearance]:
-    """The clearances for want of which a machine does not turn."""
+    """The clearances for want of which a machine does not turn, or its parts cannot be cut."""
     failing = [c for c in turning(proof.found, proof.turn) if not c.passes]
-    wall = next(iter(_walls(proof.found)))
-    return failing + ([wall] if wall.value < 0.0 else [])
+    return failing + [wall for wall in _walls(proof.found) if wall.value < 0.0]
+
+
+def shortcomings(found: Outlines) -> list[str]:
+    """In words: the clearances of the parts that fail, though the parts can be cut and turn."""
+    return [
+        f"{c.name} is {c.value:.4g}, and must be {c.must_be} {c.limit:g}"
+        for c in (*_walls(found), *_shafts(found), *_branches(found))
+        if not c.passes
+    ]
 
 
 def jam(failing: list[Clearance], turn: FullTurn) -> str:
@@ -107,8 +122,8 @@ def jam(failing: list[Clearance], turn: FullTurn) -> str:
             said.append(f"{turn.smallest.parts} overlap by {-c.value:.4g} mm{where}")
         elif c.name == "idle_roller_mm":
             said.append(f"an idle roller overlaps the wheel by {-c.value:.4g} mm{where}")
-        elif c.name == "wall_between_slots_mm":
-            said.append(f"neighbouring slots cut each other by {-c.value:.4g} mm")
+        elif c.name in _NO_WALL:
+            said.append(f"{_NO_WALL[c.name]} by {-c.value:.4g} mm")
         elif c.name == "hand_over_play_deg":
             said.append(
                 f"at rest the wheel can turn by {c.value:.4g} deg{where}, more than the "
@@ -128,11 +143,19 @@ def _finds_slot(found: Outlines) -> float:
 
 
 def _walls(found: Outlines) -> Iterator[Clearance]:
-    """The wall between neighbouring slots, and the horn between slot and recess."""
-    size = found.sizes
-    yield clearance("wall_between_slots_mm", _between_slots(found), None, True, size.wall_min)
+    """The walls that are left in the wheel and the crank, each held to ``wall_min_mm``."""
+    size, least = found.sizes, found.sizes.wall_min
+    yield clearance("wall_between_slots_mm", _between_slots(found), None, True, least)
     if found.crank:
-        yield clearance("horn_mm", size.horn, None, True, size.wall_min)
+        yield clearance("horn_mm", size.horn, None, True, least)
+    if size.wheel_bore:
+        yield clearance("wheel_bore_wall_mm", size.slot_end - size.wheel_bore, None, True, least)
+    if size.outer:
+        deepest = max(size.slot_end, found.plane.L + size.recess if size.lock else 0.0)
+        yield clearance("outer_wall_mm", size.outer - deepest, None, True, least)
+    if size.crank_bore and found.crank and is_whole(found.plane, size):
+        wall = _relief_depth(found) - size.crank_bore
+        yield clearance("crank_bore_wall_mm", wall, None, True, least)
 
 
 def _between_slots(found: Outlines) -> float:

@@ -208,10 +208,16 @@ _WAYS: dict[str, tuple[Way, ...]] = {
     ),
     "crank_shaft_mm": _CRANK,
     "crank_hub_mm": _CRANK,
+    "crank_bore_wall_mm": _CRANK,
     "wheel_shaft_mm": (
         _times("size", "wheel_bore_mm", 0.2),
         _to("size", "wheel_bore_mm", 0.0),
     ),
+    "wheel_bore_wall_mm": (
+        _times("size", "wheel_bore_mm", 0.2),
+        _to("size", "wheel_bore_mm", 0.0),
+    ),
+    "outer_wall_mm": (Way("size", "wheel_outer_radius_mm", lambda now: [None]),),
     "branches_apart_mm": _WIDER,
     "branches_crossed_mm": _WIDER,
 }

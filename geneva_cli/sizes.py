@@ -13,6 +13,7 @@ import numpy as np
 
 from geneva_cli.drives import UNLOCKED
 from geneva_cli.errors import GenevaError
+from geneva_cli.keys import Size
 from geneva_cli.plane import Plane
 from geneva_cli.station import LawDriven
 
@@ -67,10 +68,10 @@ def sizes(plane: Plane) -> Sizes:
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     linkage = spec.drive.kind in UNLOCKED
-    bore = 0.0 if linkage else _crank_bore(given.crank_bore_mm, min(room, depth - relief), L)
-    wheel_bore = _or(
-        _half(given.wheel_bore_mm), _even(min(L / 12.0, 0.4 * end)) if outside else 0.0
-    )
+    bore = 0.0 if linkage else _crank_bore(given, min(room, depth - relief), L)
+    wall_min = _or(given.wall_min_mm, L / 200.0)
+    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall_min, given.wheel_hub_mm, L))
+    wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
     out = Sizes(
         roller=r,
         half_width=w,
@@ -82,7 +83,7 @@ def sizes(plane: Plane) -> Sizes:
         lock=lock,
         recess=lock + given.lock_clearance_mm if lock else 0.0,
         relief=relief,
-        wall_min=_or(given.wall_min_mm, L / 200.0),
+        wall_min=wall_min,
         wheel_bore=wheel_bore,
         wheel_hub=_or(_half(given.wheel_hub_mm), _even(min(1.6 * wheel_bore, 0.75 * end))),
         crank_bore=bore,
@@ -128,11 +129,17 @@ def _half(diameter: float | None) -> float | None:
     return None if diameter is None else 0.5 * diameter
 
 
-def _crank_bore(given: float | None, room: float, L: float) -> float:
+def _bore(end: float, wall: float, hub: float | None, L: float) -> float:
+    """A bore of the wheel that leaves a wall to the slots' ends, inside a hub that is given."""
+    return _even(min(L / 12.0, 0.4 * end, end - wall, *([0.4 * hub] if hub else [])))
+
+
+def _crank_bore(given: Size, room: float, L: float) -> float:
     """Half the room between axis and relief; too thin a shaft ends below the wheel instead."""
-    if given is not None:
-        return 0.5 * given
-    return _even(0.45 * room) if 0.45 * room >= L / 40.0 else 0.0
+    if given.crank_bore_mm is not None:
+        return 0.5 * given.crank_bore_mm
+    within = 0.4 * given.crank_hub_mm if given.crank_hub_mm else math.inf
+    return _even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
 
 
 def _even(radius: float) -> float:

@@ -1,16 +1,21 @@
 """Checks and cautions: each must be able to fail. Their advice is in test_advice."""
 
+import math
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
+from geneva_cli.app import app
 from geneva_cli.cautions import cautions
 from geneva_cli.checks import Check, checks
+from geneva_cli.clearances import clearances
 from geneva_cli.drives.side_crank import Keys
 from geneva_cli.errors import GenevaError
 from geneva_cli.keeps import keeps
 from geneva_cli.keys import Drive, Limits, Load, Motion, Size, Spec, Wheel
 from geneva_cli.mechanism import build
+from geneva_cli.proof import Proof
 from geneva_cli.spec import load
 
 DESIGNS = Path(__file__).parent.parent / "designs"
@@ -116,3 +121,46 @@ def test_rounding_breaks_no_limit(value: float, must_be: str, limit: float, kept
 def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
     assert keeps(-2e-6, "at least", 0.0, noise=1e-5)
     assert not keeps(-2e-5, "at least", 0.0, noise=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("keys", "row", "value"),
+    [
+        # L - R - r - r/20 is 44.75 mm at L = 100, R = 50, r = 5
+        ("wheel_bore_mm = 89.4", "wheel_bore_wall_mm", 44.75 - 44.7),
+        # The relief's arc: from the centre at L rk / R, radius L cos 30 deg rk / R
+        ("crank_bore_mm = 12", "crank_bore_wall_mm", 80.0 * (1.0 - math.sqrt(0.75)) - 6.0),
+    ],
+)
+def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
+    path = tmp_path / "bore.toml"
+    path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
+    rows = {c.name: c for c in clearances(Proof(load(str(path))))}
+    assert rows[row].value == pytest.approx(value, abs=1e-5)
+    assert rows[row].limit == 0.5
+    assert rows[row].passes == (value >= 0.5)
+
+
+def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
+    path = tmp_path / "ring.toml"
+    size = "[size]\nwheel_outer_radius_mm = 155.5\n"
+    path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
+    rows = {c.name: c for c in clearances(Proof(load(str(path))))}
+    # L + R + r + r/20 is 155.25 mm
+    assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
+    assert not rows["outer_wall_mm"].passes
+
+
+def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
+    path, out = tmp_path / "bore.toml", tmp_path / "wheel.svg"
+    export = ["profile", str(path), "--part", "wheel", "-o", str(out)]
+    path.write_text("[wheel]\nz = 6\n[size]\nwheel_bore_mm = 89.4\n")
+    run = CliRunner().invoke(app, export)
+    assert run.exit_code == 0
+    assert "warning: wheel_bore_wall_mm is 0.05, and must be at least 0.5" in run.stderr
+    path.write_text("[wheel]\nz = 6\n[size]\ncrank_bore_mm = 30\n")
+    out.unlink()
+    run = CliRunner().invoke(app, export)
+    assert run.exit_code == 1
+    assert "not written: the crank's bore breaks through the relief by" in run.stderr
+    assert not out.exists()

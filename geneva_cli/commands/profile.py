@@ -82,14 +82,20 @@ def run(
 
 
 def _refuse_jam(found: Outlines, force: bool) -> None:
-    """Exit status 1 for a machine that does not turn; forced, a warning only."""
+    """Exit status 1 for a machine that does not turn or cannot be cut; forced, a warning only.
+
+    What else `check` fails of the parts is a warning.
+    """
     from geneva_cli.advice import jammed
+    from geneva_cli.clearances import shortcomings
     from geneva_cli.proof import Proof
 
     why = jammed(Proof(found.plane.mechanism, found))
-    if not why:
-        return
     path = found.plane.mechanism.spec.path
+    if not why:
+        for said in shortcomings(found):
+            print(clean(f"{path}: warning: {said}"), file=sys.stderr)
+        return
     text = f"warning: {why}" if force else f"not written: {why}; --force writes it all the same"
     print(clean(f"{path}: {text}"), file=sys.stderr)
     if not force:
