@@ -194,8 +194,7 @@ def _shafts(found: Outlines) -> Iterator[Clearance]:
 
 def _relief_depth(found: Outlines) -> float:
     """The distance of the crank's outline from its axis at the bottom of a relief."""
-    points = Polyarc(found.crank).samples(1e-6 * found.plane.L, 0.01 * found.plane.L)
-    return float(np.hypot(*points.T).min())
+    return abs(float(Polyarc(found.crank).signed(np.zeros((1, 2)))[0]))
 
 
 def _branches(found: Outlines) -> Iterator[Clearance]:
