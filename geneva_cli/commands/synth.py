@@ -45,12 +45,16 @@ def run(
     """From a wish to machines that grant it, the lowest peak acceleration first.
 
     One of --tau, --k, --motion-deg, --step with --cycle, or --acceleration-max; numbers may be
-    fractions. Listed for each wheel: the plain crank, where it misses the motion by at most a
-    millionth; a side-crank; equal elliptical gears; curved slots with an extra dwell (flat wheels);
-    another angle between the shafts (spherical wheels, which stand at 90 deg otherwise, and are
-    listed for --acceleration-max only as they are). Side-crank and gears carry one roller, straight
-    slots as many as leave a dwell, curved ones also more while their parts can be built. The column
-    `parts`: yes, no (why) or maybe, by walls, lock, undercut and islands; --write turns the parts.
+    fractions.
+
+    Tried for each wheel: the plain crank (it may miss the motion by a millionth), a side-crank,
+    equal elliptical gears, and curved slots with an extra dwell. Side-crank and gears carry one
+    roller, straight slots as many as leave a dwell, curved slots also more while their parts can
+    be built. Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the
+    motion; for --acceleration-max only the plain crank at 90 deg is tried.
+
+    Column parts: no, with the reason, where flat parts cannot be built; maybe, where only turning
+    them tells; else yes. --write turns the parts of its row.
     """
     from geneva_cli.errors import GenevaError, clean, cut
     from geneva_cli.output import format_of, show, show_text
