@@ -83,8 +83,8 @@ def _off_the_mid_condition(mechanism: Mechanism) -> str:
     )
     return (
         f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
-        "condition, so without friction the pin force there has no bound unless the torque is zero; "
-        f"{helps}"
+        "condition, so without friction the pin force there has no bound unless the torque is "
+        f"zero; {helps}"
     )
 
 

@@ -199,7 +199,8 @@ def _at_mid_motion(
     needed = float(torque.c[0][0])
     beside = [p for p in pieces if NEAR * station.entry_deg in (p.end, -p.start)]
     if is_straight(station):
-        return [0.0 for _ in rows(at, 1.0, 1.0)]
+        with np.errstate(all="ignore"):
+            return [0.0 for _ in rows(at, 1.0, 1.0)]
     # The tangent points away from the axis on the way in and out; at a cusp they are one.
     ways = (1.0,) if retraces(station) else (1.0, -1.0)
     common = given.inertia_Nm * abs(station.motion(0.5 * station.entry_deg, 2).c[2])

@@ -133,6 +133,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     return rpm if kept else None
 
 
+@lru_cache(maxsize=256)
 def _slowness(
     station: Station, given: Setting, limits: tuple[float | None, float | None, float | None]
 ) -> float:
