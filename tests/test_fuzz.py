@@ -10,6 +10,7 @@ import os
 import random
 import re
 
+import fuzz_parts
 import numpy as np
 import pytest
 from fuzz_machines import machine_text
@@ -88,6 +89,12 @@ def test_specs_of_known_keys(seed):
     turned = sum(math.degrees(2.0 * s.half_step) for s in found.stations)
     assert wheel[-1] - wheel[0] == pytest.approx(turned, rel=1e-9)
     assert table.columns[3][0] == pytest.approx(0.0, abs=1e-9 * worst(found).velocity.max)
+
+
+@pytest.mark.parametrize("case", [0, *range(2, 8), *range(9, 12)])  # 1 and 8 take ten seconds
+def test_machines_with_parts(case):
+    """The first cases of `fuzz_parts.py`: all that is made of them is finite, without a warning."""
+    fuzz_parts.one(machine_text(numbers("make test", case)))
 
 
 def test_the_random_machines_are_of_every_kind_and_have_every_key():
