@@ -82,8 +82,8 @@ ROWS = [
 OWN = {
     "--help": "app errors streams",
     "--version": "app errors streams",
-    "table --z 6": "app errors streams commands commands.table commands.options output output.text "
-    "table survey classic timing rules units",
+    "table --z 6": "app errors streams commands commands.table commands.options output "
+    "output.finite output.text table survey classic timing rules units",
 }
 
 
