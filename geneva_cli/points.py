@@ -46,7 +46,8 @@ def read_pairs(path: str, kind: Pairs, key: tuple[str, ...]) -> list[tuple[float
         if points and x < points[-1][0] + kind.step_min:
             raise GenevaError(
                 f"{where}: {kind.x} = {x:.12g} must be above the one before it, by "
-                f"{kind.step_min:g} or more: of closer points the derivatives are rounding; thin them out"
+                f"{kind.step_min:g} or more: of closer points the derivatives are rounding; thin "
+                "them out"
             )
         points.append((x, y))
         if len(points) > POINTS_MAX:
