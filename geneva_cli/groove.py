@@ -10,7 +10,6 @@ import numpy as np
 
 from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
-from geneva_cli.linear import solve
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.pitch import WALLED
 from geneva_cli.table import Table
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
+EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
 def distance(station: CamDriven, input_deg: Array) -> Array:
@@ -49,8 +49,9 @@ def groove_curve(
 def _distances(station: CamDriven, input_deg: Array) -> list[Array]:
     """The roller's distance from the crank's axis, with two derivatives by the input in radians.
 
-    In the dwell the groove goes back from exit to entry by the polynomial of degree 5 in the
-    crank's angle that has both ends' distance, slope and curvature.
+    In the dwell the slope fades over EASED_DEG beyond either end, and the groove is an arc about
+    the crank's axis between; where the two ends lead to different arcs, a 3-4-5 curve joins them.
+    Its second derivative is continuous all round.
     """
     at = (input_deg - station.entry_deg) % 360.0 + station.entry_deg
     moving = at <= station.exit_deg
@@ -59,24 +60,47 @@ def _distances(station: CamDriven, input_deg: Array) -> list[Array]:
         found = station.distances(at[moving], 2)[1].derivatives()
         for column, values in zip(out, found, strict=True):
             column[moving] = values
-    span = math.radians(360.0 - station.motion_deg)
-    ends = [station.distances(x, 2)[1].derivatives() for x in (station.exit_deg, station.entry_deg)]
-    conditions, values = [], []
-    for u, end in zip((0.0, 1.0), ends, strict=True):
-        for order, value in enumerate(end):
-            conditions.append([_power(k, order, u) for k in range(6)])
-            values.append(value * span**order)
-    shape = np.polynomial.Polynomial(solve(np.array(conditions), np.array(values)))
-    rest = np.radians(at[~moving] - station.exit_deg) / span
-    for order, column in enumerate(out):
-        column[~moving] = shape.deriv(order)(rest) / span**order
+    for column, values in zip(out, _back(station, at[~moving]), strict=True):
+        column[~moving] = values
     return out
 
 
-def _power(k: int, order: int, u: float) -> float:
-    """A derivative of u^k."""
-    factor = math.prod(range(k - order + 1, k + 1))
-    return factor * u ** (k - order) if k >= order else 0.0
+def _back(station: CamDriven, input_deg: Array) -> list[Array]:
+    """As ``_distances``, at input angles in the dwell after the motion."""
+    span = math.radians(360.0 - station.motion_deg)
+    eased = min(math.radians(EASED_DEG), span / 3.0)
+    t = np.radians(input_deg - station.exit_deg)
+    after = _eased(station.distances(station.exit_deg, 2)[1].derivatives(), eased, t, 1.0)
+    entry = station.distances(station.entry_deg, 2)[1].derivatives()
+    before = _eased(entry, eased, span - t, -1.0)
+    # Each is constant where the other begins; the step goes from one level to the other.
+    length, rise = span - 2.0 * eased, before[3] - after[3]
+    u = np.clip((t - eased) / length, 0.0, 1.0)
+    step = (
+        u**3 * (10.0 - 15.0 * u + 6.0 * u * u),
+        30.0 * (u * (1.0 - u)) ** 2 / length,
+        60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / length**2,
+    )
+    out = [a + b + rise * s for a, b, s in zip(after[:3], before[:3], step, strict=True)]
+    out[0] -= before[3]
+    return out
+
+
+def _eased(
+    end: tuple[float, ...], length: float, t: Array, sense: float
+) -> tuple[Array, Array, Array, float]:
+    """Distance and two derivatives ``t`` beyond an end, and the distance it fades to.
+
+    The slope is the cubic that has the end's value and derivative, and none of both at ``length``.
+    """
+    R, slope, bend = end[0], sense * end[1], end[2]
+    u = np.minimum(t / length, 1.0)
+    m = bend * length
+    run = slope * (u - u**3 + 0.5 * u**4) + m * (0.5 * u**2 - 2.0 / 3.0 * u**3 + 0.25 * u**4)
+    rate = slope * (1.0 - u) ** 2 * (1.0 + 2.0 * u) + m * u * (1.0 - u) ** 2
+    turn = (-6.0 * slope * u * (1.0 - u) + m * (1.0 - u) * (1.0 - 3.0 * u)) / length
+    level = R + length * (0.5 * slope + m / 12.0)
+    return R + length * run, sense * rate, turn, level
 
 
 def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:

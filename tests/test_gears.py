@@ -8,7 +8,7 @@ import pytest
 from geneva_cli.drives import cam, elliptical_gears, noncircular_gears, side_crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.gears import convexity, gears_table
-from geneva_cli.groove import groove_table
+from geneva_cli.groove import _distances, groove_table
 from geneva_cli.keys import Drive, Motion, Spec, Wheel
 from geneva_cli.mechanism import build
 
@@ -104,3 +104,19 @@ def test_the_groove_against_the_law_of_sines():
 def test_a_plain_crank_has_neither(table):
     with pytest.raises(GenevaError, match="has none"):
         table(build(Spec(Wheel(6))))
+
+
+@pytest.mark.parametrize(("z", "alpha0"), [(6, 0.0), (4, -20.0), (8, 10.0)])
+def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
+    """No bulge, and no jump of its second derivative; derivatives against differences."""
+    spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
+    station = build(spec).stations[0]
+    x = station.exit_deg + np.linspace(-1.0, 361.0 - station.motion_deg, 20001)
+    R, slope, bend = _distances(station, x)
+    end = float(station.distances(station.exit_deg, 0)[1].c[0])
+    assert np.abs(R - end).max() < 0.15 * end
+    # Differences against the mean of both sides: their error is h times a bounded derivative.
+    h = np.radians(x[1] - x[0])
+    assert np.abs(np.diff(R) / h - 0.5 * (slope[1:] + slope[:-1])).max() < 1e-4
+    assert np.abs(np.diff(slope) / h - 0.5 * (bend[1:] + bend[:-1])).max() < 1e-2
+    assert np.abs(np.diff(bend)).max() < 100.0 * h
