@@ -115,7 +115,10 @@ def spherical(step: Step, ball: Sphere) -> tuple[Pose, Pose, Pose]:
     slope = across * ball.sin_a * cos_b + along * ball.cos_a * sin_b
     inward = across * ball.cos_a * cos_b - along * ball.sin_a * sin_b
     aside = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
-    middle_ = ball.sin_S * ball.cos_th - across  # sin(S - th)
+    # sin(S - th), where both are positive as sin² S cos² b / sin(S + th)
+    middle_ = ball.sin_S * ball.cos_th - across
+    if across > 0.0:
+        middle_ = (ball.sin_S * cos_b) ** 2 / (ball.sin_S * ball.cos_th + across)
     return (
         Pose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
         Pose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),

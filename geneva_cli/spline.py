@@ -2,6 +2,9 @@
 
 The coefficients are found in our own order of operations (see ``linear``), so that they are the
 same on every processor; SciPy's B-splines evaluate them.
+
+The third derivative of a spline through n even points moves by some 0.4 n³ of the share of its
+peak by which the points move: with doubles, 1e-10 at a hundred points, 1e-7 at a thousand.
 """
 
 from __future__ import annotations

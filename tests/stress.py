@@ -263,7 +263,21 @@ OTHERS = {
     "spherical": [
         SPHERE.format(z, axes)
         for z in (3, 10**6, 4, 6, 24, 1000)
-        for axes in (90.0, 60.0, 1e-3, 1.0, 30.0, 89.999999999, 90.000000001, 120.0, 179.0, 179.999)
+        for axes in (
+            3e-3,
+            90.0,
+            60.0,
+            1e-2,
+            1e-3,
+            1e-6,
+            1.0,
+            30.0,
+            89.999999999,
+            90.000000001,
+            120.0,
+            179.0,
+            179.999,
+        )
     ],
     "spherical, side-crank": [
         SPHERE.format(z, 60.0) + f"\ndrive = {{kind = 'side-crank', A = {A!r}}}"
