@@ -29,6 +29,7 @@ from geneva_cli.mechanism import build
 from geneva_cli.outline import CURVED, Outlines, outlines
 from geneva_cli.plane import plane
 from geneva_cli.sizes import sizes
+from geneva_cli.slot_ways import COVERED, _free
 from geneva_cli.straight_walls import straight_walls
 from geneva_cli.wheel import HELD, wheel_contour
 
@@ -579,3 +580,15 @@ def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     assert shape.is_valid
     assert apart(found, wanted) < FLAT + CURVED * L
     assert worst(found, wanted) < 2.0 * (FLAT + CURVED * L)
+
+
+def test_which_samples_are_free() -> None:
+    """Block by block as against the whole way at once, by shapely; a random walk among points."""
+    draw = np.random.default_rng(1)
+    way = np.cumsum(draw.normal(size=(300, 2)), axis=0)
+    points = np.cumsum(draw.normal(size=(500, 2)), axis=0)
+    apart_from = shapely.distance(shapely.points(points), LineString(way))
+    for w in (0.5, 2.0, 8.0):
+        free = _free(points, way, w, L)
+        assert 0 < free.sum() < len(free)
+        assert np.array_equal(free, apart_from > w - COVERED * L)
