@@ -44,20 +44,58 @@ def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
     ]
 
 
-def jammed(proof: Proof) -> str:
-    """Why a machine does not turn, where, and what would free it; nothing if it turns."""
-    from geneva_cli.clearances import jam, jams
+def verdict(proof: Proof) -> tuple[str, list[str]]:
+    """Why parts overlap or cannot be made; and what else `check` fails, each in words.
 
-    start = time.process_time()
-    failing = jams(proof)
-    if not failing:
-        return ""
-    rows = checks(proof.mechanism, proof)
-    adviser = Adviser(proof.mechanism, rows, time.process_time() - start)
-    names = {c.name for c in failing}
-    tried = (adviser.advice(c) for c in rows if c.name in names)
-    advice = next((said for said in tried if said), "")
-    return jam(failing, proof.turn) + (f"; {advice} would free it" if advice else "")
+    The first is empty where the parts can be written.
+    """
+    turn = None
+    refused, warned, advice = [], [], ""
+    for c in judged(proof.mechanism, proof):
+        if c.passes is not False:
+            continue
+        nearest = c.nearest if c.nearest != NONE else ""
+        if c.name == "full_turn":
+            refused.append(c.nearest)
+        elif c.must_be == "at least" and c.name.endswith("_mm") and (c.value or 0.0) < 0.0:
+            turn = turn or proof.turn
+            refused.append(said(c, turn.smallest.parts))
+            advice = advice or nearest
+        else:
+            warned.append(said(c) + (f"; {nearest} would pass" if nearest else ""))
+    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), warned
+
+
+def said(c: Check, parts: str = "parts") -> str:
+    """A check that fails, in words."""
+    from geneva_cli.clearances import NO_WALL
+
+    where = "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
+    value, limit = c.value or 0.0, c.limit or 0.0
+    if c.name == "gap_mm":
+        return f"{parts} overlap by {-value:.4g} mm{where}"
+    if c.name == "idle_roller_mm":
+        return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
+    if c.name in NO_WALL and value < 0.0:
+        return f"{NO_WALL[c.name]} by {-value:.4g} mm"
+    if c.name == "dwell_hold":
+        return "nothing holds the wheel in its dwell"
+    if c.name == "hand_over_play_deg":
+        return (
+            f"between lock and slot the wheel can turn by {value:.4g} deg{where}, more than the "
+            f"{limit:.4g} at which the roller still finds its slot"
+        )
+    if c.name == "hand_over_pressure_deg":
+        return (
+            f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
+            f"{limit:g}"
+        )
+    if c.name == "motion_play_deg":
+        return (
+            f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
+            f"{limit:.4g}"
+        )
+    return f"{c.name} is {value:.6g}{where}; it must be {c.must_be} {limit:.6g}"
 
 
 class _OutOfTime(Exception):
@@ -197,7 +235,7 @@ def _clears(mechanism: Mechanism, at_deg: float) -> float:
     from geneva_cli.outline import outlines
 
     found = outlines(mechanism)
-    return math.inf if gap_about(found, at_deg) >= -found.close else -math.inf
+    return math.inf if gap_about(found, at_deg) >= -found.contact else -math.inf
 
 
 def _spare(check: Check) -> float:

@@ -115,6 +115,7 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     if not is_flat(mechanism.spec):
         yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
         return
+    from geneva_cli.clash import NotProved
     from geneva_cli.clearances import clearances
     from geneva_cli.proof import Proof
 
@@ -125,8 +126,11 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
         yield Check("parts", 0.0, "at least", 1.0, False, str(error))
         return
     yield Check("dwell_hold", float(held), "at least", 1.0, held)
-    for c in clearances(proof):
-        yield Check(c.name, c.value, c.must_be, c.limit, c.passes, at_deg=c.at_deg)
+    try:
+        for c in clearances(proof):
+            yield Check(c.name, c.value, c.must_be, c.limit, c.passes, at_deg=c.at_deg)
+    except NotProved as error:
+        yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
 
 
 def _unturned(mechanism: Mechanism) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from geneva_cli.crank import is_whole
 from geneva_cli.drawing import Line, backwards, closed
-from geneva_cli.full_turn import FullTurn
+from geneva_cli.full_turn import FullTurn, Most
 from geneva_cli.keeps import keeps
 from geneva_cli.measure import turned
 from geneva_cli.outline import Outlines
@@ -19,8 +19,11 @@ from geneva_cli.proof import Proof
 from geneva_cli.station import LawDriven
 
 PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
+# Of a step, either way, in a slot: where the driving wall changes the wheel falls behind by twice
+# that, a tenth of its step, and strikes the other wall; a slot so wide does not set the motion.
+MOTION_PLAY_MAX = 0.05
 LOOKS = 400  # places at which the branches of a curved slot are compared
-_NO_WALL = {  # what it means that a wall is less than nothing
+NO_WALL = {  # what it means that a wall is less than nothing
     "wall_between_slots_mm": "neighbouring slots cut each other",
     "horn_mm": "the recess breaks into the slot",
     "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
@@ -69,22 +72,26 @@ def clearances(proof: Proof) -> Iterator[Clearance]:
 
 
 def turning(found: Outlines, turn: FullTurn) -> list[Clearance]:
-    """What a whole turn shows: no parts overlap, the wheel is held and pushed into line."""
-    smallest, close = turn.smallest, found.close
-    value = 0.0 if abs(smallest.mm) <= close else smallest.mm
-    rows = [clearance("gap_mm", value, smallest.at_deg, True, 0.0, close)]
+    """What a whole turn shows: no parts overlap, the wheel is held, pushed into line and led."""
+    smallest, touch = turn.smallest, found.contact
+    value = 0.0 if abs(smallest.mm) <= touch else smallest.mm
+    rows = [clearance("gap_mm", value, smallest.at_deg, True, 0.0, touch)]
     if turn.idle is not None:
-        gap = max(turn.idle.mm, 0.0) if turn.idle.mm >= -close else turn.idle.mm
-        rows.append(clearance("idle_roller_mm", gap, turn.idle.at_deg, True, 0.0, close))
-    if not found.crank:
-        return rows
-    limit, play, push = _finds_slot(found), turn.hand_over_deg, turn.push_deg
-    return [
-        *rows,
-        Clearance("dwell_play_deg", turn.dwell_play_deg, None, False, limit, True),
-        clearance("hand_over_play_deg", play, turn.hand_over_at_deg, False, limit),
-        clearance("hand_over_pressure_deg", push, turn.push_at_deg, False, PUSH_MAX_DEG),
-    ]
+        gap = max(turn.idle.mm, 0.0) if turn.idle.mm >= -touch else turn.idle.mm
+        rows.append(clearance("idle_roller_mm", gap, turn.idle.at_deg, True, 0.0, touch))
+    if found.crank:
+        limit = _finds_slot(found)
+        rows += [
+            _at_most("dwell_play_deg", turn.dwell, limit),
+            _at_most("hand_over_play_deg", turn.hand_over, limit),
+            _at_most("hand_over_pressure_deg", turn.push, PUSH_MAX_DEG),
+        ]
+    step = min(2.0 * math.degrees(station.half_step) for station in found.plane.kinds)
+    return [*rows, _at_most("motion_play_deg", turn.motion, MOTION_PLAY_MAX * step)]
+
+
+def _at_most(name: str, found: Most, limit: float) -> Clearance:
+    return clearance(name, found.deg, found.at_deg, False, limit)
 
 
 def gap_about(found: Outlines, at_deg: float) -> float:
@@ -93,48 +100,11 @@ def gap_about(found: Outlines, at_deg: float) -> float:
     A few positions instead of a whole turn: to look for a size that frees a machine there.
     """
     start, turn = found.plane.start_deg, found.plane.turn_deg
-    at = start + (at_deg + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
-    gap = float(found.clash.rollers(at).min())
-    return min(gap, float(found.clash.locking(at).min())) if found.crank else gap
-
-
-def jams(proof: Proof) -> list[Clearance]:
-    """The clearances for want of which a machine does not turn, or its parts cannot be cut."""
-    failing = [c for c in turning(proof.found, proof.turn) if not c.passes]
-    return failing + [wall for wall in _walls(proof.found) if wall.value < 0.0]
-
-
-def shortcomings(found: Outlines) -> list[str]:
-    """In words: the clearances of the parts that fail, though the parts can be cut and turn."""
-    return [
-        f"{c.name} is {c.value:.4g}, and must be {c.must_be} {c.limit:g}"
-        for c in (*_walls(found), *_shafts(found), *_branches(found))
-        if not c.passes
-    ]
-
-
-def jam(failing: list[Clearance], turn: FullTurn) -> str:
-    """Why a machine does not turn, and where, in words; nothing if it turns."""
-    said = []
-    for c in failing:
-        where = "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
-        if c.name == "gap_mm":
-            said.append(f"{turn.smallest.parts} overlap by {-c.value:.4g} mm{where}")
-        elif c.name == "idle_roller_mm":
-            said.append(f"an idle roller overlaps the wheel by {-c.value:.4g} mm{where}")
-        elif c.name in _NO_WALL:
-            said.append(f"{_NO_WALL[c.name]} by {-c.value:.4g} mm")
-        elif c.name == "hand_over_play_deg":
-            said.append(
-                f"at rest the wheel can turn by {c.value:.4g} deg{where}, more than the "
-                f"{c.limit:.4g} at which the roller still finds its slot"
-            )
-        else:
-            said.append(
-                f"the roller meets the wheel{where} at a pressure angle of {c.value:.4g} deg, "
-                f"above {c.limit:g}"
-            )
-    return "; ".join(said)
+    place = found.plane.place_deg(at_deg)
+    at = start + (place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
+    pose = found.clash.pose(at)
+    gap = float(found.clash.rollers(pose).min())
+    return min(gap, float(found.clash.locking(pose).min())) if found.crank else gap
 
 
 def _finds_slot(found: Outlines) -> float:

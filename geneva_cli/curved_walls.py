@@ -45,14 +45,16 @@ def curved_walls(
     plane: Plane, sizes: Sizes, station: LawDriven, tolerance: float, curves: str = "arcs"
 ) -> Contour:
     """A curved slot from one corner of its mouth round the bottom to the other, counterclockwise
-    about the wheel's axis; within ``tolerance`` mm of the true walls.
+    about the wheel's axis; within ``tolerance`` mm of the true walls, and never inside them.
 
-    ``curves`` is "arcs" or "cubics", what the walls become where they are no arcs. Raises
-    GenevaError where the walls do not close.
+    What is fitted is the slot of a roller larger by half the tolerance, so that no fit leaves
+    material in the roller's way. ``curves`` is "arcs" or "cubics", what the walls become where
+    they are no arcs. Raises GenevaError where the walls do not close.
     """
     pieces: list[Segment] = []
-    for piece in chain(plane, sizes, station):
-        pieces += _segments(piece, tolerance, curves)
+    half = 0.5 * tolerance
+    for piece in chain(plane, sizes._replace(half_width=sizes.half_width + half), station):
+        pieces += _segments(piece, half, curves)
     return Contour(LAYER, joined(pieces), closed=False)
 
 

@@ -9,13 +9,14 @@ against itself.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.outline import Outlines
+from geneva_cli.play import NEAR, Play, edges, play_of, push_deg, search_deg, windows
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,19 +25,14 @@ if TYPE_CHECKING:
 
 SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
 POSITIONS = 4000  # at most
-NEAR = 1e-9  # degrees: positions nearer to each other are one
 NO_PLAY = 1e-6  # degrees: a play as small as this is rounding
+SAME = 1e-7  # of a play: how nearly it is known
 DIP = 1e-9  # mm: a gap that is less by less is not
 DIPS = 12  # smallest gaps that are looked at more closely
 FINER = 9  # positions put around each of them, each time
 ROUNDS = 6
-STEPS_DEG = (1e-4, 1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 1.2, 2.5, 4.0, 6.0)  # of the wheel
-SEARCH_DEG = 6.0  # a play as large as this is none
-HALVINGS = 20
-CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and roller change over
-ENDS = 24  # positions there,
-DWELL = 4  # in the rest of a dwell, and
-MOTION = 16  # in the rest of a motion
+CHANGE_DEG = 15.0  # of the input, on either side of entry and exit,
+ENDS = 24  # there are that many positions
 
 
 class Gap(NamedTuple):
@@ -47,31 +43,31 @@ class Gap(NamedTuple):
     parts: str
 
 
-class Play(NamedTuple):
-    """How far the wheel can be turned from its place, back and on, degrees, at input angles."""
+class Most(NamedTuple):
+    """The greatest of an angle, degrees, and the input angle where it is."""
 
-    input_deg: Array
-    back: Array
-    on: Array
-    resting: NDArray[np.bool_]  # whether the wheel rests there
+    deg: float
+    at_deg: float
 
 
 class FullTurn(NamedTuple):
-    """What a whole turn shows.
+    """What a whole turn shows; input angles as ``Mechanism.shown_deg`` says.
 
-    ``dwell_play_deg`` is the wheel's play, either way, where the lock holds it best, in the
-    middle of a dwell; ``hand_over_deg`` the largest at rest, where the roller takes over;
-    ``push_deg`` the largest pressure angle at which a roller pushes the wheel into line there.
+    ``dwell`` is the wheel's play, either way, in the middle of a dwell, where the lock holds it
+    best; ``hand_over`` the largest where no roller is in its slot; ``motion`` where one is, and
+    both ways: a slot that drives from one wall alone is not held to be loose. ``push`` is the
+    largest pressure angle at which a roller pushes the wheel into line. A play as large as
+    ``free_deg``, half a step, is none: nothing holds the wheel.
     """
 
     driving: Gap
     idle: Gap | None
     lock: Gap | None
-    dwell_play_deg: float
-    hand_over_deg: float
-    hand_over_at_deg: float
-    push_deg: float
-    push_at_deg: float
+    dwell: Most
+    hand_over: Most
+    motion: Most
+    push: Most
+    free_deg: float
     play: Play
 
     @property
@@ -79,30 +75,50 @@ class FullTurn(NamedTuple):
         """The smallest gap of all."""
         return min((g for g in (self.driving, self.idle, self.lock) if g), key=lambda g: g.mm)
 
+    @property
+    def holds(self) -> bool:
+        """Whether crank and rollers hold the wheel in the middle of every dwell."""
+        return self.dwell.deg < self.free_deg
+
 
 def full_turn(outlines: Outlines) -> FullTurn:
-    """Turn the outlines of a machine through a whole turn of its crank."""
-    at = positions(outlines)
-    driving, idle, lock = _smallest(outlines, at)
-    play = _play(outlines)
-    resting = np.flatnonzero(play.resting)
-    most = np.maximum(play.back, play.on)[resting]
-    worst = resting[int(np.argmax(most))]
-    middles = np.array([0.5 * (a + b) for a, b, rests in windows(outlines) if rests])
-    dwell = float(np.degrees(np.maximum(*edges(outlines, middles)).max())) if len(middles) else 0.0
-    push, push_at = _push(outlines, play)
-    dwell = dwell if dwell > NO_PLAY else 0.0
+    """Turn the outlines of a machine through a whole turn of its crank.
+
+    Raises NotProved where that takes more than ``clash.WORK``.
+    """
+    outlines.clash.begin()
+    driving, idle, lock = _smallest(outlines, positions(outlines))
+    play = play_of(outlines)
+    most = search_deg(outlines)
+    middles = np.array([0.5 * (w.start + w.end) for w in windows(outlines) if w.rests])
+    dwell = np.degrees(np.maximum(*edges(outlines, middles))) if len(middles) else np.zeros(0)
+    push = push_deg(outlines, play)
+    place = outlines.plane.shown_deg
     return FullTurn(
-        driving,
-        idle,
-        lock if outlines.crank else None,
-        dwell,
-        float(most.max()),
-        float(play.input_deg[worst]),
-        push,
-        push_at,
+        _placed(driving, place),
+        _placed(idle, place) if idle else None,
+        _placed(lock, place) if outlines.crank else None,
+        _most(dwell, middles, place),
+        _most(play.either[~play.guided], play.input_deg[~play.guided], place),
+        _most(play.both[play.guided], play.input_deg[play.guided], place),
+        _most(push, play.input_deg[:-1], place),
+        most,
         play,
     )
+
+
+def _placed(gap: Gap, place: Callable[[float], float]) -> Gap:
+    return gap._replace(at_deg=place(gap.at_deg))
+
+
+def _most(values: Array, at: Array, place: Callable[[float], float]) -> Most:
+    """The greatest and its place: the middle of the first, where it stays as great for a while."""
+    if not len(values) or not values.max() > NO_PLAY:
+        return Most(0.0, 0.0)
+    same = values >= values.max() * (1.0 - SAME)
+    first = int(np.argmax(same))
+    after = int(np.argmin(np.append(same[first:], False)))
+    return Most(float(values.max()), place(float(at[first + (after - 1) // 2])))
 
 
 def positions(outlines: Outlines) -> Array:
@@ -130,8 +146,11 @@ def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
     def rollers(x: Array, idle: bool) -> Array:
         drives = _drives(outlines, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
-        out: Array = np.where(meanwhile == idle, clash.rollers(x), np.inf).min(axis=1)
+        out: Array = np.where(meanwhile == idle, clash.rollers(clash.pose(x)), np.inf).min(axis=1)
         return out
+
+    def crank(x: Array) -> Array:
+        return clash.locking(clash.pose(x))
 
     own, others = partial(rollers, idle=False), partial(rollers, idle=True)
 
@@ -139,7 +158,9 @@ def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
     return (
         _least(own, at, outlines.close, "roller and slot"),
         _least(others, at, outlines.close, "idle roller and wheel") if several else None,
-        _least(clash.locking, at, outlines.close, "locking disc and wheel"),
+        _least(
+            lambda x: clash.locking(clash.pose(x)), at, outlines.close, "locking disc and wheel"
+        ),
     )
 
 
@@ -179,79 +200,3 @@ def _least(gap: Callable[[Array], Array], at: Array, close: float, parts: str) -
     # A gap that stays the same for a while is said to be where it begins.
     early = np.flatnonzero(values <= found[0] + close)
     return Gap(found[0], float(at[early[0]]) if len(early) else found[1], parts)
-
-
-def _play(outlines: Outlines) -> Play:
-    """The wheel's play over a turn, closely where lock and roller change over."""
-    # In degrees of the input; the changes over take place within some degrees of the ends.
-    close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
-    found, resting = [], []
-    for a, b, rests in windows(outlines):
-        near = close * min(CHANGE_DEG, 0.5 * (b - a))
-        inside = np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1]
-        points = np.unique(np.concatenate((a + near, inside, b - near)))
-        found.append(points)
-        resting.append(np.full(len(points), rests))
-    at = np.concatenate(found)
-    back, on = edges(outlines, at)
-    return Play(at, np.degrees(back), np.degrees(on), np.concatenate(resting))
-
-
-def windows(outlines: Outlines) -> Iterator[tuple[float, float, bool]]:
-    """The motions and dwells of a turn: input angles at both ends, and whether the wheel rests."""
-    plane, rollers = outlines.plane, outlines.plane.rollers
-    for i, (station, behind) in enumerate(rollers):
-        after, later = rollers[(i + 1) % len(rollers)]
-        turns = plane.turn_deg if i + 1 == len(rollers) else 0.0
-        entry, exit_ = behind + station.entry_deg, behind + station.exit_deg
-        following = later + turns + after.entry_deg
-        yield entry, exit_, False
-        if following - exit_ > NEAR:
-            yield exit_, following, True
-
-
-def edges(outlines: Outlines, at: Array) -> tuple[Array, Array]:
-    """How far the wheel can be turned back and on at input angles, radians, until parts touch."""
-    ways = [_edge(outlines, at, way) for way in (-1.0, 1.0)]
-    return ways[0], ways[1]
-
-
-def _edge(outlines: Outlines, at: Array, way: float) -> Array:
-    def free(lead: Array, which: NDArray[np.intp]) -> NDArray[np.bool_]:
-        out: NDArray[np.bool_] = ~outlines.clash.collides(at[which], way * lead, outlines.close)
-        return out
-
-    # The first of ever wider steps that collides, then halving.
-    low, high = np.zeros(len(at)), np.full(len(at), math.radians(SEARCH_DEG))
-    open_ = np.ones(len(at), dtype=bool)
-    for step in np.radians(STEPS_DEG):
-        here = np.flatnonzero(open_)
-        if not len(here):
-            break
-        fine = free(np.full(len(here), step), here)
-        low[here[fine]], high[here[~fine]] = step, step
-        open_[here[~fine]] = False
-    here = np.flatnonzero(~open_)
-    for _ in range(HALVINGS if len(here) else 0):
-        middle = 0.5 * (low[here] + high[here])
-        fine = free(middle, here)
-        low[here[fine]], high[here[~fine]] = middle[fine], middle[~fine]
-    return low
-
-
-def _push(outlines: Outlines, play: Play) -> tuple[float, float]:
-    """The steepest that a roller pushes the wheel into line, as a pressure angle, and where.
-
-    While the wheel's play becomes less as the crank turns, something pushes it: at the rim by
-    rim * d(play), the roller moving by arm * d(crank).
-    """
-    plane, sizes = outlines.plane, outlines.sizes
-    crank = np.unwrap(plane.crank(play.input_deg))
-    moved = sizes.arm * np.abs(np.diff(crank))
-    closing = [-np.diff(edge) for edge in (play.back, play.on)]
-    push = sizes.rim * np.radians(np.maximum(*closing))
-    angle = np.degrees(np.arctan2(np.maximum(push, 0.0), np.maximum(moved, 1e-12)))
-    # Slots hold the wheel from their flanks in the motion; only what rests is pushed into line.
-    angle = np.where(play.resting[:-1] & play.resting[1:], angle, 0.0)
-    worst = int(np.argmax(angle))
-    return float(angle[worst]), float(play.input_deg[worst])

@@ -19,6 +19,7 @@ from geneva_cli.offset_slot import OffsetDriven, skew
 from geneva_cli.size_rules import refuse_sizes
 from geneva_cli.station import Anchor, LawDriven, LawMotion, SlotDriven, SphereDriven, Station
 
+ROUNDING_DEG = 1e-9
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
@@ -46,6 +47,19 @@ class Mechanism(NamedTuple):
         """The motion law, where the motion is given."""
         station = self.stations[0]
         return station.law if isinstance(station, LawMotion) else None
+
+    def shown_deg(self, input_deg: float) -> float:
+        """An input angle as it is shown: between -180 and 180 from the machine's mid-motion.
+
+        Over a period of several turns it is counted from the first engagement's entry.
+        """
+        whole = 360.0 * kinds.turns(self.spec)
+        if whole == 360.0:
+            return math.remainder(input_deg, whole)
+        entry = self.stations[0].mid_deg + self.stations[0].entry_deg
+        # What rounding put before the entry is at it.
+        after = (input_deg - entry) % whole
+        return entry + (after if whole - after > ROUNDING_DEG else 0.0)
 
     def index_deg(self, i: int) -> float:
         """The wheel's step at a station."""

@@ -84,8 +84,15 @@ def _title(found: Outlines, part: str) -> str:
 
 def _wheel(found: Outlines, tolerance: float, curves: str) -> list[Shape]:
     plane, sizes = found.plane, found.sizes
-    walls = {s: slot_walls(plane, sizes, s, tolerance, curves) for s in found.slots}
-    return [wheel_contour(plane, sizes, walls), *wheel_circles(plane, sizes)]
+    return [_outline(found, tolerance, curves), *wheel_circles(plane, sizes)]
+
+
+def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
+    """The wheel's outline: the one that was turned, unless other curves or finer ones are asked."""
+    if curves == "arcs" and tolerance == found.fine:
+        return found.wheel
+    walls = {s: slot_walls(found.plane, found.sizes, s, tolerance, curves) for s in found.slots}
+    return wheel_contour(found.plane, found.sizes, walls)
 
 
 def _crank(found: Outlines) -> list[Shape]:

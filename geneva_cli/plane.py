@@ -8,6 +8,8 @@ the crank is where, so behind one the crank itself is turned.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -16,7 +18,7 @@ from geneva_cli import kinds
 from geneva_cli.classic import SIGN
 from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
-from geneva_cli.keys import Drive
+from geneva_cli.keys import Drive, Spec
 from geneva_cli.mechanism import Mechanism, build
 from geneva_cli.station import Station
 
@@ -40,6 +42,25 @@ class Plane(NamedTuple):
     rollers: tuple[tuple[Station, float], ...]
     slots: tuple[tuple[Station, float], ...]
     rests: tuple[float, ...]
+    given: Mechanism  # as it was, with what drives its crank
+    to_input: Callable[[float], float]  # input angle, degrees, of ``given`` for one of here
+
+    def shown_deg(self, input_deg: float) -> float:
+        """An input angle of here as every command shows it: that of the machine's own input."""
+        return self.given.shown_deg(self.to_input(input_deg))
+
+    def place_deg(self, shown_deg: float) -> float:
+        """The input angle of here that is shown so, to a hundredth of a degree."""
+        low, high = self.start_deg, self.start_deg + self.turn_deg
+        whole = 360.0 * kinds.turns(self.given.spec)
+        best = low
+        for _ in range(3):
+            grid = np.linspace(low, high, 361)
+            off = [abs(math.remainder(self.to_input(x) - shown_deg, whole)) for x in grid]
+            best = float(grid[int(np.argmin(off))])
+            step = (high - low) / 180.0
+            low, high = best - step, best + step
+        return best
 
     def pin(self, number: int, input_deg: Array) -> Array:
         """A roller's centre at input angles, (n, 2)."""
@@ -115,7 +136,9 @@ def plane(mechanism: Mechanism) -> Plane:
         raise GenevaError(
             f"z = {spec.wheel.z}: parts are drawn for up to {kinds.Z_DRAWN} slots", ("wheel", "z")
         )
+    given, to_input = mechanism, _same
     if mechanism.law is None and not kinds.own_path(spec.drive.kind):
+        to_input = partial(_input_deg, spec)
         keep = spec.drive
         crank = Drive("crank", keep.n_rpm, keep.rollers, keep.roller_angles_deg)
         mechanism = build(spec._replace(drive=crank, kind=None))
@@ -128,7 +151,23 @@ def plane(mechanism: Mechanism) -> Plane:
     )
     L = spec.size.center_distance_mm
     sign = SIGN[spec.wheel.gearing]
-    return Plane(mechanism, L, sign, turn, rollers, *_around(mechanism))
+    return Plane(mechanism, L, sign, turn, rollers, *_around(mechanism), given, to_input)
+
+
+def _same(input_deg: float) -> float:
+    return input_deg
+
+
+def _input_deg(spec: Spec, crank_deg: float) -> float:
+    """The input angle at which a drive's crank has turned so far from mid-motion.
+
+    The drive's law is known for one turn of the crank, or of a first wheel one step, about that.
+    """
+    module = kinds.module(spec.drive.kind)
+    reach = module.reach_deg(spec.kind) if hasattr(module, "reach_deg") else 180.0
+    turns = round(crank_deg / (2.0 * reach))
+    front = module.front(spec)(crank_deg - 2.0 * reach * turns)
+    return 360.0 * turns + float(front.input_deg)
 
 
 def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Station, float], ...], tuple[float, ...]]:

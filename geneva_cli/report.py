@@ -246,10 +246,10 @@ def _parts(proof: Proof) -> dict[str, Any]:
     if not is_flat(proof.mechanism.spec):
         return values
     try:
-        found = proof.found
+        found, turn = proof.found, proof.turn
     except GenevaError as error:
         return values | {"parts.none": str(error)}
-    size, turn, gap = found.sizes, proof.turn, proof.turn.smallest
+    size, gap = found.sizes, turn.smallest
     locked = bool(found.crank)
     return values | {
         "parts.rim_radius_mm": size.rim,
@@ -260,9 +260,9 @@ def _parts(proof: Proof) -> dict[str, Any]:
         "parts.horn_mm": size.horn if locked else None,
         "parts.wheel_bore_mm": 2.0 * size.wheel_bore,
         "parts.crank_bore_mm": 2.0 * size.crank_bore,
-        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > found.close else 0.0,
+        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > found.contact else 0.0,
         "parts.smallest_gap_at_deg": gap.at_deg,
-        "parts.dwell_play_deg": turn.dwell_play_deg if locked else None,
+        "parts.dwell_play_deg": turn.dwell.deg if locked else None,
     }
 
 

@@ -21,7 +21,7 @@ from geneva_cli.clash import Clash
 from geneva_cli.crank import reliefs
 from geneva_cli.drawing import Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.full_turn import SEARCH_DEG, FullTurn, full_turn
+from geneva_cli.full_turn import FullTurn, full_turn
 from geneva_cli.keys import Motion
 from geneva_cli.kinds import is_flat
 from geneva_cli.laws import LAWS
@@ -60,7 +60,7 @@ def finds_slot(found: Outlines) -> float:
 
 
 def passes(found: Outlines, turn: FullTurn) -> bool:
-    held = not found.crank or turn.hand_over_deg <= finds_slot(found)
+    held = not found.crank or turn.hand_over.deg <= finds_slot(found)
     return turn.smallest.mm >= -found.close and held
 
 
@@ -122,7 +122,7 @@ def test_play_in_the_dwell(z: int, c: float) -> None:
     seen = math.asin(size.rim / size.recess * math.sin(opening(size.rim, size.recess)))
     assert exact == pytest.approx(c / (L * math.sin(seen)), rel=2.0 * c / size.lock)
     # the search ends after 20 halvings of a step that is a few times the play
-    assert full_turn(found).dwell_play_deg == pytest.approx(math.degrees(exact), rel=1e-4)
+    assert full_turn(found).dwell.deg == pytest.approx(math.degrees(exact), rel=1e-4)
 
 
 def test_play_in_the_dwell_of_an_internal_wheel() -> None:
@@ -133,7 +133,7 @@ def test_play_in_the_dwell_of_an_internal_wheel() -> None:
     assert half <= math.radians(60.0) + 1e-12
     wanted = math.degrees(0.1 / (L * math.sin(half)))
     # the next order: the play's way over the sector's width
-    assert full_turn(found).dwell_play_deg == pytest.approx(wanted, rel=0.1 / found.sizes.lock)
+    assert full_turn(found).dwell.deg == pytest.approx(wanted, rel=0.1 / found.sizes.lock)
 
 
 @pytest.mark.parametrize("case", [STRAIGHT[1], STRAIGHT[3], CURVED_SLOTS[4]], ids=name)
@@ -376,8 +376,9 @@ def test_a_relief_too_wide_holds_nothing() -> None:
     wrong = spoilt(found, crank=[sector_crank(found, math.radians(60.0))])
     turn = full_turn(wrong)
     assert turn.smallest.mm >= -found.close
-    assert turn.hand_over_deg == pytest.approx(SEARCH_DEG, rel=1e-9)
-    assert turn.hand_over_deg > finds_slot(found)
+    assert turn.hand_over.deg == turn.free_deg == pytest.approx(30.0)
+    assert not full_turn(made(6, lock_radius_mm=0.0)).holds
+    assert turn.hand_over.deg > finds_slot(found)
     assert not passes(wrong, turn)
 
 
@@ -403,5 +404,5 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     # the needle is 0.013 mm thick, and the wheel's corner comes beside its point
     assert turn.lock.mm == pytest.approx(-0.013, abs=0.008)
     assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
-    assert wrong.clash.locking(np.arange(-60.0, 300.0)).min() >= -found.close
+    assert wrong.clash.locking(wrong.clash.pose(np.arange(-60.0, 300.0))).min() >= -found.close
     assert passes(found, full_turn(found))

@@ -69,34 +69,28 @@ def run(
             raise GenevaError("--samples is for tables of points; drawings take --tolerance")
         from geneva_cli.outline import outlines
 
-        return outlines(mechanism)
+        return outlines(mechanism, tolerance)
 
     mechanism, found = load_and(spec, lambda m: (m, make(m)))
     if isinstance(found, Table):
         show(found, output, format, mechanism.spec.files)
     else:
-        _refuse_jam(found, force)
+        _judge(found, force)
         drawing = part_drawing(found, part, tolerance, CURVES[curves])
         draw(drawing, output, format, units, mechanism.spec.files)
     warn(mechanism)
 
 
-def _refuse_jam(found: Outlines, force: bool) -> None:
-    """Exit status 1 for a machine that does not turn or cannot be cut; forced, a warning only.
-
-    What else `check` fails of the parts is a warning.
-    """
-    from geneva_cli.advice import jammed
-    from geneva_cli.clearances import shortcomings
+def _judge(found: Outlines, force: bool) -> None:
+    """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
+    from geneva_cli.advice import verdict
     from geneva_cli.proof import Proof
 
-    why = jammed(Proof(found.plane.mechanism, found))
-    path = found.plane.mechanism.spec.path
-    if not why:
-        for said in shortcomings(found):
-            print(clean(f"{path}: warning: {said}"), file=sys.stderr)
-        return
-    text = f"warning: {why}" if force else f"not written: {why}; --force writes it all the same"
-    print(clean(f"{path}: {text}"), file=sys.stderr)
-    if not force:
+    path = found.plane.given.spec.path
+    refused, warned = verdict(Proof(found.plane.given, found))
+    if refused and not force:
+        text = f"not written: {refused}; --force writes it all the same"
+        print(clean(f"{path}: {text}"), file=sys.stderr)
         raise typer.Exit(1)
+    for text in [refused, *warned] if refused else warned:
+        print(clean(f"{path}: warning: {text}"), file=sys.stderr)
