@@ -84,13 +84,13 @@ def made_once():
     """Outlines, full turns, walls and cautions: the same spec has the same ones."""
 
     def of_outlines(found):
-        return found.plane.mechanism.spec
+        return found.plane.given.spec, found.fine
 
-    def of_mechanism(mechanism):
-        return mechanism.spec
+    def of_mechanism(mechanism, tolerance=0.0):
+        return mechanism.spec, tolerance
 
     def of_slot(plane, sizes, station):
-        return id(plane), id(sizes), id(station)
+        return id(plane), sizes, id(station)
 
     outlines = kept(outline.outlines, of_mechanism)
     turned = kept(full_turn.full_turn, of_outlines)
