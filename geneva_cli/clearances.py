@@ -91,7 +91,7 @@ def turning(found: Outlines, turn: FullTurn) -> list[Clearance]:
 
 
 def _at_most(name: str, found: Most, limit: float) -> Clearance:
-    return clearance(name, found.deg, found.at_deg, False, limit)
+    return clearance(name, found.deg, found.at_deg if found.deg else None, False, limit)
 
 
 def gap_about(found: Outlines, at_deg: float) -> float:
