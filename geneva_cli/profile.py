@@ -53,7 +53,8 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     L = size.center_distance_mm
     offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
     back = retraces(station)
-    input_deg = np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg)
+    if back:
+        input_deg = np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg)
     at = pitch_at(station, input_deg, back)
     # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
     # flanks keep the sides they had on the way in.
