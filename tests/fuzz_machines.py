@@ -4,6 +4,7 @@ import math
 
 from geneva_cli import drives, keys
 from geneva_cli.laws import NAMES as LAWS
+from geneva_cli.layout import LOADED
 from geneva_cli.spec import fields
 
 LOADS = {"inertia_kgm2": 0.05, "torque_Nm": 3.0, "friction": 0.1}
@@ -194,10 +195,12 @@ def machine_text(rng):
             text.append(
                 f"{field.key} = " + (f'"{value}"' if field.key == "relief" else repr(value))
             )
-    for table, about in (("load", LOADS), ("limits", LIMITS)):
-        text.append(f"[{table}]")
+    given = {}
+    for about in (LOADS, LIMITS):
         often = rng.choice([0.0, 0.3, 0.8])
-        for key, value in about.items():
-            if rng.random() < often:
-                text.append(f"{key} = {near(rng, value, 0.5)!r}")
+        given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
+    if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
+        given.setdefault("inertia_kgm2", near(rng, LOADS["inertia_kgm2"], 0.5))
+    for table, about in (("load", LOADS), ("limits", LIMITS)):
+        text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
     return "\n".join(text) + "\n"

@@ -125,11 +125,24 @@ def test_a_law_of_a_gigabyte():
     refused(["peaks", "spec.toml"], "law.csv: ", "larger than")
 
 
-def test_a_law_of_too_many_points():
-    rows = "".join(f"{i / 200_000!r},{i / 200_000!r}\n" for i in range(200_001))
-    put("law.csv", rows)
+@pytest.mark.parametrize(("rows", "line"), [(5_001, 0), (20_001, 2), (200_001, 2)])
+def test_a_law_of_too_many_points(rows, line):
+    """Points that lie closer than the derivatives of a spline can tell are too many."""
+    put("law.csv", "".join(f"{i / (rows - 1)!r},{i / (rows - 1)!r}\n" for i in range(rows)))
     put("spec.toml", WHEEL + '[motion]\nlaw = "table"\nfile = "law.csv"\n')
-    refused(["peaks", "spec.toml"], "law.csv:100001: ", "more than")
+    if line:
+        refused(["peaks", "spec.toml"], f"law.csv:{line}: ", "by 9e-05 or more", "thin them out")
+        return
+    status, said, _, seconds = run("peaks", "spec.toml")
+    assert status == 0, said
+    assert seconds < CPU
+
+
+def test_ratios_of_too_many_points():
+    put("ratio.csv", "".join(f"{i / 500!r},1\n" for i in range(180_001)))
+    gears = '[drive]\nkind = "noncircular-gears"\nratio_file = "ratio.csv"\n'
+    put("spec.toml", WHEEL + gears)
+    refused(["peaks", "spec.toml"], "ratio.csv:100001: ", "more than 100000 points", "thin them")
 
 
 def test_too_many_rollers_and_slots():

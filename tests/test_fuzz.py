@@ -142,7 +142,7 @@ FILES = [
     "a\0b",
 ]
 # a file, an option, an argument's name, or the usage of the whole
-FILE = r"(spec|other|gone)\.toml|law\.csv|\.:|/|<std\w+>|'a\\x00b'"
+FILE = r"(spec|other|gone)\.toml|law\.csv|x+\.*x*\.csv|\.:|/|<std\w+>|'a\\x00b'"
 PLACES = re.compile(rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}|\S+: cannot read")
 
 
