@@ -8,7 +8,7 @@ from geneva_cli.mechanism import Mechanism, matched_ratio_of
 from geneva_cli.peaks import QUANTITIES
 from geneva_cli.pitch import retraces
 from geneva_cli.roots import extrema
-from geneva_cli.station import LawDriven, LawMotion, Station
+from geneva_cli.station import LawDriven, LawMotion
 from geneva_cli.units import DEGREE
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
@@ -28,7 +28,7 @@ def cautions(mechanism: Mechanism) -> list[str]:
     station = mechanism.stations[0]
     if not isinstance(station, LawMotion):
         return out
-    back = turns_back(station)
+    back = turns_back(mechanism)
     if back:
         out.append(
             f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; "
@@ -55,9 +55,9 @@ def _no_lock(mechanism: Mechanism) -> bool:
     return mechanism.spec.size.lock_radius_mm == 0.0 or mechanism.spec.drive.kind in UNLOCKED
 
 
-def turns_back(station: Station) -> tuple[float, float] | None:
+def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     """The least velocity and its input angle, where the wheel turns against its direction."""
-    pick = QUANTITIES["velocity"]
+    station, pick = mechanism.stations[0], QUANTITIES["velocity"]
 
     def curve(x: float) -> tuple[float, float, float]:
         v, a, j = pick(station.motion(x, 3).derivatives())
@@ -71,7 +71,7 @@ def turns_back(station: Station) -> tuple[float, float] | None:
     # Rounding leaves a law that stands still a few units in its last place on either side of 0.
     noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
     value = curve(least)[0]
-    return (value, least) if value < -noise else None
+    return (value, mechanism.shown_deg(station.mid_deg + least)) if value < -noise else None
 
 
 def _off_the_mid_condition(mechanism: Mechanism) -> str:

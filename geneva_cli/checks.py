@@ -78,7 +78,7 @@ def _motion(mechanism: Mechanism) -> Asked:
             asked[name] = partial(_convexity, mechanism, name)
     station = mechanism.stations[0]
     if isinstance(station, LawMotion):
-        asked["velocity_min"] = lambda: _forwards(station)
+        asked["velocity_min"] = lambda: _forwards(mechanism)
     if isinstance(station, LawDriven):
         if mechanism.spec.limits.pressure_angle_max_deg is None:
             asked["pressure_angle_deg"] = partial(_pressure, mechanism, 90.0)
@@ -97,8 +97,8 @@ def _convexity(mechanism: Mechanism, name: str) -> Check:
     return _held(name, least, "above", 0.0)
 
 
-def _forwards(station: LawMotion) -> Check:
-    value, at_deg = turns_back(station) or (0.0, None)
+def _forwards(mechanism: Mechanism) -> Check:
+    value, at_deg = turns_back(mechanism) or (0.0, None)
     return _held("velocity_min", value, "at least", 0.0, at_deg)
 
 

@@ -185,4 +185,5 @@ def _branches(found: Outlines) -> Iterator[Clearance]:
     for name, gap in (("branches_apart_mm", apart), ("branches_crossed_mm", -apart)):
         i = int(np.argmax(gap))
         value = max(float(gap[i]), 0.0)
-        yield clearance(name, value, float(t[i]), False, limit)
+        at_deg = found.plane.given.shown_deg(station.mid_deg + float(t[i]))
+        yield clearance(name, value, at_deg, False, limit)

@@ -71,7 +71,7 @@ def greatest(mechanism: Mechanism, quantity: str) -> Greatest:
     for station in mechanism.stations:
         found = _greatest(station, setting(mechanism))[quantity]
         if found.max > best.max:
-            best = Greatest(found.max, station.mid_deg + found.at_deg)
+            best = Greatest(found.max, mechanism.shown_deg(station.mid_deg + found.at_deg))
     return best
 
 

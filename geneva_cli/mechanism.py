@@ -58,8 +58,8 @@ class Mechanism(NamedTuple):
             return math.remainder(input_deg, whole)
         entry = self.stations[0].mid_deg + self.stations[0].entry_deg
         # What rounding put before the entry is at it.
-        after = (input_deg - entry) % whole
-        return entry + (after if whole - after > ROUNDING_DEG else 0.0)
+        periods = math.floor((input_deg - entry + ROUNDING_DEG) / whole)
+        return max(input_deg - periods * whole, entry)
 
     def index_deg(self, i: int) -> float:
         """The wheel's step at a station."""

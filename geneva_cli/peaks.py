@@ -133,7 +133,7 @@ def peaks(station: Station) -> Peaks:
 
 def worst(mechanism: Mechanism) -> Peaks:
     """The greatest peaks over all stations; angles are the machine's input angles."""
-    each = [_placed(peaks(s), s.mid_deg) for s in mechanism.stations]
+    each = [placed(mechanism, s) for s in mechanism.stations]
 
     def greatest(candidates: list[Peak]) -> Peak:
         best = candidates[0]
@@ -150,9 +150,12 @@ def worst(mechanism: Mechanism) -> Peaks:
     )
 
 
-def _placed(found: Peaks, mid_deg: float) -> Peaks:
+def placed(mechanism: Mechanism, station: Station) -> Peaks:
+    """A station's peaks, their angles the machine's input angles."""
+    found = peaks(station)
+
     def moved(p: Peak) -> Peak:
-        return Peak(p.max, mid_deg + p.at_deg)
+        return Peak(p.max, mechanism.shown_deg(station.mid_deg + p.at_deg))
 
     return Peaks(
         moved(found.velocity),
@@ -167,7 +170,7 @@ def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, then those of each station where the stations differ (None if not)."""
     times = timings(mechanism)
     rows = [
-        _record(_placed(peaks(station), station.mid_deg))
+        _record(placed(mechanism, station))
         | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
         for station, time in zip(mechanism.stations, times, strict=True)
     ]

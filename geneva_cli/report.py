@@ -14,7 +14,7 @@ from geneva_cli.keys import Limits, Load
 from geneva_cli.kinds import is_flat
 from geneva_cli.load_cautions import load_cautions
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.peaks import Peaks, peaks, worst
+from geneva_cli.peaks import Peaks, placed, worst
 from geneva_cli.proof import Proof
 from geneva_cli.station import LawDriven, Station
 from geneva_cli.table import Table, record_table, rows_table
@@ -85,7 +85,7 @@ def _inputs(mechanism: Mechanism) -> dict[str, Any]:
 def _stations(mechanism: Mechanism) -> dict[str, Any]:
     """Timing and peaks; where the stations differ, what they share and their worst, then each."""
     each = [
-        _timing(mechanism, i) | _peaks(mechanism, peaks(s), s.mid_deg)
+        _timing(mechanism, i) | _peaks(mechanism, placed(mechanism, s))
         for i, s in enumerate(mechanism.stations)
     ]
     if len(each) == 1:
@@ -96,7 +96,7 @@ def _stations(mechanism: Mechanism) -> dict[str, Any]:
         same = all(e[name] is not None for e in each) and high - low <= 1e-12 * abs(high)
         shared[name] = each[0][name] if same else None
     rows = rows_table(tuple(each[0]), [tuple(e.values()) for e in each])
-    return shared | _peaks(mechanism, worst(mechanism), 0.0) | {"stations": rows}
+    return shared | _peaks(mechanism, worst(mechanism)) | {"stations": rows}
 
 
 # In words, where the name of a kind is none that stands behind an article.
@@ -159,7 +159,7 @@ def _timing(mechanism: Mechanism, i: int) -> dict[str, Any]:
     return values
 
 
-def _peaks(mechanism: Mechanism, found: Peaks, mid_deg: float) -> dict[str, Any]:
+def _peaks(mechanism: Mechanism, found: Peaks) -> dict[str, Any]:
     w = omega(mechanism.spec.drive.n_rpm)
     values: dict[str, Any] = {}
     rows = (
@@ -170,7 +170,7 @@ def _peaks(mechanism: Mechanism, found: Peaks, mid_deg: float) -> dict[str, Any]
     )
     for name, peak, scale, unit in rows:
         values[f"{name}.max"] = peak.max
-        values[f"{name}.at_deg"] = mid_deg + peak.at_deg
+        values[f"{name}.at_deg"] = peak.at_deg
         values[f"{name}.max_{unit}"] = peak.max * scale
         if name == "acceleration":
             entry = found.ends.acceleration_entry

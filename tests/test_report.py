@@ -43,7 +43,7 @@ def test_failed_checks_stand_on_top_and_end_as_check_does(tmp_path: Path) -> Non
     assert list(tree)[:4] == ["spec", "title", "passes", "checks_failed"]
     assert tree["passes"] is False
     (failed,) = tree["checks_failed"]
-    assert re.match(r"gap_mm = -9\.17\d* at [\d.]+ deg, must be at least 0; nearest", failed)
+    assert re.match(r"gap_mm = -9\.17\d* at -?[\d.]+ deg, must be at least 0; nearest", failed)
     text = run("report", spec).stdout
     assert text.index("gap_mm = -9.17") < text.index("timing")
     for format in ("csv", "md"):
