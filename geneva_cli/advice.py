@@ -29,8 +29,10 @@ NEARLY = 0.02  # of the way to a value that passes: near enough to the nearest, 
 # Keys that change no part: the parts need not be turned again.
 APART = (("drive", "n_rpm"), ("size", "face_width_mm"), ("wheel", "held_by"))
 GAPS = ("gap_mm", "idle_roller_mm")
+# A roller that does not find its slot, or meets the rim beside it, jams.
+JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
 # Checks that only a whole turn can answer.
-TURNED = ("hand_over_play_deg", "hand_over_pressure_deg", "dwell_play_deg", "motion_play_deg")
+TURNED = (*JAMS, "dwell_hold", "dwell_play_deg", "motion_play_deg")
 
 
 def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
@@ -45,7 +47,7 @@ def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
 
 
 def verdict(proof: Proof) -> tuple[str, list[str]]:
-    """Why parts overlap or cannot be made; and what else `check` fails, each in words.
+    """Why parts jam or cannot be made; and what else `check` fails, each in words.
 
     The first is empty where the parts can be written.
     """
@@ -57,7 +59,9 @@ def verdict(proof: Proof) -> tuple[str, list[str]]:
         nearest = c.nearest if c.nearest != NONE else ""
         if c.name == "full_turn":
             refused.append(c.nearest)
-        elif c.must_be == "at least" and c.name.endswith("_mm") and (c.value or 0.0) < 0.0:
+        elif c.name in JAMS or (
+            c.must_be == "at least" and c.name.endswith("_mm") and (c.value or 0.0) < 0.0
+        ):
             turn = turn or proof.turn
             refused.append(said(c, turn.smallest.parts))
             advice = advice or nearest

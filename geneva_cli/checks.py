@@ -17,6 +17,7 @@ from geneva_cli.peaks import Peaks, worst
 from geneva_cli.station import LawDriven, LawMotion
 
 if TYPE_CHECKING:
+    from geneva_cli.clearances import Clearance
     from geneva_cli.proof import Proof
 
 
@@ -116,21 +117,28 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
         yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
         return
     from geneva_cli.clash import NotProved
-    from geneva_cli.clearances import clearances
+    from geneva_cli.clearances import clearances, turning
     from geneva_cli.proof import Proof
 
     proof = proof or Proof(mechanism)
     try:
-        held = bool(proof.found.sizes.lock) or mechanism.spec.wheel.held_by is not None
+        standing = list(clearances(proof.found))
     except GenevaError as error:
         yield Check("parts", 0.0, "at least", 1.0, False, str(error))
         return
-    yield Check("dwell_hold", float(held), "at least", 1.0, held)
+    yield from map(_cleared, standing)
     try:
-        for c in clearances(proof):
-            yield Check(c.name, c.value, c.must_be, c.limit, c.passes, at_deg=c.at_deg)
+        turn = proof.turn
     except NotProved as error:
         yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
+        return
+    held = mechanism.spec.wheel.held_by is not None or turn.holds
+    yield Check("dwell_hold", float(held), "at least", 1.0, held)
+    yield from map(_cleared, turning(proof.found, turn))
+
+
+def _cleared(c: Clearance) -> Check:
+    return Check(c.name, c.value, c.must_be, c.limit, c.passes, at_deg=c.at_deg)
 
 
 def _unturned(mechanism: Mechanism) -> str:

@@ -15,7 +15,6 @@ from geneva_cli.keeps import keeps
 from geneva_cli.measure import turned
 from geneva_cli.outline import Outlines
 from geneva_cli.polyarc import Polyarc
-from geneva_cli.proof import Proof
 from geneva_cli.station import LawDriven
 
 PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
@@ -62,13 +61,11 @@ def clearance(
     return Clearance(name, value, at_deg, at_least, limit, passes)
 
 
-def clearances(proof: Proof) -> Iterator[Clearance]:
-    """All clearances of a machine's parts, those last that need a whole turn."""
-    found = proof.found
+def clearances(found: Outlines) -> Iterator[Clearance]:
+    """The clearances of a machine's parts as they stand, without turning them."""
     yield from _walls(found)
     yield from _shafts(found)
     yield from _branches(found)
-    yield from turning(found, proof.turn)
 
 
 def turning(found: Outlines, turn: FullTurn) -> list[Clearance]:
@@ -86,8 +83,13 @@ def turning(found: Outlines, turn: FullTurn) -> list[Clearance]:
             _at_most("hand_over_play_deg", turn.hand_over, limit),
             _at_most("hand_over_pressure_deg", turn.push, PUSH_MAX_DEG),
         ]
+    return [*rows, _at_most("motion_play_deg", turn.motion, motion_play_max(found))]
+
+
+def motion_play_max(found: Outlines) -> float:
+    """The play, degrees either way, up to which a slot sets the wheel's motion."""
     step = min(2.0 * math.degrees(station.half_step) for station in found.plane.kinds)
-    return [*rows, _at_most("motion_play_deg", turn.motion, MOTION_PLAY_MAX * step)]
+    return MOTION_PLAY_MAX * step
 
 
 def _at_most(name: str, found: Most, limit: float) -> Clearance:

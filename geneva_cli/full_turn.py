@@ -55,7 +55,8 @@ class FullTurn(NamedTuple):
 
     ``dwell`` is the wheel's play, either way, in the middle of a dwell, where the lock holds it
     best; ``hand_over`` the largest where no roller is in its slot; ``motion`` where one is, and
-    both ways: a slot that drives from one wall alone is not held to be loose. ``push`` is the
+    both ways: a slot that drives from one wall alone is not held to be loose. There ``ahead`` and
+    ``behind`` are what the wheel is free one way, whatever the other. ``push`` is the
     largest pressure angle at which a roller pushes the wheel into line. A play as large as
     ``free_deg``, half a step, is none: nothing holds the wheel.
     """
@@ -66,6 +67,8 @@ class FullTurn(NamedTuple):
     dwell: Most
     hand_over: Most
     motion: Most
+    ahead: Most
+    behind: Most
     push: Most
     free_deg: float
     play: Play
@@ -78,7 +81,7 @@ class FullTurn(NamedTuple):
     @property
     def holds(self) -> bool:
         """Whether crank and rollers hold the wheel in the middle of every dwell."""
-        return self.dwell.deg < self.free_deg
+        return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
 def full_turn(outlines: Outlines) -> FullTurn:
@@ -94,13 +97,16 @@ def full_turn(outlines: Outlines) -> FullTurn:
     dwell = np.degrees(np.maximum(*edges(outlines, middles))) if len(middles) else np.zeros(0)
     push = push_deg(outlines, play)
     place = outlines.plane.shown_deg
+    led = play.input_deg[play.guided]
     return FullTurn(
         _placed(driving, place),
         _placed(idle, place) if idle else None,
         _placed(lock, place) if outlines.crank else None,
         _most(dwell, middles, place),
         _most(play.either[~play.guided], play.input_deg[~play.guided], place),
-        _most(play.both[play.guided], play.input_deg[play.guided], place),
+        _most(play.both[play.guided], led, place),
+        _most(play.on[play.guided], led, place),
+        _most(play.back[play.guided], led, place),
         _most(push, play.input_deg[:-1], place),
         most,
         play,

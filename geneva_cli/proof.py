@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from geneva_cli.clash import NotProved
 from geneva_cli.full_turn import FullTurn, full_turn
 from geneva_cli.mechanism import Mechanism
 from geneva_cli.outline import Outlines, outlines
@@ -21,7 +22,17 @@ class Proof:
         """The outlines; raises GenevaError where the sizes leave none."""
         return self.made or outlines(self.mechanism)
 
-    @cached_property
+    @property
     def turn(self) -> FullTurn:
-        """What a whole turn shows."""
-        return full_turn(self.found)
+        """What a whole turn shows; raises NotProved where that takes too long."""
+        if isinstance(self._turned, NotProved):
+            raise self._turned
+        return self._turned
+
+    @cached_property
+    def _turned(self) -> FullTurn | NotProved:
+        # That it takes too long is found out once, too.
+        try:
+            return full_turn(self.found)
+        except NotProved as error:
+            return error

@@ -19,6 +19,7 @@ from geneva_cli.proof import Proof
 from geneva_cli.station import LawDriven, Station
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.timing import timings
+from geneva_cli.turn_cautions import turn_cautions
 from geneva_cli.units import omega
 
 
@@ -37,7 +38,7 @@ def report(mechanism: Mechanism) -> Report:
     """
     proof = Proof(mechanism)
     rows = judged(mechanism, proof)
-    told = (*cautions(mechanism), *load_cautions(mechanism))
+    told = (*cautions(mechanism), *load_cautions(mechanism), *turn_cautions(proof))
     passes = all(c.passes is not False for c in rows)
     title = mechanism.spec.title
     values: dict[str, Any] = {

@@ -1,6 +1,7 @@
 """Checks and cautions: each must be able to fail. Their advice is in test_advice."""
 
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -12,11 +13,14 @@ from geneva_cli.checks import Check, checks
 from geneva_cli.clearances import clearances
 from geneva_cli.drives.side_crank import Keys
 from geneva_cli.errors import GenevaError
+from geneva_cli.full_turn import Most
 from geneva_cli.keeps import keeps
 from geneva_cli.keys import Drive, Limits, Load, Motion, Size, Spec, Wheel
 from geneva_cli.mechanism import build
+from geneva_cli.outline import outlines
 from geneva_cli.proof import Proof
 from geneva_cli.spec import load
+from geneva_cli.turn_cautions import turn_cautions
 
 DESIGNS = Path(__file__).parent.parent / "designs"
 
@@ -135,7 +139,7 @@ def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
 def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
     path = tmp_path / "bore.toml"
     path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
-    rows = {c.name: c for c in clearances(Proof(load(str(path))))}
+    rows = {c.name: c for c in clearances(outlines(load(str(path))))}
     assert rows[row].value == pytest.approx(value, abs=1e-5)
     assert rows[row].limit == 0.5
     assert rows[row].passes == (value >= 0.5)
@@ -145,7 +149,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     path = tmp_path / "ring.toml"
     size = "[size]\nwheel_outer_radius_mm = 155.5\n"
     path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
-    rows = {c.name: c for c in clearances(Proof(load(str(path))))}
+    rows = {c.name: c for c in clearances(outlines(load(str(path))))}
     # L + R + r + r/20 is 155.25 mm
     assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
     assert not rows["outer_wall_mm"].passes
@@ -157,10 +161,40 @@ def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     path.write_text("[wheel]\nz = 6\n[size]\nwheel_bore_mm = 89.4\n")
     run = CliRunner().invoke(app, export)
     assert run.exit_code == 0
-    assert "warning: wheel_bore_wall_mm is 0.05, and must be at least 0.5" in run.stderr
+    assert "warning: wheel_bore_wall_mm is 0.05; it must be at least 0.5" in run.stderr
     path.write_text("[wheel]\nz = 6\n[size]\ncrank_bore_mm = 30\n")
     out.unlink()
     run = CliRunner().invoke(app, export)
     assert run.exit_code == 1
     assert "not written: the crank's bore breaks through the relief by" in run.stderr
     assert not out.exists()
+
+
+def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
+    """z 6, L 100, r 5, clearances of 1 mm: no parts overlap, and the hand-over has 80.9 deg."""
+    path, out = tmp_path / "loose.toml", tmp_path / "wheel.svg"
+    path.write_text("[wheel]\nz = 6\n[size]\nslot_clearance_mm = 1\nlock_clearance_mm = 1\n")
+    export = ["profile", str(path), "--part", "wheel", "-o", str(out)]
+    run = CliRunner().invoke(app, export)
+    assert run.exit_code == 1
+    assert "the roller meets the wheel" in run.stderr
+    assert not out.exists()
+    run = CliRunner().invoke(app, [*export, "--force"])
+    assert run.exit_code == 0
+    assert "warning: " in run.stderr
+    assert out.exists()
+
+
+def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
+    """What counts is what the turn shows, not that a lock is drawn: see test_full_turn."""
+    proof = Proof(build(Spec(Wheel(6))))
+    proof.__dict__["_turned"] = proof.turn._replace(dwell=Most(30.0, 180.0))
+    found = {c.name: c.passes for c in checks(proof.mechanism, proof)}
+    assert found["dwell_hold"] is False
+
+
+def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
+    """Just inside an offset slot's mouth there is no wall yet on the roller's other side."""
+    (said,) = turn_cautions(Proof(load(str(DESIGNS / "offset-slots.toml"))))
+    assert re.match(r"in its slot the wheel is free ahead by 6\.49\d* deg at -61\.\d+ deg", said)
+    assert not turn_cautions(Proof(load(str(DESIGNS / "limits.toml"))))

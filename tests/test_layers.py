@@ -39,6 +39,7 @@ ROWS = [
     ["full_turn", "part_drawing"],
     ["part", "proof"],
     ["clearances"],
+    ["turn_cautions"],
     ["cautions", "load_cautions", "law_values", "survey", "template"],
     ["synthesis_parts", "synthesis_wish"],
     ["synthesis"],
