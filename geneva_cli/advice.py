@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING, Any, cast
 
 from geneva_cli import spec as reader
+from geneva_cli.budget import OutOfTime, until
 from geneva_cli.checks import Check, checks, each, one
 from geneva_cli.errors import GenevaError
 from geneva_cli.keys import Spec
@@ -102,10 +103,6 @@ def said(c: Check, parts: str = "parts") -> str:
     return f"{c.name} is {value:.6g}{where}; it must be {c.must_be} {limit:.6g}"
 
 
-class _OutOfTime(Exception):
-    """The next trial would take the adviser over its time."""
-
-
 class Adviser:
     """Looks for the one change by which a check passes that fails.
 
@@ -128,11 +125,12 @@ class Adviser:
         """The change as a line of the spec; nothing where none was found in time."""
         self.deadline, self.longest = time.process_time() + SECONDS, 0.0
         try:
-            for way in ways(failing.name, self.mechanism):
-                found = self._along(way, failing)
-                if found:
-                    return found
-        except _OutOfTime:
+            with until(self.deadline):
+                for way in ways(failing.name, self.mechanism):
+                    found = self._along(way, failing)
+                    if found:
+                        return found
+        except OutOfTime:
             pass
         return ""
 
@@ -205,7 +203,7 @@ class Adviser:
             return math.inf  # only a whole turn can tell, and it is made once, with all the rest
         start = time.process_time()
         if start + self.longest > self.deadline:
-            raise _OutOfTime
+            raise OutOfTime
         try:
             if failing.name in GAPS:
                 return _clears(build(spec), failing.at_deg or 0.0)
@@ -223,7 +221,7 @@ class Adviser:
             return False
         # A machine that jams takes up to twice as long to turn as one that does not.
         if time.process_time() + 0.5 * self._whole(way) > self.deadline:
-            raise _OutOfTime
+            raise OutOfTime
         apart = (way.table, way.key) in APART
         must = self.passed | {failing.name, "parts"}
         try:

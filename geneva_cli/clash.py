@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.budget import ask
 from geneva_cli.contacts import candidates
 from geneva_cli.drawing import Contour, backwards
 from geneva_cli.errors import GenevaError
@@ -62,6 +63,7 @@ class Clash:
         self.left = WORK
 
     def _work(self, count: int) -> None:
+        ask()
         self.left -= count
         if self.left < 0.0:
             raise NotProved(

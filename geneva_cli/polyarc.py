@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.budget import ask
 from geneva_cli.drawing import Arc, Contour, Line
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ class Polyarc:
         return np.concatenate(blocks) if blocks else np.empty(0)
 
     def _signed(self, points: Array) -> Array:
+        ask()
         px, py = points[:, :1], points[:, 1:]
         ax, ay = px - self.x0, py - self.y0
         # Lines: the share of the way along them. Arcs: whether they are seen from the centre.

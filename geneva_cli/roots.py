@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
+from geneva_cli.budget import ask
+
 # x -> value, first derivative, second derivative
 Curve: TypeAlias = Callable[[float], tuple[float, float, float]]
 _Sample: TypeAlias = tuple[float, float, float]
@@ -55,6 +57,7 @@ def extrema(f: Curve, a: float, b: float) -> list[float]:
     open_ = list(zip(samples, samples[1:], strict=False))
     settled: list[tuple[_Sample, _Sample]] = []
     for _ in range(DEEPEST):
+        ask()
         halves = []
         for left, right in open_:
             x = 0.5 * (left[0] + right[0])

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.budget import ask
 from geneva_cli.roots import DEEPEST, PREDICTED, SCAN
 
 if TYPE_CHECKING:
@@ -71,6 +72,7 @@ def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
     right = _taken((x[1:], span[1:], value[:, 1:], slope[:, 1:]), same)
     low, high = _range(value)
     for _ in range(DEEPEST):
+        ask()
         x = 0.5 * (left[0] + right[0])
         open_: Mask = (x > left[0]) & (x < right[0])
         if not open_.any():

@@ -140,10 +140,13 @@ def test_advice_passes_when_it_is_taken(
 
 
 def test_advice_takes_a_second_at_most(tmp_path: Path) -> None:
-    """Of the processor; a trial that is begun is ended, and takes up to a second on a busy day."""
-    for name in ("rim-inside", "law", "slider", "bore"):
+    """Of the processor: a trial that is begun is stopped there. It is asked in every loop; the
+    longest way between two questions, drawing curved walls or building a linkage, takes 0.2 s,
+    twice that on a busy day.
+    """
+    for name in ("rim-inside", "law", "slider", "bore", "four-bar"):
         rows, longest = advised(read(tmp_path, ALL[name]), parts=True)
-        assert longest < 3.0 * advice.SECONDS
+        assert longest < advice.SECONDS + 0.4
         stands(ALL[name], tmp_path, rows, needed=False, parts=True)
 
 

@@ -15,6 +15,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 # here; a name that is written out elsewhere keeps its own row.
 ROWS = [
     ["geneva_cli"],
+    ["budget"],
     ["digits", "drawing", "errors", "jet", "keeps", "roots", "rules", "table", "units"],
     ["fit_path", "linear", "measure", "points", "scan"],
     ["classic", "fit_arcs", "fit_balance", "kernel", "keys", "laws", "pieces", "spline"],
