@@ -17,7 +17,8 @@ from shapely import affinity
 from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, polygon, turned
 
-from geneva_cli.clash import Clash
+from geneva_cli import proof
+from geneva_cli.clash import Clash, NotProved
 from geneva_cli.crank import reliefs
 from geneva_cli.drawing import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
@@ -423,3 +424,19 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
     assert wrong.clash.locking(wrong.clash.pose(np.arange(-60.0, 300.0))).min() >= -found.close
     assert passes(found, full_turn(found))
+
+
+def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
+    """A report asks for it after the checks; it may take seconds."""
+    tries = []
+
+    def unproved(found):
+        tries.append(found)
+        raise NotProved("not within the budget")
+
+    monkeypatch.setattr(proof, "full_turn", unproved)
+    one = proof.Proof(made(6).plane.mechanism)
+    for _ in range(2):
+        with pytest.raises(NotProved):
+            _ = one.turn
+    assert len(tries) == 1
