@@ -5,12 +5,13 @@ from __future__ import annotations
 from geneva_cli.drives import UNLOCKED
 from geneva_cli.keys import Z_USUAL
 from geneva_cli.mechanism import Mechanism, matched_ratio_of
-from geneva_cli.peaks import QUANTITIES
+from geneva_cli.peaks import QUANTITIES, peak
 from geneva_cli.pitch import retraces
 from geneva_cli.roots import extrema
 from geneva_cli.station import LawDriven, LawMotion
 from geneva_cli.units import DEGREE
 
+SHOWN_DOUBT = 0.01  # share of the greatest jerk
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
@@ -26,6 +27,7 @@ def cautions(mechanism: Mechanism) -> list[str]:
             'nothing else (held_by = "brake", "detent" or "pin" in [wheel])'
         )
     station = mechanism.stations[0]
+    out.extend(_rounded_points(mechanism))
     if not isinstance(station, LawMotion):
         return out
     back = turns_back(mechanism)
@@ -53,6 +55,30 @@ def cautions(mechanism: Mechanism) -> list[str]:
 
 def _no_lock(mechanism: Mechanism) -> bool:
     return mechanism.spec.size.lock_radius_mm == 0.0 or mechanism.spec.drive.kind in UNLOCKED
+
+
+def _rounded_points(mechanism: Mechanism) -> list[str]:
+    """What the points of a file, as rounded as they are, leave unknown of the jerk."""
+    spec, station = mechanism.spec, mechanism.stations[0]
+    law = getattr(station, "law", None)
+    if getattr(spec.kind, "ratio_file", None):
+        from geneva_cli.drives.noncircular_gears import ratio_doubt
+
+        top = peak(station, "velocity")  # the crank's jerk counts there most
+        decimals, share = ratio_doubt(spec, station.mid_deg + top.at_deg)
+        move = share * top.max
+    elif law is not None and law.doubt:
+        decimals, rate = law.doubt()
+        move = rate * 2.0 * station.half_step / (station.motion_deg * DEGREE) ** 3
+    else:
+        return []
+    share = move / peak(station, "jerk").max
+    if share < SHOWN_DOUBT:
+        return []
+    return [
+        f"the points are given to {decimals} decimals; jerk is known to about "
+        f"{float(f'{100.0 * share:.2g}'):g} %: more decimals, or fewer points, make it better known"
+    ]
 
 
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:

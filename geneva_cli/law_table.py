@@ -1,19 +1,22 @@
 """The law ``table``: a motion law that a user gives as a CSV of u,s points.
 
 A quintic spline through every point, four times continuously differentiable; its four free
-conditions put velocity and acceleration to zero at both ends (SciPy, make_interp_spline).
+conditions put velocity and acceleration to zero at both ends.
 """
 
 from __future__ import annotations
 
-import math
-from typing import Any
+from decimal import Decimal, localcontext
+from functools import cache, lru_cache
+from itertools import pairwise
 
+from geneva_cli.digits import FIFTY
 from geneva_cli.errors import GenevaError
 from geneva_cli.jet import Coefficient, Jet
 from geneva_cli.keys import Spec
 from geneva_cli.laws import Law
 from geneva_cli.points import Pairs, read_pairs
+from geneva_cli.spline import Exact, at_rest, doubt, shifted
 
 # The points of s are rounded by 1e-16, which moves a third derivative by some 1e-16 / step³: at
 # this step, 10,001 points in all, by 1e-4 of a usual law's; ten times closer the jerk is nothing
@@ -34,27 +37,33 @@ def read_law(spec: Spec) -> Law:
     points = read_pairs(path, POINTS, _WHERE)
     if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
         raise GenevaError(f"{path}: a law runs from 0,0 to 1,1; the first or last point does not")
-    u, s = [p[0] for p in points], [p[1] for p in points]
-    from geneva_cli.spline import at_rest
-
-    return _law(at_rest(u, s))
+    return _law(tuple(points))
 
 
-def _law(spline: Any) -> Law:
-    branches = [spline, *[spline.derivative(k) for k in range(1, 6)]]
+@lru_cache(4)  # advice builds one machine many times
+def _law(points: tuple[tuple[float, float], ...]) -> Law:
+    """Each half from its own end: the second is the spline of 1 - s by w = 1 - u."""
+    u = [Decimal(p[0]) for p in points]
+    spline = at_rest(u, [Decimal(p[1]) for p in points])
+    with localcontext(FIFTY):
+        parts = zip(pairwise(spline.x), spline.c, strict=True)
+        ends = [(1 - b, shifted(c, b - a)) for (a, b), c in parts]
+        w = [*[end for end, _ in reversed(ends)], 1 - spline.x[0]]
+        left = [
+            [1 - c[0], *[v if k % 2 else -v for k, v in enumerate(c) if k]]
+            for _, c in reversed(ends)
+        ]
+    halves = [part.rounded() for part in (spline, Exact(w, left))]
 
     def first(u: Coefficient, order: int) -> Jet:
-        return Jet([_value(branches[k], u) / math.factorial(k) for k in range(order + 1)])
+        return Jet(halves[0](u, order))
 
     def second(w: Coefficient, order: int) -> Jet:
-        # 1 - s(1 - w): even derivatives change sign
-        c = first(1.0 - w, order).c
-        return Jet([1.0 - c[0], *[x if k % 2 else -x for k, x in enumerate(c) if k]])
+        return Jet(halves[1](w, order))
+
+    def known() -> tuple[int, float]:
+        return doubt(u, [p[1] for p in points], False, 3)
 
     # The knots, where the fifth derivative jumps, are no breaks up to the fourth.
-    return Law("table", first, second, (), "a spline through the points of a CSV file", False)
-
-
-def _value(spline: Any, u: Coefficient) -> Coefficient:
-    value = spline(u)
-    return float(value) if isinstance(u, float) else value
+    about = "a spline through the points of a CSV file"
+    return Law("table", first, second, (), about, False, cache(known))

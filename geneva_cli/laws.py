@@ -28,6 +28,8 @@ class Law(NamedTuple):
     breaks: tuple[float, ...] = ()  # where a derivative up to the fourth jumps, inside 0..1
     about: str = ""
     analytic: bool = True  # between the breaks; a spline is not
+    # of points: the decimals given, and by how much their rounding moves the third derivative
+    doubt: Callable[[], tuple[int, float]] | None = None
 
     def __call__(self, u: Coefficient, order: int = 3) -> Jet:
         """The law at a number or an array of u in 0..1, with its derivatives by u."""

@@ -55,6 +55,8 @@ QUANTITIES: dict[str, Callable[[tuple[float, ...]], tuple[float, float, float]]]
 }
 _ORDER = {"velocity": 3, "acceleration": 4, "jerk": 5, "power": 4}
 _TIE = 1e-13  # two peaks nearer than this are one peak that occurs twice
+_SAME = 1e-15  # of the motion: a rounding
+_BESIDE = (1e-12, 1e-6)  # of the motion: nearer is rounding; some root of _TIE, the flat of a top
 
 
 def peak(station: Station, quantity: str) -> Peak:
@@ -68,17 +70,23 @@ def peak(station: Station, quantity: str) -> Peak:
     breaks = station.breaks_deg
     if station.symmetric:
         breaks = tuple(x for x in breaks if x <= 0.0)
-    best = Peak(-1.0, 0.0)
+    places: list[tuple[Peak, bool]] = []  # in order; whether stationary
     for a, b in zip(breaks, breaks[1:], strict=False):
         # A break belongs to the piece before it; the piece after begins one double later.
         start = a if a == breaks[0] else math.nextafter(a, math.inf)
-        inner = [(x, _summit(x, *curve(x))) for x in extrema(curve, start, b)]
-        for x, size in ((start, abs(curve(start)[0])), *inner, (b, abs(curve(b)[0]))):
-            if size > best.max * (1.0 + _TIE):
-                best = Peak(size, a if x == start else x)
-            elif size > best.max:  # the same peak again, a rounding larger
-                best = Peak(size, best.at_deg)
-    return best
+        places.append((Peak(abs(curve(start)[0]), a), False))
+        places += [(Peak(_summit(x, *curve(x)), x), True) for x in extrema(curve, start, b)]
+        places.append((Peak(abs(curve(b)[0]), b), False))
+    size = max(p.max for p, _ in places)
+    equal = [(p.at_deg, top) for p, top in places if p.max * (1.0 + _TIE) >= size]
+    at_deg = equal[0][0]
+    # As high as its neighbour, a break so near a summit is on its flat top.
+    low, high = (share * (breaks[-1] - breaks[0]) for share in _BESIDE)
+    near = [x for x, top in equal if top and abs(x - at_deg) < high]
+    if near and abs(near[0] - at_deg) > low:
+        at_deg = near[0]
+    beside = min(breaks, key=lambda x: abs(x - at_deg))  # as 0 beside 1e-47
+    return Peak(size, beside if abs(beside - at_deg) < _SAME * (breaks[-1] - breaks[0]) else at_deg)
 
 
 def _summit(x: float, value: float, slope: float, bend: float) -> float:

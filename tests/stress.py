@@ -24,6 +24,7 @@ Nothing may warn, raise a floating-point flag, hold a NaN or change NumPy's sett
 """
 
 import argparse
+import bisect
 import importlib
 import math
 import random
@@ -32,10 +33,13 @@ import tempfile
 import time
 import warnings
 from functools import partial
+from itertools import pairwise
 from typing import NamedTuple
 
 import machine_witness
 import numpy as np
+import spline_witness
+from spline_witness import derivatives
 from test_machines import CASES, ON_PATH
 from witness import LAWS as LAW_WITNESSES
 from witness import PolynomialLaw, SineLaw, krasniqi, mp
@@ -233,6 +237,101 @@ class Pair:
         return textbook_wheel(1, math.sin(math.pi / values[0]), phi)
 
 
+class RatioFile:
+    """Noncircular gears with a ratio from a file: the values are the ratio at its points."""
+
+    kind, few = "noncircular-gears", ()
+
+    def __init__(self, deg, ratio):
+        self.deg, self.ratio = deg, ratio
+        self.known = {}
+
+    def pieces(self, values):
+        """Knots, and of each piece the coefficients of the ratio and the crank's angle before."""
+        if values not in self.known:
+            if not self.known:
+                x = [radians(v) for v in self.deg]
+                self.spline = spline_witness.Spline(x, [*values, values[0]], True)
+            out, whole = [], mp.mpf(0)
+            for (a, b), c in zip(pairwise(self.spline.x), self.spline.pieces(values), strict=True):
+                out.append((c, whole))
+                whole = derivatives(c, b - a, whole)[0]
+            scale = 2 * mp.pi / whole
+            self.known[values] = [([v * scale for v in c], w * scale) for c, w in out]
+        return self.spline.x, self.known[values]
+
+    def crank(self, values, phi):
+        x, pieces = self.pieces(values)
+        turns = mp.floor(phi / (2 * mp.pi))
+        at = phi - turns * 2 * mp.pi
+        i = min(bisect.bisect_right(x, at), len(pieces)) - 1
+        f, *rates = derivatives(pieces[i][0], at - x[i], pieces[i][1])
+        return (f + turns * 2 * mp.pi, *rates)
+
+    def input(self, values, f):
+        phi = f
+        for _ in range(60):
+            at, rate = self.crank(values, phi)[:2]
+            step = (at - f) / rate
+            phi -= step
+            if abs(step) < mp.mpf(10) ** (5 - DIGITS):
+                break
+        return phi
+
+    def keys(self, module, values):
+        self.file = tempfile.NamedTemporaryFile("w", suffix=".csv")  # noqa: SIM115
+        for row in zip(self.deg, (*values, values[0]), strict=True):
+            self.file.write("{!r},{!r}\n".format(*row))
+        self.file.flush()
+        return module.Keys(ratio_file=self.file.name)
+
+    def textbook(self, _, phi):
+        ratio = self.spline.by_scipy()
+        whole = ratio.antiderivative()
+        scale = 2 * math.pi / float(ratio.integrate(0.0, 2 * math.pi))
+        turns = np.floor(phi / (2 * math.pi))
+        at = phi - turns * 2 * math.pi
+        f = (whole(at) - whole(0.0)) * scale + turns * 2 * math.pi
+        return (f, *[scale * ratio.derivative(k)(at) for k in range(3)])
+
+
+def ratio_case(deg, ratio):
+    """Degrees and ratios, of a mean of 1 over the turn as the program wants it."""
+    x, y = [radians(v) for v in deg], [mp.mpf(v) for v in ratio]
+    spline = spline_witness.Spline(x, [*y, y[0]], True)
+    whole = mp.mpf(0)
+    for (a, b), c in zip(pairwise(x), spline.pieces(), strict=True):
+        whole = derivatives(c, b - a, whole)[0]
+    mean = float(whole / (2 * mp.pi))
+    return deg, tuple(v / mean for v in ratio)
+
+
+def ratio_cases(sample):
+    """Even and uneven points of a smooth ratio, of a steep one, and of one rounded to 3 digits."""
+    rng = random.Random(9)
+
+    def steep(deg):
+        return 0.2775 / (1.2225 + 0.95 * math.cos(math.radians(deg)))  # ellipses, slow, e = 0.475
+
+    for n in (12,) if sample else (7, 24, 48):
+        even = [360.0 * k / n for k in range(n)]
+        uneven = [0.0, *sorted(round(v + rng.uniform(-0.3, 0.3) * 360 / n, 3) for v in even[1:])]
+        for deg in (even, uneven):
+            smooth = [1.0 - 0.3 * math.cos(math.radians(v)) for v in deg]
+            yield ratio_case([*deg, 360.0], smooth)
+            if n > 12:
+                yield ratio_case([*deg, 360.0], [steep(v) for v in deg])
+                yield ratio_case([*deg, 360.0], [round(v, 3) for v in smooth])
+
+
+def ratio_files(table, sample):
+    """Straight slots behind a ratio from a file; the values moved are the points' ratios."""
+    for deg, ratio in ratio_cases(sample):
+        FRONTS["ratio file"] = RatioFile(deg, ratio)
+        for gearing, z in (("external", 6), ("internal", 5), ("external", 3))[: 1 if sample else 3]:
+            straight_one(table, z, gearing, "ratio file", ratio, 1)
+
+
 FRONTS = {
     "crank": Plain,
     "side-crank": SideCrank,
@@ -334,8 +433,10 @@ def variations(values, h):
 
 
 def spec_of(z, gearing, kind, values, rollers=1, motion=None, L=100.0):
+    front = FRONTS[kind]
+    kind = getattr(front, "kind", kind)
     module = importlib.import_module(f"geneva_cli.drives.{drives.KINDS[kind]}")
-    own = FRONTS[kind].keys(module, values)
+    own = front.keys(module, values)
     return Spec(
         wheel=Wheel(z=z, gearing=gearing),
         drive=Drive(kind=kind, rollers=rollers),
@@ -617,7 +718,7 @@ def several(table, sample, kind):
 
 def straight_one(table, z, gearing, kind, values, m):
     machine = f"{gearing}, {kind}" + (", rollers" if m > 1 else "")
-    where = f"z={z}" + "".join(f" {v!r}" for v in values) + (f" m={m}" if m > 1 else "")
+    where = f"z={z}" + "".join(f" {v!r}" for v in values[:9]) + (f" m={m}" if m > 1 else "")
     try:
         mechanism = strictly(build, spec_of(z, gearing, kind, values, m))
     except GenevaError as error:
@@ -769,6 +870,92 @@ class Series:
         return out
 
 
+class Points(Series):
+    """The law through a file's points."""
+
+    def __init__(self, u, s):
+        x = exactly(u)
+        self.spline = spline_witness.Spline(x, exactly(s), False)
+        self.pieces = list(pairwise(x))
+        self.law_pieces = self.spline.pieces()
+        # of a unit of each point's last place: the change of each piece's coefficients
+        last = np.array([math.ulp(v) for v in s])
+        unit_pieces = np.array([[[float(v) for v in c] for c in part] for part in self.spline.unit])
+        self.changes = unit_pieces * last[:, None, None]
+
+    def inside(self, i, u):
+        return derivatives(self.law_pieces[i], u - self.pieces[i][0])
+
+    def peaks(self):
+        """As above, over the whole law, which has no jump that matters."""
+        grid = [a + (b - a) * k / 8 for a, b in self.pieces for k in range(8)] + [mp.mpf(1)]
+
+        def shifted(u):
+            s, *rest = self.at(u)
+            return (s - mp.mpf(1) / 2, *rest)
+
+        out = {}
+        for name in ("position", *PEAKS):
+            found = candidates(shifted, name, grid)
+            out[name] = greatest([self._with_points(shifted, name, c) for c in found])
+        return out
+
+    def _with_points(self, f, name, found):
+        """A stationary point's shift, with the last place of any one point."""
+        if not found.shift:
+            return found
+        i = max(k for k, (a, _) in enumerate(self.pieces) if a <= found.x)
+        here, shift = f(found.x), found.shift
+        slope, bend = PICK[name](here)[1:]
+        for change in self.changes[:, i]:
+            by = derivatives([mp.mpf(float(c)) for c in change], found.x - self.pieces[i][0])
+            moved = PICK[name]([a + b for a, b in zip(here, by, strict=True)])[1]
+            shift = max(shift, abs((moved - slope) / bend))
+        return found._replace(shift=shift)
+
+    def moves(self, u):
+        """What the last place of any one point moves: position to jerk at each of u."""
+        x = np.array([float(a) for a, _ in self.pieces])
+        i = np.clip(np.searchsorted(x, u, "right") - 1, 0, len(x) - 1)
+        c = np.moveaxis(self.changes[:, i], -1, 0)
+        return [np.abs(v).max(axis=0) for v in derivatives(c, u - x[i])[:4]]
+
+    def textbook(self, u):
+        """SciPy's."""
+        spline = self.spline.by_scipy()
+        return [spline.derivative(k)(u) for k in range(4)]
+
+
+def point_cases(sample):
+    """Points of a law as they come: with all digits, a few, close, uneven, few."""
+    rng = random.Random(3)
+
+    def smooth(u):
+        return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
+
+    for n in (12,) if sample else (6, 12, 41, 61):
+        even = [k / (n - 1) for k in range(n)]
+        uneven = [0.0, *sorted(v + rng.uniform(-0.3, 0.3) / n for v in even[1:-1]), 1.0]
+        for digits in (17,) if sample else (17, 6):
+            for u in (even, uneven):
+                yield u, [0.0, *[round(smooth(v), digits) for v in u[1:-1]], 1.0]
+
+
+def points(table, sample):
+    """Curved slots of a law from a file."""
+    for u, s in point_cases(sample):
+        series = Points(u, s)
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            for row in zip(u, s, strict=True):
+                file.write("{!r},{!r}\n".format(*row))
+            file.flush()
+            motion = Motion(law="table", file=file.name, alpha0_deg=-10.0)
+            mechanism = strictly(build, spec_of(6, "external", "crank", (), 1, motion))
+            where = f"{len(u)} points, the second {u[1]!r},{s[1]!r}"
+            args = (series, series.peaks(), (), Plain, "external", 6, None, where)
+            laid_out(table, "curved, table", mechanism, *args)
+
+
 def law_cases(sample):
     for name in LAWS:
         yield name, 0.0
@@ -855,6 +1042,10 @@ def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, 
     for k, name in enumerate(NAMES):
         slope = np.array([abs(float(e[k + 1])) for e in exact])
         condition.append(slope * np.radians(own) / unit(size[name]))
+    if hasattr(series, "moves"):
+        for k, by in enumerate(series.moves(u)):
+            by = by * float(scale[NAMES[k]]) / unit(size[NAMES[k]])
+            condition[k] = np.maximum(condition[k], by)
     b, w = math.pi / z, math.radians(station.motion_deg)
     s = series.textbook(u)
     book = [2 * b * (s[0] - 0.5), *[2 * b * s[k] / w**k for k in (1, 2, 3)]]
@@ -1088,6 +1279,8 @@ def parts(sample):
         out[which] = partial(curved, rng=rng, name=name, shape=shape)
     for name in OTHERS:
         out[name] = partial(others, name=name)
+    out["curved, table"] = points
+    out["ratio file"] = ratio_files
     out["kernel"] = kernel
     for name in LAWS:
         out[f"chords, {name}"] = partial(chords, rng=random.Random(name), name=name)
