@@ -16,7 +16,7 @@ from geneva_cli.drives import Front
 from geneva_cli.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
 from geneva_cli.keys import Spec
 from geneva_cli.rules import Z_MAX, Range
-from geneva_cli.units import sin_cos_deg
+from geneva_cli.units import sin_cos_pi
 
 
 class Keys(NamedTuple):
@@ -47,9 +47,7 @@ def front(spec: Spec) -> Callable[[float], Front]:
         if crank_deg in ends:
             pose = poses[0] if ends[crank_deg] < 0.0 else poses[2]
         else:
-            # inverse of the straight slot: a = asin(sin psi / l) - psi
-            sine = sin_cos_deg(crank_deg)[0] / step.sin_cos[0]
-            pose = _running(poses[1], math.asin(sine) - math.radians(crank_deg))
+            pose = _running(poses[1], _crank_at(step, crank_deg))
 
         def advance(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
             along, across = pose.displacement(*sine_versine(Jet.variable(tau, max(order, 1))))
@@ -60,6 +58,20 @@ def front(spec: Spec) -> Callable[[float], Front]:
         return Front(pose.crank_deg, advance)
 
     return about
+
+
+def _crank_at(step: gearing.Step, wheel_deg: float) -> float:
+    """The first crank's angle a, radians, where its wheel is at psi: sin(a + psi) = sin psi / l.
+
+    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) nothing cancels in
+    l sin a = sin psi cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi.
+    """
+    n, d = wheel_deg.as_integer_ratio()
+    whole = 180 * d * step.q
+    here, less = 180 * d * step.p, n * step.q  # b and psi, in parts of pi
+    s, c = sin_cos_pi(less, whole)
+    k = math.sqrt(sin_cos_pi(here - less, whole)[0] * sin_cos_pi(here + less, whole)[0])
+    return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
 
 
 def _running(middle: gearing.Pose, a: float) -> gearing.Pose:
