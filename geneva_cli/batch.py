@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -56,14 +58,13 @@ def verdicts(paths: list[str]) -> Iterator[Verdict]:
     if workers < 2:
         yield from map(verdict, paths)
         return
-    import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
     from concurrent.futures.process import BrokenProcessPool
 
     # A fork needs no second start of the program; where there is none, there is one.
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
-    with ProcessPoolExecutor(workers, context, _quiet) as pool:
+    with ProcessPoolExecutor(workers, context, _attend) as pool:
         try:
             found = pool.map(verdict, files)
             for path in paths:
@@ -75,9 +76,17 @@ def verdicts(paths: list[str]) -> Iterator[Verdict]:
             ) from None
 
 
-def _quiet() -> None:
-    """Ctrl-C ends a worker without a word: the program that started it says what is to be said."""
+def _attend() -> None:
+    """A worker ends with the program that started it, and by Ctrl-C, without a word of its own."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    threading.Thread(target=_leave, daemon=True).start()
+
+
+def _leave() -> None:
+    parent = multiprocessing.parent_process()
+    if parent:
+        parent.join()
+        os._exit(1)
 
 
 def checks_table(found: list[Verdict]) -> Table:

@@ -9,6 +9,7 @@ import pytest
 
 from geneva_cli import advice
 from geneva_cli.advice import NONE, Adviser, judged, rounded
+from geneva_cli.budget import OutOfTime, until
 from geneva_cli.checks import Check, checks
 from geneva_cli.mechanism import Mechanism, build
 from geneva_cli.spec import TABLES, fields, kind_keys, load
@@ -148,6 +149,11 @@ def test_advice_takes_a_second_at_most(tmp_path: Path) -> None:
         rows, longest = advised(read(tmp_path, ALL[name]), parts=True)
         assert longest < advice.SECONDS + 0.4
         stands(ALL[name], tmp_path, rows, needed=False, parts=True)
+
+
+def test_a_trial_that_is_begun_is_stopped() -> None:
+    with until(time.process_time()), pytest.raises(OutOfTime):
+        checks(load(str(DESIGNS / "limits.toml")))
 
 
 def test_without_time_there_is_no_advice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,5 +1,6 @@
 """Long tables, and numbers that are none: bounded memory, a clear refusal, no NaN in a file."""
 
+import contextlib
 import csv
 import io
 import json
@@ -7,9 +8,12 @@ import math
 import os
 import pty
 import resource
+import signal
 import subprocess
 import sys
+import time
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -178,3 +182,21 @@ def test_a_point_that_rests():
         warnings.simplefilter("error")
         with pytest.raises(GenevaError, match="no wheel of z = 6 slots fits this path"):
             load("spec.toml")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_no_worker_outlives_the_check_that_started_it() -> None:
+    """Standard output stays open for as long as one of them lives."""
+    designs = sorted(str(p) for p in (Path(__file__).parent.parent / "designs").glob("*.toml"))
+    command = [sys.executable, "-m", "geneva_cli", "check", *designs]
+    run = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+    )
+    try:
+        time.sleep(1.0)
+        run.send_signal(signal.SIGINT)
+        assert run.communicate(timeout=5.0) == (b"", b"")
+        assert run.returncode == 130
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
