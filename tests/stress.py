@@ -313,7 +313,7 @@ def ratio_cases(sample):
     def steep(deg):
         return 0.2775 / (1.2225 + 0.95 * math.cos(math.radians(deg)))  # ellipses, slow, e = 0.475
 
-    for n in (12,) if sample else (7, 24, 48):
+    for n in (12,) if sample else (7, 24):
         even = [360.0 * k / n for k in range(n)]
         uneven = [0.0, *sorted(round(v + rng.uniform(-0.3, 0.3) * 360 / n, 3) for v in even[1:])]
         for deg in (even, uneven):
