@@ -13,11 +13,10 @@ from geneva_cli.advice import judged
 from geneva_cli.cautions import cautions
 from geneva_cli.checks import Check
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinds import is_flat
 from geneva_cli.mechanism import Mechanism
-from geneva_cli.proof import Proof
 from geneva_cli.spec import load_and
 from geneva_cli.table import Table, rows_table
-from geneva_cli.turn_cautions import turn_cautions
 
 NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
 
@@ -41,9 +40,14 @@ def verdict(path: str) -> Verdict:
     """Judge one spec; a spec that cannot be read is a verdict too."""
 
     def judge(mechanism: Mechanism) -> Verdict:
-        spec, proof = mechanism.spec, Proof(mechanism)
-        told = (*cautions(mechanism), *turn_cautions(proof))
-        return Verdict(spec.path, spec.files, tuple(judged(mechanism, proof)), told)
+        spec, told, proof = mechanism.spec, cautions(mechanism), None
+        if is_flat(spec):  # what has no flat parts is judged without NumPy
+            from geneva_cli.proof import Proof
+            from geneva_cli.turn_cautions import turn_cautions
+
+            proof = Proof(mechanism)
+            told += turn_cautions(proof)
+        return Verdict(spec.path, spec.files, tuple(judged(mechanism, proof)), tuple(told))
 
     try:
         return load_and(path, judge)

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
 
-POINTS_MAX = 100_000
 BYTES_MAX = 1 << 24
 
 
@@ -50,8 +49,6 @@ def read_pairs(path: str, kind: Pairs, key: tuple[str, ...]) -> list[tuple[float
                 "them out"
             )
         points.append((x, y))
-        if len(points) > POINTS_MAX:
-            raise GenevaError(f"{where}: more than {POINTS_MAX} points; thin them out")
     if len(points) < kind.points_min:
         raise GenevaError(f"{path}: {len(points)} points; at least {kind.points_min} are needed")
     return points
