@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from geneva_cli import loads
 from geneva_cli.cautions import SHOWN_UNDERCUT, turns_back
 from geneva_cli.drives import GEARED
+from geneva_cli.drives.cam import CamDriven
 from geneva_cli.errors import GenevaError
 from geneva_cli.keeps import keeps
 from geneva_cli.kinds import Z_DRAWN, is_flat
@@ -19,6 +20,10 @@ from geneva_cli.station import LawDriven, LawMotion
 if TYPE_CHECKING:
     from geneva_cli.clearances import Clearance
     from geneva_cli.proof import Proof
+
+
+# Steeper, a roller is wedged in its groove rather than led by it; as where it enters a slot.
+GROOVE_MAX_DEG = 60.0
 
 
 class Check(NamedTuple):
@@ -80,6 +85,8 @@ def _motion(mechanism: Mechanism) -> Asked:
     station = mechanism.stations[0]
     if isinstance(station, LawMotion):
         asked["velocity_min"] = lambda: _forwards(mechanism)
+    if isinstance(station, CamDriven):
+        asked["groove_pressure_deg"] = lambda: _groove(mechanism, station)
     if isinstance(station, LawDriven):
         if mechanism.spec.limits.pressure_angle_max_deg is None:
             asked["pressure_angle_deg"] = partial(_pressure, mechanism, 90.0)
@@ -101,6 +108,16 @@ def _convexity(mechanism: Mechanism, name: str) -> Check:
 def _forwards(mechanism: Mechanism) -> Check:
     value, at_deg = turns_back(mechanism) or (0.0, None)
     return _held("velocity_min", value, "at least", 0.0, at_deg)
+
+
+def _groove(mechanism: Mechanism, station: CamDriven) -> Check:
+    """The roller must be able to follow its groove, in the dwell too."""
+    from geneva_cli.groove import greatest_pressure
+
+    value, at_deg = greatest_pressure(station)
+    given = mechanism.spec.limits.pressure_angle_max_deg
+    limit = GROOVE_MAX_DEG if given is None else given
+    return _held("groove_pressure_deg", value, "at most", limit, mechanism.shown_deg(at_deg))
 
 
 def _undercut(mechanism: Mechanism) -> Check:
