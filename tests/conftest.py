@@ -2,9 +2,9 @@
 
 import pytest
 
-from geneva_cli.drives.side_crank import Keys
-from geneva_cli.keys import Drive, Motion, Spec, Wheel
-from geneva_cli.mechanism import build
+from geneva_cli.machine.drives.side_crank import Keys
+from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.tables import Drive, Motion, Spec, Wheel
 
 
 @pytest.fixture(scope="session")

@@ -19,9 +19,9 @@ def run(
 
     Where the stations differ, over a whole period of the machine.
     """
-    from geneva_cli.motion import motion_table
+    from geneva_cli.analysis.motion import motion_table
     from geneva_cli.output import show
-    from geneva_cli.spec import load
+    from geneva_cli.specfile.reader import load
 
     mechanism = load(spec)
     show(motion_table(mechanism, samples), output, format, mechanism.spec.files)

@@ -11,7 +11,7 @@ import typer
 from geneva_cli.errors import clean
 
 if TYPE_CHECKING:
-    from geneva_cli.mechanism import Mechanism
+    from geneva_cli.machine.mechanism import Mechanism
 
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
@@ -28,7 +28,7 @@ Format: TypeAlias = Annotated[
 
 def warn(mechanism: Mechanism) -> None:
     """Say on standard error what a number alone would hide."""
-    from geneva_cli.cautions import cautions
+    from geneva_cli.verdict.cautions import cautions
 
     say(mechanism.spec.path, cautions(mechanism))
 

@@ -10,9 +10,9 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
 
     Angles are signed input angles from mid-motion. Where the stations differ, the greatest of all.
     """
+    from geneva_cli.analysis.peaks import peaks_table
     from geneva_cli.output import show
-    from geneva_cli.peaks import peaks_table
-    from geneva_cli.spec import load
+    from geneva_cli.specfile.reader import load
 
     mechanism = load(spec)
     show(peaks_table(mechanism), output, format, mechanism.spec.files)

@@ -12,8 +12,8 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.mechanism import Mechanism
-    from geneva_cli.outline import Outlines
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.outlines import Outlines
 
 CURVES = {"arcs": "arcs", "spline": "cubics"}
 
@@ -47,10 +47,10 @@ def run(
     in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
     the pin travels in. Before a drawing is written its machine is turned through a whole turn.
     """
+    from geneva_cli.curves.pieces import UNITS
     from geneva_cli.output import draw, is_drawn, show
-    from geneva_cli.part import is_table, part_drawing, part_table
-    from geneva_cli.pieces import UNITS
-    from geneva_cli.spec import load_and
+    from geneva_cli.parts.catalogue import is_table, part_drawing, part_table
+    from geneva_cli.specfile.reader import load_and
 
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
@@ -67,7 +67,7 @@ def run(
             return part_table(mechanism, part, tolerance, samples)
         if samples is not None:
             raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-        from geneva_cli.outline import outlines
+        from geneva_cli.parts.outlines import outlines
 
         return outlines(mechanism, tolerance)
 
@@ -83,8 +83,8 @@ def run(
 
 def _judge(found: Outlines, force: bool) -> None:
     """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
-    from geneva_cli.advice import verdict
-    from geneva_cli.proof import Proof
+    from geneva_cli.parts.proof import Proof
+    from geneva_cli.verdict.advice import verdict
 
     path = found.plane.given.spec.path
     refused, warned = verdict(Proof(found.plane.given, found))

@@ -13,8 +13,8 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     Exit status 1 where `check` has it: where a check fails.
     """
     from geneva_cli.output import show
-    from geneva_cli.report import report
-    from geneva_cli.spec import load_and
+    from geneva_cli.specfile.reader import load_and
+    from geneva_cli.verdict.report import report
 
     mechanism, found = load_and(spec, lambda m: (m, report(m)))
     show(found.table, output, format, mechanism.spec.files)

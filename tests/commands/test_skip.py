@@ -1,0 +1,174 @@
+"""What is computed and what is skipped: positions evaluated, derivatives carried, modules loaded.
+
+| asked for                          | positions evaluated                              |
+| ---------------------------------- | ------------------------------------------------ |
+| n angles, symmetric machine and angles | (n + 1) // 2, and the ends' few              |
+| n angles, else                     | n                                                |
+| a peak of a symmetric machine      | of the first half only                           |
+| a table's row, A = 0               | none: closed forms                               |
+"""
+
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from geneva_cli.analysis import peaks as peaks_module
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.machine.engagement import LawDriven, SlotDriven
+from geneva_cli.machine.wheels.classic_arrays import Kernel
+
+N = 2001
+
+
+class Counter:
+    """How many positions a method was asked for, and for which derivatives."""
+
+    def __init__(self, monkeypatch, cls, name, orders):
+        self.positions, self.orders, self.below_zero = 0, set(), True
+        inner = getattr(cls, name)
+
+        def counted(this, x, *rest, **more):
+            self.positions += np.size(x)
+            self.orders.add(orders(*rest, **more))
+            self.below_zero &= bool(np.all(np.asarray(x) <= 0.0))
+            return inner(this, x, *rest, **more)
+
+        monkeypatch.setattr(cls, name, counted)
+
+
+@pytest.fixture
+def kernel(monkeypatch):
+    return Counter(monkeypatch, Kernel, "_block", lambda orders, *rest: tuple(orders))
+
+
+@pytest.fixture
+def jets(monkeypatch):
+    """Every class of station that has a motion of its own."""
+    return [
+        Counter(monkeypatch, cls, "motion", lambda order=3: order)
+        for cls in {c for k in (SlotDriven, LawDriven) for c in k.__mro__ if "motion" in vars(c)}
+        if not getattr(cls.motion, "__isabstractmethod__", False)
+    ]
+
+
+def counted(jets):
+    return sum(c.positions for c in jets)
+
+
+def evenly(station):
+    half = np.linspace(station.entry_deg, 0.0, N // 2 + 1)
+    return np.concatenate([half[:-1], -half[::-1]])
+
+
+def test_plain_crank_evaluates_half(station, kernel, jets):
+    s = station(6)
+    x = evenly(s)
+    s.derivatives(x)
+    assert (kernel.positions, counted(jets)) == (N // 2 + 1, 0)
+
+
+def test_plain_crank_at_unsymmetric_angles_evaluates_all(station, kernel, jets):
+    s = station(6)
+    x = evenly(s)[:-1]
+    s.derivatives(x)
+    assert (kernel.positions, counted(jets)) == (N - 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "halved"),
+    [
+        ({"A": 0.6}, True),
+        ({"law": "cycloidal"}, True),
+        ({"law": "sine-group"}, True),
+        ({"law": "sine-group", "lambda_": 0.1}, False),
+    ],
+    ids=["side-crank", "cycloidal", "sine-group", "tilted-sine-group"],
+)
+def test_jets_evaluate_half_where_the_motion_is_symmetric(station, kernel, jets, keys, halved):
+    s = station(6, **keys)
+    s.derivatives(evenly(s))
+    assert counted(jets) == (N // 2 + 1 if halved else N)
+    assert kernel.positions == 0
+
+
+def test_motion_does_not_evaluate_the_dwell(machine, kernel, jets):
+    m = machine(6)
+    motion_table(m, 3601)
+    inside = 1201  # 120 of 360 degrees, both ends
+    assert kernel.positions in (inside, inside // 2 + 1)
+
+
+def test_only_the_orders_that_are_asked_for(station, kernel, jets):
+    s = station(6)
+    out = s.derivatives(evenly(s), (1, 2))
+    assert len(out) == 2
+    assert kernel.orders == {(1, 2)}
+    assert {o for c in jets for o in c.orders} <= {2}
+
+
+def test_a_jet_carries_no_more_than_it_must(station):
+    for s in (station(6), station(6, A=0.6), station(6, law="cycloidal")):
+        for order in range(4):
+            assert len(s.motion(np.array([-1.0, 0.0]), order).c) == order + 1
+
+
+@pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk", "power"])
+def test_a_symmetric_peak_is_looked_for_in_one_half(station, jets, quantity):
+    s = station(6, A=0.6)
+    peaks_module.peak(s, quantity)
+    assert 0 < counted(jets) < 300
+    assert all(c.below_zero for c in jets)
+    assert {o for c in jets for o in c.orders} == {peaks_module._ORDER[quantity]}
+
+
+def test_the_classic_peaks_need_no_search(station, jets):
+    """Velocity and acceleration of a plain crank: closed forms."""
+    s = station(6)
+    peaks_module.velocity_peak(s)
+    peaks_module.acceleration_peak(s)
+    assert counted(jets) == 0
+
+
+def loaded(*arguments):
+    code = (
+        "import os, sys\nend = os._exit\n"
+        "def leave(status):\n"
+        "    print(*sys.modules, file=sys.stderr, flush=True)\n    end(status)\n"
+        "os._exit = leave\nsys.argv[0] = 'geneva'\n"
+        "from geneva_cli.app import main\nmain()\n"
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, timeout=60
+    )
+    return {m.removeprefix("geneva_cli.") for m in found.stderr.split() if "geneva_cli." in m}
+
+
+MOTION = {"mechanism", "station", "jet", "gearing", "peaks", "roots", "laws", "kernel", "motion"}
+
+
+def test_a_plain_table_loads_nothing_of_motions():
+    assert not loaded("table", "--z", "3..12") & MOTION
+
+
+def test_a_tables_side_crank_loads_neither_laws_tables_nor_kernels():
+    assert not loaded("table", "--z", "6", "--A", "0.5") & {"kernel", "motion", "law_table"}
+
+
+def test_a_plain_spec_loads_no_other_drive(tmp_path):
+    spec = os.path.join(tmp_path, "spec.toml")
+    with open(spec, "w") as file:
+        file.write("[wheel]\nz = 6\n")
+    modules = loaded("peaks", spec)
+    assert "peaks" in modules
+    assert not modules & {"kernel", "profile", "law_table", "loads", "checks", "motion"}
+
+
+def test_a_count_would_be_noticed(station, jets):
+    s = station(6, A=0.6)
+    s.motion(np.zeros(7))
+    s.motion(math.pi)
+    assert counted(jets) == 8

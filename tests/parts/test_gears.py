@@ -1,0 +1,122 @@
+"""Noncircular gears: pitch curves, convexity, a ratio from a file; and the cam's groove."""
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives import cam, elliptical_gears, noncircular_gears, side_crank
+from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.gear_curves import convexity, gears_table
+from geneva_cli.parts.groove import _distances, groove_table
+from geneva_cli.spec.tables import Drive, Motion, Spec, Wheel
+
+
+def gears(A=None, file=None, path=""):
+    keys = noncircular_gears.Keys(A, file, 120.0)
+    return build(Spec(Wheel(6), Drive("noncircular-gears"), keys, path=path))
+
+
+def columns(table):
+    return dict(zip(table.names, (np.asarray(c) for c in table.columns), strict=True))
+
+
+def test_the_side_cranks_gears_are_convex_at_06_and_not_at_08():
+    """Published analysis of the law as gears."""
+    assert min(convexity(gears(0.6))) > 0.0
+    assert min(convexity(gears(0.8))) < 0.0
+
+
+def test_they_move_the_wheel_as_the_side_crank_does():
+    ours = gears(0.6).stations[0]
+    theirs = build(Spec(Wheel(6), Drive("side-crank"), side_crank.Keys(0.6))).stations[0]
+    assert ours.motion(-30.0).derivatives() == theirs.motion(-30.0).derivatives()
+
+
+def test_pitch_curves_roll_on_each_other():
+    at = columns(gears_table(gears(0.6), 2001))
+    assert at["driver_radius_mm"] + at["driven_radius_mm"] == pytest.approx(120.0, rel=1e-15)
+    arcs = []
+    for name in ("driver", "driven"):
+        x, y = at[f"{name}_x_mm"], at[f"{name}_y_mm"]
+        arcs.append(np.hypot(np.diff(x), np.diff(y)))
+    # equal arcs, to the chords' own error of (1/2000 turn)² relative
+    assert arcs[0] == pytest.approx(arcs[1], rel=1e-5)
+
+
+def test_elliptical_gears_are_ellipses():
+    """Equal ellipses about their foci: r = C (1-e²)/2 / (1 -+ e cos), and always convex."""
+    keys = elliptical_gears.Keys(0.3)
+    mechanism = build(Spec(Wheel(6), Drive("elliptical-gears"), keys))
+    at = columns(gears_table(mechanism, 101))
+    expected = 100.0 * 0.5 * (1.0 - 0.09) / (1.0 + 0.3 * np.cos(np.radians(at["input_deg"])))
+    assert at["driver_radius_mm"] == pytest.approx(expected, rel=1e-14)
+    assert min(convexity(mechanism)) > 0.0
+
+
+def ratio_file(tmp_path, change=lambda ratio: ratio):
+    lines = ["input_deg,ratio"]
+    for k in range(0, 361, 2):
+        phi = math.radians(k % 360)
+        ratio = 0.91 / (1.09 + 0.6 * math.cos(phi))
+        lines.append(f"{k},{change(ratio)!r}")
+    (tmp_path / "ratio.csv").write_text("\n".join(lines))
+    return str(tmp_path / "spec.toml")
+
+
+def test_a_ratio_from_a_file(tmp_path):
+    """The elliptical gears' ratio at 181 points; a quintic spline of 2 degrees is good to 1e-10."""
+    ours = gears(file="ratio.csv", path=ratio_file(tmp_path)).stations[0]
+    keys = elliptical_gears.Keys(0.3)
+    theirs = build(Spec(Wheel(6), Drive("elliptical-gears"), keys)).stations[0]
+    assert ours.entry_deg == pytest.approx(theirs.entry_deg, abs=1e-9)
+    x = np.linspace(-90.0, 90.0, 19)
+    for order, digits in ((0, 1e-11), (1, 1e-10), (2, 1e-8), (3, 1e-6)):
+        a, b = (s.motion(x).derivatives()[order] for s in (ours, theirs))
+        assert a == pytest.approx(b, abs=digits)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [(lambda r: r - 0.6, "not realisable"), (lambda r: 1.1 * r, "do not close")],
+)
+def test_a_ratio_that_no_gears_have(tmp_path, change, said):
+    with pytest.raises(GenevaError, match=said):
+        gears(file="ratio.csv", path=ratio_file(tmp_path, change))
+
+
+def test_the_groove_against_the_law_of_sines():
+    """R = L sin psi / sin(phi + psi), from the law's closed form."""
+    spec = Spec(Wheel(6), Drive("cam"), cam.Keys(), Motion("cycloidal"))
+    at = columns(groove_table(build(spec), 25))
+    phi = np.radians(at["input_deg"])
+    u = at["input_deg"] / 120.0 + 0.5
+    psi = math.pi / 3.0 * (u - np.sin(2.0 * math.pi * u) / (2.0 * math.pi) - 0.5)
+    off = np.abs(phi) > 1e-9
+    expected = 100.0 * np.sin(psi[off]) / np.sin(phi[off] + psi[off])
+    assert at["radius_mm"][off] == pytest.approx(expected, rel=1e-13)
+    assert at["radius_mm"][~off] == pytest.approx(50.0, rel=1e-15)  # L V/(1+V), V = 1
+    assert at["curvature_radius_mm"][0] == math.inf  # entering along a slot at rest
+
+
+@pytest.mark.parametrize("table", [gears_table, groove_table])
+def test_a_plain_crank_has_neither(table):
+    with pytest.raises(GenevaError, match="has none"):
+        table(build(Spec(Wheel(6))))
+
+
+@pytest.mark.parametrize(("z", "alpha0"), [(6, 0.0), (4, -20.0), (8, 10.0)])
+def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
+    """No bulge, and no jump of its second derivative; derivatives against differences."""
+    spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
+    station = build(spec).stations[0]
+    x = station.exit_deg + np.linspace(-1.0, 361.0 - station.motion_deg, 20001)
+    R, slope, bend = _distances(station, x)
+    end = float(station.distances(station.exit_deg, 0)[1].c[0])
+    assert np.abs(R - end).max() < 0.15 * end
+    # Differences against the mean of both sides: their error is h times a bounded derivative.
+    h = np.radians(x[1] - x[0])
+    assert np.abs(np.diff(R) / h - 0.5 * (slope[1:] + slope[:-1])).max() < 1e-4
+    assert np.abs(np.diff(slope) / h - 0.5 * (bend[1:] + bend[:-1])).max() < 1e-2
+    assert np.abs(np.diff(bend)).max() < 100.0 * h
