@@ -29,7 +29,7 @@ class Table(NamedTuple):
         """Rows as plain Python values, a block at a time, so that memory stays flat."""
         for start in range(0, len(self), size):
             part = [c[start : start + size] for c in self.columns]
-            lists = [p.tolist() if hasattr(p, "tolist") else p for p in part]
+            lists = [p if isinstance(p, (list, tuple)) else p.tolist() for p in part]
             yield list(zip(*lists, strict=True))
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
@@ -77,6 +77,11 @@ def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -
     """
     made = _Pieces(length, make)
     return [Column(made, number) for number in range(count)]
+
+
+def is_floats(column: Any) -> bool:
+    """Whether a column is an array of doubles."""
+    return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
 def rows_table(names: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> Table:

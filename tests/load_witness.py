@@ -118,7 +118,7 @@ def groove(g, pin):
 
 def link(spec, entry_deg, exit_deg):
     """A four-bar's or slider-crank's coupler: the chain, and the motion (wheel, pin, entry)."""
-    keys, kind = spec.kind, spec.drive.kind
+    keys, kind = spec.kind, spec.drive.NAME
     path, b = linkage(kind, keys), mp.pi / spec.wheel.z
     entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))
     middle = (entry + exit_) / 2
@@ -166,11 +166,11 @@ def link(spec, entry_deg, exit_deg):
 
 
 def machine(spec, near=None):
-    """The chain, the wheel's angle and the roller's place of the machine's first station."""
+    """The chain, the wheel's angle and the roller's place of the machine's first engagement."""
     if near:
         return link(spec, *near)
-    kind = spec.drive.kind
-    g = -1 if spec.wheel.gearing == "internal" else 1
+    kind = spec.drive.NAME
+    g = -1 if spec.wheel.NAME == "internal" else 1
     motion = motions(spec)[0]
     wheel, pin = motion.wheel, motion.pin
     if kind == "epicyclic":

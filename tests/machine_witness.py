@@ -14,7 +14,7 @@ class Front:
     """The crank's angle f behind a front drive, as a function of the input angle, and back."""
 
     def __init__(self, drive=None, keys=None):
-        self.kind = drive.kind if drive else "crank"
+        self.kind = drive.NAME if drive else "crank"
         slow = self.kind in ("side-crank", "noncircular-gears")  # the same ratio
         self.A = mp.mpf(keys.A) if slow else mp.mpf(0)
         self.e = mp.mpf(0)
@@ -82,7 +82,7 @@ class Motion:
         if self.polar:
             at, speed = taylor(self.polar, x, 1)
             return mp.sin(at), speed
-        place, speed = taylor(lambda t: self.pin(t) * mp.expj(-self.wheel(t)), x, 1)
+        place, speed = taylor(lambda t: self.path(t) * mp.expj(-self.wheel(t)), x, 1)
         along = mp.expj(mp.arg(speed)) * (1 if speed.real * place.real > 0 else -1)
         foot = (place * mp.conj(along)).real
         return abs(foot), (speed * mp.conj(along)).real
@@ -110,8 +110,8 @@ class LawMotion(Motion):
 
 
 def motions(spec):
-    """The motions of a machine in the order of its stations."""
-    kind = spec.drive.kind
+    """The motions of a machine in the order of its engagements."""
+    kind = spec.drive.NAME
     if kind == "epicyclic":
         return [epicyclic(spec)]
     if kind == "cam":
@@ -138,13 +138,13 @@ def rollers(spec):
         return out
     if drive.roller_angles_deg:
         return [(to_radians(a), b) for a in drive.roller_angles_deg]
-    count = drive.rollers if drive.kind != "crank" else 1  # on a plain crank all move alike
+    count = drive.rollers if drive.NAME != "crank" else 1  # on a plain crank all move alike
     return [(2 * mp.pi * j / drive.rollers, b) for j in range(count)]
 
 
 def straight(spec, front, crank, b):
     """A straight slot, and a roller on the crank's circle, ``crank`` behind the first."""
-    gearing = spec.wheel.gearing
+    gearing = spec.wheel.NAME
     e = mp.mpf(spec.wheel.offset_mm) / mp.mpf(spec.size.center_distance_mm)
     polar = None
     if gearing == "spherical":
@@ -245,7 +245,7 @@ def epicyclic(spec):
 
 def cam(spec):
     """A straight slot and a law: the law of sines in the triangle of both axes and the roller."""
-    g = -1 if spec.wheel.gearing == "internal" else 1
+    g = -1 if spec.wheel.NAME == "internal" else 1
     b = mp.pi / spec.wheel.z
     motion = mp.pi - 2 * g * b - to_radians(spec.motion.alpha0_deg)
 
@@ -257,7 +257,7 @@ def cam(spec):
 
 def curved(spec, front):
     """A law and a roller on the crank's circle."""
-    g = -1 if spec.wheel.gearing == "internal" else 1
+    g = -1 if spec.wheel.NAME == "internal" else 1
     b, law = mp.pi / spec.wheel.z, LAWS[spec.motion.law]
     motion = 2 * front.input(mp.pi / 2 - g * b) - to_radians(spec.motion.alpha0_deg)
     l = spec.motion.ratio
@@ -351,7 +351,7 @@ def fitted(path, b, entry, exit_):
 def on_path(spec, entry_deg, exit_deg):
     """A machine whose roller is a point of a linkage; the two angles are near the true ones."""
     b = mp.pi / spec.wheel.z
-    path = linkage(spec.drive.kind, spec.kind)
+    path = linkage(spec.drive.NAME, spec.kind)
     entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))
     middle = (entry + exit_) / 2  # the input's own middle
     L = abs(centre)

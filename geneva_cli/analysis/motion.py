@@ -41,30 +41,34 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
 
 def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Array]:
     """The columns' rows from ``begin`` up to ``end``, left out, of ``samples`` in all."""
-    stations = mechanism.stations
-    start = stations[0].mid_deg + stations[0].entry_deg
+    engagements = mechanism.engagements
+    start = engagements[0].mid_deg + engagements[0].entry_deg
     input_deg = start + mechanism.period_deg * np.arange(begin, end) / (samples - 1)
     if end == samples:
         input_deg[-1] = start + mechanism.period_deg
     wheel = np.empty(len(input_deg))
     rates = [np.zeros(len(input_deg)) for _ in range(3)]
     first = 0
-    for i, station in enumerate(stations):
+    for i, engagement in enumerate(engagements):
         # What stays constant within a cycle: the steps that are done before it.
-        base = sum(2.0 * s.half_step for s in stations[:i]) + station.half_step
-        base -= stations[0].half_step
-        exit_ = station.mid_deg + station.exit_deg
+        base = sum(2.0 * s.half_step for s in engagements[:i]) + engagement.half_step
+        base -= engagements[0].half_step
+        exit_ = engagement.mid_deg + engagement.exit_deg
         last = int(np.searchsorted(input_deg, exit_, side="right"))
         if last > first:
             local = np.clip(
-                input_deg[first:last] - station.mid_deg, station.entry_deg, station.exit_deg
+                input_deg[first:last] - engagement.mid_deg,
+                engagement.entry_deg,
+                engagement.exit_deg,
             )
-            for out, values in zip([wheel, *rates], station.derivatives(local), strict=True):
+            for out, values in zip(
+                [wheel, *rates], engagement.motion.derivatives(local), strict=True
+            ):
                 out[first:last] = values
             wheel[first:last] += base
-        following = i + 1 < len(stations)
+        following = i + 1 < len(engagements)
         next_entry = exit_ + mechanism.dwell_deg(i) if following else math.inf
         first = int(np.searchsorted(input_deg, next_entry, side="left"))
-        wheel[last:first] = base + station.half_step
+        wheel[last:first] = base + engagement.half_step
     time = (input_deg - start) / (6.0 * mechanism.spec.drive.n_rpm)
     return [time, input_deg, np.degrees(wheel), *rates]

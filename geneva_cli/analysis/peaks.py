@@ -12,9 +12,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from geneva_cli.analysis.timing import timings
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import extrema
 from geneva_cli.table import Table, record_table, rows_table
@@ -37,7 +36,7 @@ class Ends(NamedTuple):
 
 
 class Peaks(NamedTuple):
-    """All peaks of one station."""
+    """All peaks of one engagement."""
 
     velocity: Peak
     acceleration: Peak
@@ -59,16 +58,16 @@ _SAME = 1e-15  # of the motion: a rounding
 _BESIDE = (1e-12, 1e-6)  # of the motion: nearer is rounding; some root of _TIE, the flat of a top
 
 
-def peak(station: Station, quantity: str) -> Peak:
-    """The greatest size of one quantity over a station's motion, ends included."""
+def peak(motion: Motion, quantity: str) -> Peak:
+    """The greatest size of one quantity over a motion, ends included."""
     pick, order = QUANTITIES[quantity], _ORDER[quantity]
 
     def curve(x: float) -> tuple[float, float, float]:
-        value, slope, bend = pick(station.motion(x, order).derivatives())
+        value, slope, bend = pick(motion(x, order).derivatives())
         return value, slope * DEGREE, bend * DEGREE * DEGREE
 
-    breaks = station.breaks_deg
-    if station.symmetric:
+    breaks = motion.breaks_deg
+    if motion.symmetric:
         breaks = tuple(x for x in breaks if x <= 0.0)
     places: list[tuple[Peak, bool]] = []  # in order; whether stationary
     for a, b in zip(breaks, breaks[1:], strict=False):
@@ -100,48 +99,43 @@ def _summit(x: float, value: float, slope: float, bend: float) -> float:
     return abs(value)
 
 
-def ends(station: Station) -> Ends:
+def ends(engagement: Engagement) -> Ends:
     """Sizes at both ends, from inside the motion."""
-    first = station.motion(station.entry_deg).derivatives()
-    last = station.motion(station.exit_deg).derivatives()
+    first = engagement.motion(engagement.entry_deg).derivatives()
+    last = engagement.motion(engagement.exit_deg).derivatives()
     return Ends(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
 
 
-def acceleration_peak(station: Station) -> Peak:
-    """The peak acceleration, from its closed form where there is one."""
-    if station.known_peak is not None:
-        return Peak(*station.known_peak())
-    if station.classic is None:
-        return peak(station, "acceleration")
-    sign, l, rest = station.classic
-    if sign < 0.0:
-        return Peak(ends(station).acceleration_entry, station.entry_deg)
-    size, at_deg = classic.acceleration_peak(l, rest)
-    return Peak(size, -at_deg)
+def _peak(motion: Motion, quantity: str) -> Peak:
+    """The peak in closed form, where there is one."""
+    known = motion.known(quantity)
+    return Peak(*known) if known else peak(motion, quantity)
 
 
-def velocity_peak(station: Station) -> Peak:
-    """The peak velocity, from its closed form where there is one."""
-    if station.classic is None:
-        return peak(station, "velocity")
-    sign, l, rest = station.classic
-    return Peak(classic.velocity_peak(l, rest if sign > 0.0 else 1.0 + l), 0.0)
+def acceleration_peak(engagement: Engagement) -> Peak:
+    """The peak acceleration."""
+    return _peak(engagement.motion, "acceleration")
 
 
-def peaks(station: Station) -> Peaks:
-    """Every peak of one station."""
+def velocity_peak(engagement: Engagement) -> Peak:
+    """The peak velocity."""
+    return _peak(engagement.motion, "velocity")
+
+
+def peaks(engagement: Engagement) -> Peaks:
+    """Every peak of one engagement."""
     return Peaks(
-        velocity_peak(station),
-        acceleration_peak(station),
-        peak(station, "jerk"),
-        peak(station, "power"),
-        ends(station),
+        velocity_peak(engagement),
+        acceleration_peak(engagement),
+        peak(engagement.motion, "jerk"),
+        peak(engagement.motion, "power"),
+        ends(engagement),
     )
 
 
 def worst(mechanism: Mechanism) -> Peaks:
-    """The greatest peaks over all stations; angles are the machine's input angles."""
-    each = [placed(mechanism, s) for s in mechanism.stations]
+    """The greatest peaks over all engagements; angles are the machine's input angles."""
+    each = [placed(mechanism, s) for s in mechanism.engagements]
 
     def greatest(candidates: list[Peak]) -> Peak:
         best = candidates[0]
@@ -158,12 +152,12 @@ def worst(mechanism: Mechanism) -> Peaks:
     )
 
 
-def placed(mechanism: Mechanism, station: Station) -> Peaks:
-    """A station's peaks, their angles the machine's input angles."""
-    found = peaks(station)
+def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
+    """A engagement's peaks, their angles the machine's input angles."""
+    found = peaks(engagement)
 
     def moved(p: Peak) -> Peak:
-        return Peak(p.max, mechanism.shown_deg(station.mid_deg + p.at_deg))
+        return Peak(p.max, mechanism.shown_deg(engagement.mid_deg + p.at_deg))
 
     return Peaks(
         moved(found.velocity),
@@ -175,12 +169,12 @@ def placed(mechanism: Mechanism, station: Station) -> Peaks:
 
 
 def peaks_table(mechanism: Mechanism) -> Table:
-    """The greatest peaks, then those of each station where the stations differ (None if not)."""
+    """The greatest peaks, then those of each engagement where they differ (None if not)."""
     times = timings(mechanism)
     rows = [
-        _record(placed(mechanism, station))
+        _record(placed(mechanism, engagement))
         | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
-        for station, time in zip(mechanism.stations, times, strict=True)
+        for engagement, time in zip(mechanism.engagements, times, strict=True)
     ]
     differ = len(rows) > 1
     values: dict[str, Any] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}

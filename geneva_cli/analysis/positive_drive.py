@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads import loads
-from geneva_cli.machine.engagement import LawDriven
 from geneva_cli.machine.mechanism import Mechanism
 
 SAMPLES = 720  # in a half motion
@@ -37,22 +36,22 @@ def positive_drive(mechanism: Mechanism) -> Drive | None:
     in keeps that wall where the roller leads the way out at the same radius, the way out where
     it lags.
     """
-    station, L = mechanism.stations[0], mechanism.spec.size.center_distance_mm
-    if not isinstance(station, LawDriven):
+    engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
+    if not engagement.slot.curved:
         return None
     # Places between the samples of a grid that has mid-motion, where the branches meet.
-    x = station.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES)
-    (ax, ay), (bx, by) = station.pitch(x, 0), station.pitch(-x, 0)
+    x = engagement.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES)
+    (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(-x, 0)
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)
     play = PLAY_MM + 2.0 * mechanism.spec.size.slot_clearance_mm
     loose, wide = [], 0.0
     for side, degrees in ((1.0, x), (-1.0, -x)):
-        torque = loads.state(mechanism, station, degrees).torque_Nm
+        torque = loads.state(mechanism, engagement, degrees).torque_Nm
         missing = (gap > play) & (side * np.sign(lead) * torque < 0.0)
         loose += [float(d) for d in degrees[missing]]
         wide = max(wide, float(gap[missing].max(initial=0.0)))
-    step = abs(station.entry_deg) / SAMPLES
+    step = abs(engagement.entry_deg) / SAMPLES
     worst = int(np.argmax(gap))
     return Drive(
         tuple(_intervals(sorted(loose), step)),

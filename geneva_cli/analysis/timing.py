@@ -42,13 +42,13 @@ def timing(motion_deg: float, dwell_deg: float, index_deg: float, n_rpm: float) 
 
 
 def timings(mechanism: Mechanism) -> list[Timing]:
-    """The timing of every station, in order."""
+    """The timing of every engagement, in order."""
     return [
         timing(
-            station.motion_deg,
+            engagement.motion_deg,
             mechanism.dwell_deg(i),
             mechanism.index_deg(i),
             mechanism.spec.drive.n_rpm,
         )
-        for i, station in enumerate(mechanism.stations)
+        for i, engagement in enumerate(mechanism.engagements)
     ]

@@ -12,10 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.engagement import LawDriven
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import pitch, retraces
-from geneva_cli.machine.wheels.classic import SIGN
 
 NEAR = 1e-3  # share of the half motion
 SAMPLES = 1024  # a half motion; the depth's error is then far below a micrometre a metre
@@ -35,21 +33,21 @@ class Undercut(NamedTuple):
 
 def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, on the way in or out; None if there is none."""
-    station, size = mechanism.stations[0], mechanism.spec.size
-    if not isinstance(station, LawDriven):
+    engagement, size = mechanism.engagements[0], mechanism.spec.size
+    if not engagement.slot.curved:
         return None
-    L = size.center_distance_mm
-    r = (mechanism.spec.roller_radius_mm + size.slot_clearance_mm) / L
+    L = mechanism.center_distance_mm
+    r = (mechanism.roller_radius_mm + size.slot_clearance_mm) / L
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
-    x = station.entry_deg * (1.0 - np.arange(samples) / samples) ** 2
-    inward, outward = pitch(station, x), pitch(station, -x)
+    x = engagement.entry_deg * (1.0 - np.arange(samples) / samples) ** 2
+    inward, outward = pitch(engagement, x), pitch(engagement, -x)
     turn = np.arctan2(inward.y, inward.x) - np.arctan2(outward.y, outward.x)
-    near = np.abs(x) < NEAR * abs(station.entry_deg)
+    near = np.abs(x) < NEAR * abs(engagement.entry_deg)
     turn[near] = turn[~near][-1]  # the branches meet there, and their distance is rounding
     # Left (1) or right (-1) of the travel, on both branches. Outside, the pin travels inwards
     # first; inside, outwards.
-    outer = -SIGN[mechanism.spec.wheel.gearing] * np.where(turn > 0.0, 1.0, -1.0)
-    back = retraces(station)
+    outer = -mechanism.spec.wheel.SIGN * np.where(turn > 0.0, 1.0, -1.0)
+    back = retraces(engagement)
     found = []
     for degrees, at in ((x, inward), (-x, outward)):
         bend = outer * at.turning / at.speed  # curvature towards the outer wall

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from geneva_cli.machine.wheels.classic import SIGN
+from geneva_cli.machine import registry
 
 
 class Design(NamedTuple):
@@ -23,7 +23,7 @@ class Design(NamedTuple):
     @classmethod
     def of(cls, z: int, gearing: str, A: float) -> Design:
         """One design."""
-        sign, b = SIGN[gearing], math.pi / z
+        sign, b = registry.gearing(gearing).SIGN, math.pi / z
         crank = 0.5 * math.pi - sign * b
         return cls(sign, math.sin(b), A, crank + math.asin(A * math.sin(crank)))
 

@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.wheels.classic import SIGN
+from geneva_cli.machine import registry
 
 
 @cache
@@ -31,7 +31,7 @@ def digits() -> Any:
 def motion(z: int, gearing: str, A: float, x: Any) -> tuple[Any, Any, Any, Any]:
     """Wheel angle, velocity, acceleration and jerk at x radians from mid-motion (exact)."""
     mp = digits()
-    g = SIGN[gearing]
+    g = registry.gearing(gearing).SIGN
     E = mp.expj(x)
     w = E / (A + E)
     w1 = 1j * w * (1 - w)
@@ -53,7 +53,7 @@ def motion(z: int, gearing: str, A: float, x: Any) -> tuple[Any, Any, Any, Any]:
 def half_motion(z: int, gearing: str, A: float) -> Any:
     """Input angle from entry to mid-motion, radians."""
     mp = digits()
-    half = mp.pi / 2 - int(SIGN[gearing]) * mp.pi / z
+    half = mp.pi / 2 - int(registry.gearing(gearing).SIGN) * mp.pi / z
     return half + mp.asin(A * mp.sin(half))
 
 
@@ -68,7 +68,7 @@ def acceleration_peak(z: int, gearing: str, A: float) -> Any:
     from geneva_cli.bench.formulas import Design, jerk
 
     mp = digits()
-    crank = np.linspace(0.0, np.pi / 2 - SIGN[gearing] * np.pi / z, 401)
+    crank = np.linspace(0.0, np.pi / 2 - registry.gearing(gearing).SIGN * np.pi / z, 401)
     x = crank + np.arcsin(A * np.sin(crank))
     slope = jerk(np, Design.of(z, gearing, A), x)
     end = half_motion(z, gearing, A)

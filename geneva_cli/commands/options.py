@@ -11,7 +11,7 @@ import typer
 from geneva_cli.errors import clean
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.design import Design
 
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
@@ -26,11 +26,9 @@ Format: TypeAlias = Annotated[
 ]
 
 
-def warn(mechanism: Mechanism) -> None:
+def warn(design: Design) -> None:
     """Say on standard error what a number alone would hide."""
-    from geneva_cli.verdict.cautions import cautions
-
-    say(mechanism.spec.path, cautions(mechanism))
+    say(design.spec.path, design.warnings)
 
 
 def say(path: str, cautions: Iterable[str]) -> None:

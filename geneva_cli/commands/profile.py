@@ -9,13 +9,10 @@ import typer
 
 from geneva_cli.commands.options import Output, SpecPath, warn
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.outlines import Outlines
-
-CURVES = {"arcs": "arcs", "spline": "cubics"}
+    from geneva_cli.design import Design
+    from geneva_cli.parts.proof import Proof
 
 
 def run(
@@ -48,9 +45,8 @@ def run(
     the pin travels in. Before a drawing is written its machine is turned through a whole turn.
     """
     from geneva_cli.curves.pieces import UNITS
+    from geneva_cli.design import CURVES, load
     from geneva_cli.output import draw, is_drawn, show
-    from geneva_cli.parts.catalogue import is_table, part_drawing, part_table
-    from geneva_cli.specfile.reader import load_and
 
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
@@ -59,35 +55,25 @@ def run(
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
     drawn = is_drawn(output, format)
-
-    def make(mechanism: Mechanism) -> Table | Outlines:
-        if is_table(mechanism, part, drawn):
-            if units != "mm":
-                raise GenevaError("--units is for drawings; tables of points are in millimetres")
-            return part_table(mechanism, part, tolerance, samples)
+    design = load(spec)
+    if design.is_table(part, drawn):
+        if units != "mm":
+            raise GenevaError("--units is for drawings; tables of points are in millimetres")
+        show(design.part_table(part, tolerance, samples), output, format, design.spec.files)
+    else:
         if samples is not None:
             raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-        from geneva_cli.parts.outlines import outlines
-
-        return outlines(mechanism, tolerance)
-
-    mechanism, found = load_and(spec, lambda m: (m, make(m)))
-    if isinstance(found, Table):
-        show(found, output, format, mechanism.spec.files)
-    else:
-        _judge(found, force)
-        drawing = part_drawing(found, part, tolerance, CURVES[curves])
-        draw(drawing, output, format, units, mechanism.spec.files)
-    warn(mechanism)
+        proof = design.drawn(tolerance)
+        _judge(design, proof, force)
+        drawing = design.drawing(part, tolerance, curves, proof)
+        draw(drawing, output, format, units, design.spec.files)
+    warn(design)
 
 
-def _judge(found: Outlines, force: bool) -> None:
+def _judge(design: Design, proof: Proof, force: bool) -> None:
     """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
-    from geneva_cli.parts.proof import Proof
-    from geneva_cli.verdict.advice import verdict
-
-    path = found.plane.given.spec.path
-    refused, warned = verdict(Proof(found.plane.given, found))
+    path = design.spec.path
+    refused, warned = design.judge(proof)
     if refused and not force:
         text = f"not written: {refused}; --force writes it all the same"
         print(clean(f"{path}: {text}"), file=sys.stderr)

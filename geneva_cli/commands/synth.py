@@ -85,7 +85,7 @@ def run(
         table = synthesis_table(wish)
         show(for_people(table) if name in ("table", "md") else table, output, format)
         return
-    from geneva_cli.machine.mechanism import build
+    from geneva_cli.design import Design
     from geneva_cli.study.synthesis.spec import chosen
 
     if format:
@@ -95,4 +95,4 @@ def run(
     path = "<stdout>" if output == "-" else output
     if found.trouble:
         print(clean(f"{path}: warning: {found.trouble}"), file=sys.stderr)
-    warn(build(found.spec._replace(path=path)))
+    warn(Design.of(found.spec.but(path=path)))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.jet import Coefficient, library
 
 # the columns of a table of a pitch curve with a wall on either side
@@ -40,19 +40,19 @@ class Pitch(NamedTuple):
     pressure: Coefficient  # radians, 0 to pi/2
 
 
-def retraces(station: Station) -> bool:
+def retraces(engagement: Engagement) -> bool:
     """Whether the pin stops in the wheel at mid-motion and leaves on the way it came.
 
     True for straight slots and at the mid condition; otherwise the pin passes mid-motion across
     the slot's radius, and the pressure angle is 90 degrees there.
     """
-    x, y = station.pitch(0.0, 1)
+    x, y = engagement.slot(0.0, 1)
     return bool(abs(x.c[1]) + abs(y.c[1]) < RETRACE)
 
 
-def pitch(station: Station, input_deg: Coefficient) -> Pitch:
+def pitch(engagement: Engagement, input_deg: Coefficient) -> Pitch:
     """Everything about the pitch curve at input angles other than a retracing mid-motion."""
-    x, y = station.pitch(input_deg, 2)
+    x, y = engagement.slot(input_deg, 2)
     m = library(x.c[0])
     (x0, x1, x2), (y0, y1, y2) = x.derivatives(), y.derivatives()
     speed = m.hypot(x1, y1)
@@ -67,13 +67,13 @@ def pitch(station: Station, input_deg: Coefficient) -> Pitch:
     )
 
 
-def pitch_at_retrace(station: Station) -> Pitch:
+def pitch_at_retrace(engagement: Engagement) -> Pitch:
     """The limit at mid-motion of a pin that retraces, seen from the way in.
 
     There M' = 0 and M moves as M'' t²/2 + M''' t³/6: it stops along M'', and turns at
     M'' x M''' / (2 |M''|²) on both sides.
     """
-    x, y = station.pitch(0.0, 3)
+    x, y = engagement.slot(0.0, 3)
     m = library(x.c[0])
     (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()
     size = m.hypot(x2, y2)

@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import kinds
-from geneva_cli.spec.tables import Spec
+from geneva_cli.machine.spec import Spec
 
 
 class Bound(NamedTuple):
@@ -24,10 +23,10 @@ class Bound(NamedTuple):
     what: str
 
 
-def refuse_sizes(spec: Spec, ratio: float) -> None:
+def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
     size = spec.size
-    for one in _bounds(spec, ratio):
+    for one in _bounds(spec, L, ratio):
         if not one.value < one.below:
             raise GenevaError(
                 f"{one.key} = {one.value:g}: it must be below {one.below:.6g}, {one.what}",
@@ -43,15 +42,15 @@ def refuse_sizes(spec: Spec, ratio: float) -> None:
             )
 
 
-def _bounds(spec: Spec, ratio: float) -> Iterator[Bound]:
-    size, L, r = spec.size, spec.size.center_distance_mm, spec.roller_radius_mm
-    ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps_deg or ()] or [ratio]
+def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
+    size, r = spec.size, spec.roller_radius_mm(L)
+    ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps] or [ratio]
     short, long = L * min(ratios), L * max(ratios)
     narrow, what = short, "the crank's arm"
-    if kinds.own_path(spec.drive.kind):
+    if not spec.drive.ONE_ARM:
         short = long = narrow = L  # a roller whose arm changes has no one length
         what = "the centre distance"
-    elif spec.wheel.gearing == "external":
+    elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
         narrow, what = min(short, L - long), "the crank's arm and what it leaves of the wheel"
     given = [
         ("roller_radius_mm", narrow, what),

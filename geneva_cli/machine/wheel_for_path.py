@@ -1,4 +1,4 @@
-"""A wheel for any roller path: where it must stand, and the station that it makes.
+"""A wheel for any roller path: where it must stand, and the engagement that it makes.
 
 The roller's path P(phi) is closed. A wheel with straight radial slots takes it without shock where
 the path enters along one slot and leaves along the next, equally far from the wheel's centre O:
@@ -16,20 +16,28 @@ from __future__ import annotations
 import cmath
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from decimal import Decimal, localcontext
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.machine.engagement import Anchor, SlotDriven
-from geneva_cli.machine.wheels import poses as gearing
+from geneva_cli.machine import path_and_slot
+from geneva_cli.machine.engagement import Anchor, Engagement
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, sine_versine
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos, sine_versine
 
-# sin d and 1 - cos d of the crank's angle d since a moment -> the pin's way (x, y) since then
-Way: TypeAlias = Callable[[Jet, Jet], tuple[Jet, Jet]]
+
+class Way(Protocol):
+    """The pin's way since a moment."""
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """(x, y), from sin d and 1 - cos d of the crank's angle d since then."""
+
+
 Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
 
 
@@ -92,7 +100,7 @@ class _Place(NamedTuple):
     turn: float
 
 
-def fits(path: Path, step: gearing.Step) -> list[Fit]:
+def fits(path: Path, step: Step) -> list[Fit]:
     """All wheels of an index angle that the path can drive, the gentlest first."""
     tried: list[float] = []
     found: list[Fit] = []
@@ -106,8 +114,8 @@ def fits(path: Path, step: gearing.Step) -> list[Fit]:
     return sorted(found, key=lambda f: f.peak)
 
 
-def station(path: Path, fit: Fit, step: gearing.Step) -> tuple[SlotDriven, float]:
-    """The station of a wheel that fits, and the centre distance; the crank's axis is the origin.
+def engagement(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
+    """The engagement of a wheel that fits, and the centre distance; the crank's axis is the origin.
 
     Every place is worked out in 50 digits and rounded once.
     """
@@ -129,7 +137,7 @@ def station(path: Path, fit: Fit, step: gearing.Step) -> tuple[SlotDriven, float
                 digits.to_degrees(p.phi - middle),
                 wheel,
                 float(_length(ray) / L),
-                _displacement(path.about(p.sine, p.cosine), ray, fit.sense, float(L), end),
+                _along_ray(path.about(p.sine, p.cosine), ray, fit.sense, float(L), end),
             )
             for p, ray, wheel, end in zip(
                 places,
@@ -139,14 +147,43 @@ def station(path: Path, fit: Fit, step: gearing.Step) -> tuple[SlotDriven, float
                 strict=True,
             )
         )
-    out = SlotDriven(0.0, step.b, anchors, ahead=ahead, mirrored=False)
-    out.crank_sense = -fit.sense
-    return out, float(L)
+    anchored = AnchoredPath(anchors, ahead)
+    motion = Followed(anchored, step.b, mirrored=False)
+    body = Link(path, float(middle), fit.sense)
+    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body), float(L)
 
 
-def _displacement(
-    way: Way, ray: Exact, sense: float, L: float, end: float
-) -> Callable[[Coefficient, int], tuple[Jet, Jet]]:
+class Link(NamedTuple):
+    """The link that carries the roller, from mid-motion on."""
+
+    path: Path
+    middle: float  # the crank's angle there
+    sense: float
+
+    def __call__(self, tau: Coefficient, order: int) -> Jet:
+        """How fast it turns, positive with the wheel."""
+        x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
+        return atan2(y, x).derivative() * self.sense
+
+
+class AlongRay(NamedTuple):
+    """The pin's way along a ray (x, y) and across it, positive with the wheel."""
+
+    way: Way
+    x: float
+    y: float
+    scale: float
+    sense: float
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """``tau`` radians of the crank later."""
+        x, y = self.way(*sine_versine(Jet.variable(tau, order)))
+        along = (x * self.x + y * self.y) * self.scale
+        across = (y * self.x - x * self.y) * (self.sense * self.scale)
+        return along, across
+
+
+def _along_ray(way: Way, ray: Exact, sense: float, L: float, end: float) -> AlongRay:
     """The pin's way along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
 
     There it is the velocity that ``way`` itself gives, so that nothing at all is left across it.
@@ -155,15 +192,7 @@ def _displacement(
     if end:
         x, y = way(*sine_versine(Jet.variable(0.0, 1)))
         ux, uy = end * x.c[1], end * y.c[1]
-    scale = 1.0 / (math.hypot(ux, uy) * L)
-
-    def displacement(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
-        x, y = way(*sine_versine(Jet.variable(tau, order)))
-        along = (x * ux + y * uy) * scale
-        across = (y * ux - x * uy) * (sense * scale)
-        return along, across
-
-    return displacement
+    return AlongRay(way, ux, uy, 1.0 / (math.hypot(ux, uy) * L), sense)
 
 
 class _Turned(NamedTuple):
@@ -293,7 +322,7 @@ def _stationary(path: Path, b: float, pair: Pair) -> Pair | None:
 
 
 def _polished(
-    path: Path, step: gearing.Step, entry: float, exit_: float, sense: float
+    path: Path, step: Step, entry: float, exit_: float, sense: float
 ) -> tuple[Decimal, Decimal] | None:
     """A pair in 50 digits: Newton on what is left of both conditions, its slopes in doubles.
 
@@ -328,7 +357,7 @@ def _polished(
     return (first, last) if abs(move) < POLISHED else None
 
 
-def _checked(path: Path, step: gearing.Step, entry: float, exit_: float) -> Fit | None:
+def _checked(path: Path, step: Step, entry: float, exit_: float) -> Fit | None:
     """The wheel of a pair, if the roller stays in its slot and turns it one way only."""
     one, two = _place(path, entry), _place(path, exit_)
     rho = abs(two.p - one.p) / abs(one.t + two.t)

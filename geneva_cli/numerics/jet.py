@@ -38,6 +38,15 @@ def library(x: Coefficient) -> Any:
     return numpy
 
 
+def choose(condition: Any, yes: Coefficient, no: Coefficient) -> Coefficient:
+    """One of two values, for a truth value, or element by element for an array of them."""
+    if isinstance(condition, bool):
+        return yes if condition else no
+    import numpy
+
+    return numpy.where(condition, yes, no)
+
+
 class Jet:
     """Taylor coefficients of a function at a point (float) or at many (arrays)."""
 

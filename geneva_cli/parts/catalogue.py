@@ -35,7 +35,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
             f"--part {part} is a table of points; write it as .csv or .json, and "
             f"{', '.join(DRAWINGS)} as drawings"
         )
-    spherical = part == "wheel" and mechanism.spec.wheel.gearing == "spherical"
+    spherical = part == "wheel" and not mechanism.spec.wheel.FLAT
     return not drawn and (part in TABLES or spherical)
 
 
@@ -66,9 +66,9 @@ def meridians_table(mechanism: Mechanism) -> Table:
 
     Angles are about the wheel's axis (azimuth) and from it (polar); points on the sphere.
     """
-    station, spec = mechanism.stations[0], mechanism.spec
-    mouth, bottom = (station.pitch(x, 0)[0].c[0] for x in (station.entry_deg, 0.0))
-    L = spec.size.center_distance_mm
+    engagement, spec = mechanism.engagements[0], mechanism.spec
+    mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
+    L = mechanism.center_distance_mm
     names = ["slot", "azimuth_deg", "mouth_polar_deg", "bottom_polar_deg"]
     names += [f"{end}_{axis}_mm" for end in ("mouth", "bottom") for axis in "xyz"]
     rows = []

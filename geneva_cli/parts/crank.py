@@ -47,8 +47,8 @@ class Relief(NamedTuple):
 def reliefs(plane: Plane) -> list[Relief]:
     """The reliefs around the crank: where the line of centres is on it while the wheel moves."""
     found = []
-    for i, (station, behind) in enumerate(plane.rollers):
-        ends = [behind + station.entry_deg, behind + station.exit_deg]
+    for i, (engagement, behind) in enumerate(plane.rollers):
+        ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
         start, end = sorted(_lock_directions(plane, behind, ends))
         found.append(Relief(start, end, i))
     first = found[0].start

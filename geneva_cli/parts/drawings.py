@@ -23,8 +23,7 @@ from geneva_cli.curves.shapes import (
     joined,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.cam import CamDriven
-from geneva_cli.machine.engagement import LawDriven, Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.crank import crank_circles
 from geneva_cli.parts.outlines import Outlines, slot_walls
@@ -46,13 +45,13 @@ def crank(found: Outlines, tolerance: float, curves: str) -> Drawing:
 
 def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The first slot, closed along the rim, and the roller's way in it."""
-    station = found.plane.slots[0][0]
-    walls = slot_walls(found.plane, found.sizes, station, tolerance, curves)
+    engagement = found.plane.slots[0][0]
+    walls = slot_walls(found.plane, found.sizes, engagement, tolerance, curves)
     start, end = walls.segments[0].start, walls.segments[-1].end
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
     level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.plane.L
     rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
-    pitch = _pitch(found.plane, station, tolerance, curves)
+    pitch = _pitch(found.plane, engagement, tolerance, curves)
     return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), pitch))
 
 
@@ -69,16 +68,17 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
 
 def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The fixed groove of a cam-Geneva, both flanks all round, about the crank's axis."""
-    station = found.plane.rollers[0][0]
-    if not isinstance(station, CamDriven):
-        kind = found.plane.mechanism.spec.drive.kind
+    guide = found.plane.rollers[0][0].groove
+    if guide is None:
+        kind = found.plane.mechanism.spec.drive.NAME
         raise GenevaError(f'--part groove: kind = "{kind}" has none; kind = "cam" has')
     from geneva_cli.parts.groove import groove_curve
 
-    ends = (station.entry_deg, station.exit_deg, station.entry_deg + 360.0)
+    motion = guide.motion
+    ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
     shapes = []
     for layer, side in (("GROOVE", 1.0), ("GROOVE", -1.0), (PITCH, 0.0)):
-        curve = groove_curve(station, found.plane.L, side * found.sizes.half_width)
+        curve = groove_curve(guide, found.plane.L, side * found.sizes.half_width)
         pieces: list[Segment] = []
         for a, b in zip(ends, ends[1:], strict=False):
             pieces += fit.KINDS[curves](curve, a, b, tolerance)
@@ -114,25 +114,27 @@ def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Sh
     plane = found.plane
     shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (plane.L, 0.0)),), closed=False)]
     arms = set()
-    for number, (station, behind) in enumerate(plane.rollers):
-        if not station.crank_sense and not isinstance(station, CamDriven):
+    for number, (engagement, behind) in enumerate(plane.rollers):
+        if not engagement.crank_sense and engagement.groove is None:
             x, y = plane.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - plane.L, y), 9))
     shapes += [Circle(PITCH, (plane.L, 0.0), arm) for arm in sorted(arms)]
     pitches = {s: _pitch(plane, s, tolerance, curves) for s in found.slots}
-    shapes += [turned(pitches[station], direction + psi) for station, direction in plane.slots]
+    shapes += [
+        turned(pitches[engagement], direction + psi) for engagement, direction in plane.slots
+    ]
     return shapes
 
 
-def _pitch(plane: Plane, station: Station, tolerance: float, curves: str) -> Contour:
+def _pitch(plane: Plane, engagement: Engagement, tolerance: float, curves: str) -> Contour:
     """The slot's pitch curve, the first half of the way where the roller comes back on it."""
-    at = np.array([station.entry_deg, 0.0])
-    x, y = station.pitch(at, 0)
-    if not isinstance(station, LawDriven):
+    at = np.array([engagement.entry_deg, 0.0])
+    x, y = engagement.slot(at, 0)
+    if not engagement.slot.curved:
         mouth, end = plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour(PITCH, (Line(*ends),), closed=False)
     pieces: list[Segment] = []
-    for a, b in ((station.entry_deg, 0.0), (0.0, station.exit_deg)):
-        pieces += fit.KINDS[curves](beside(plane, station, 0.0, b > 0.0), a, b, tolerance)
+    for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
+        pieces += fit.KINDS[curves](beside(plane, engagement, 0.0, b > 0.0), a, b, tolerance)
     return Contour(PITCH, joined(pieces), closed=False)

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import kinds
-from geneva_cli.machine.drives import GEARED as KINDS
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.table import Table
@@ -47,14 +47,16 @@ def gears_table(mechanism: Mechanism, samples: int | None = None) -> Table:
 
     The driver is given as it is cut, so its angle runs against the input; likewise the driven.
     """
-    if mechanism.spec.drive.kind not in KINDS:
+    drive = mechanism.spec.drive
+    gears = drive.gears
+    if gears is None:
+        geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
         raise GenevaError(
-            f'--part gears: kind = "{mechanism.spec.drive.kind}" has none; {" or ".join(KINDS)} has'
+            f'--part gears: kind = "{drive.NAME}" has none; {" or ".join(geared)} has'
         )
     phi = np.linspace(-np.pi, np.pi, samples or SAMPLES)
-    turn, ratio = _ratio(mechanism, phi)
-    i = ratio.c[0]
-    C = getattr(mechanism.spec.kind, "gear_distance_mm", 100.0)
+    turn, ratio = _ratio(gears, phi)
+    C, i = gears.distance_mm, ratio.c[0]
     r1, r2 = C * i / (1.0 + i), C / (1.0 + i)
     driver, driven = _convexities(ratio)
     columns = [
@@ -73,17 +75,16 @@ def gears_table(mechanism: Mechanism, samples: int | None = None) -> Table:
     return Table(NAMES, columns)
 
 
-def convexity(mechanism: Mechanism) -> Convexity:
+def convexity(gears: Gears) -> Convexity:
     """The least convexity of both gears over a turn."""
-    _, ratio = _ratio(mechanism, np.linspace(-np.pi, np.pi, SAMPLES))
+    _, ratio = _ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))
     driver, driven = _convexities(ratio)
     return Convexity(float(driver.min()), float(driven.min()))
 
 
-def _ratio(mechanism: Mechanism, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
+def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
     """The crank's angle and the ratio with two derivatives, over a turn of the input."""
-    front = kinds.module(mechanism.spec.drive.kind).front(mechanism.spec)
-    sine, versine = front(0.0).advance(phi, 3)
+    sine, versine = gears.advance(phi, 3)
     cosine = 1.0 - versine
     turn = np.unwrap(np.arctan2(sine.c[0], cosine.c[0]))
     turn = turn - turn[len(turn) // 2]

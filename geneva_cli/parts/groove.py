@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.cam import CamDriven
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
+from geneva_cli.machine.slot_and_motion import SolvedPath
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -22,13 +22,13 @@ SAMPLES = 721
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
-def distance(station: CamDriven, input_deg: Array) -> Array:
+def distance(groove: SolvedPath, input_deg: Array) -> Array:
     """The roller's distance from the crank's axis over a whole turn, in units of L."""
-    return _distances(station, input_deg)[0]
+    return _distances(groove, input_deg)[0]
 
 
 def groove_curve(
-    station: CamDriven, L: float, offset: float
+    groove: SolvedPath, L: float, offset: float
 ) -> Callable[[Array], tuple[Array, Array]]:
     """The groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
@@ -36,9 +36,9 @@ def groove_curve(
     """
 
     def curve(t: Array) -> tuple[Array, Array]:
-        R, slope, _ = _distances(station, t)
-        c, s = -station.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
-        x1, y1 = slope * c + station.sign * R * s, slope * s - station.sign * R * c
+        R, slope, _ = _distances(groove, t)
+        c, s = -groove.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
+        x1, y1 = slope * c + groove.sign * R * s, slope * s - groove.sign * R * c
         tangents = np.column_stack((x1, y1)) / np.hypot(x1, y1)[:, None]
         normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
         return L * np.column_stack((R * c, R * s)) + offset * normals, tangents
@@ -46,32 +46,32 @@ def groove_curve(
     return curve
 
 
-def _distances(station: CamDriven, input_deg: Array) -> list[Array]:
+def _distances(groove: SolvedPath, input_deg: Array) -> list[Array]:
     """The roller's distance from the crank's axis, with two derivatives by the input in radians.
 
     In the dwell the slope fades over EASED_DEG beyond either end, and the groove is an arc about
     the crank's axis between; where the two ends lead to different arcs, a 3-4-5 curve joins them.
     Its second derivative is continuous all round.
     """
-    at = (input_deg - station.entry_deg) % 360.0 + station.entry_deg
-    moving = at <= station.exit_deg
+    at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
+    moving = at <= groove.motion.exit_deg
     out = [np.empty(len(at)) for _ in range(3)]
     if moving.any():
-        found = station.distances(at[moving], 2)[1].derivatives()
+        found = groove.distances(at[moving], 2)[1].derivatives()
         for column, values in zip(out, found, strict=True):
             column[moving] = values
-    for column, values in zip(out, _back(station, at[~moving]), strict=True):
+    for column, values in zip(out, _back(groove, at[~moving]), strict=True):
         column[~moving] = values
     return out
 
 
-def _back(station: CamDriven, input_deg: Array) -> list[Array]:
+def _back(groove: SolvedPath, input_deg: Array) -> list[Array]:
     """As ``_distances``, at input angles in the dwell after the motion."""
-    span = math.radians(360.0 - station.motion_deg)
+    span = math.radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = min(math.radians(EASED_DEG), span / 3.0)
-    t = np.radians(input_deg - station.exit_deg)
-    after = _eased(station.distances(station.exit_deg, 2)[1].derivatives(), eased, t, 1.0)
-    entry = station.distances(station.entry_deg, 2)[1].derivatives()
+    t = np.radians(input_deg - groove.motion.exit_deg)
+    after = _eased(groove.distances(groove.motion.exit_deg, 2)[1].derivatives(), eased, t, 1.0)
+    entry = groove.distances(groove.motion.entry_deg, 2)[1].derivatives()
     before = _eased(entry, eased, span - t, -1.0)
     # Each is constant where the other begins; the step goes from one level to the other.
     length, rise = span - 2.0 * eased, before[3] - after[3]
@@ -109,16 +109,16 @@ def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:
     x points away from the wheel's axis; left and right are the flanks as the roller travels. The
     pressure angle is the one between the groove's normal and the crank's arm, atan(R'/R).
     """
-    station = mechanism.stations[0]
-    if not isinstance(station, CamDriven):
+    groove = mechanism.engagements[0].groove
+    if groove is None:
         raise GenevaError(
-            f'--part groove: kind = "{mechanism.spec.drive.kind}" has none; kind = "cam" has'
+            f'--part groove: kind = "{mechanism.spec.drive.NAME}" has none; kind = "cam" has'
         )
     size = mechanism.spec.size
-    L, offset = size.center_distance_mm, mechanism.spec.roller_radius_mm + size.slot_clearance_mm
-    x = np.linspace(station.entry_deg, station.exit_deg, samples or SAMPLES)
-    R, slope = (L * c for c in station.distances(x, 2)[1].c[:2])
-    px, py = station.groove(x, 2)
+    L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + size.slot_clearance_mm
+    x = np.linspace(groove.motion.entry_deg, groove.motion.exit_deg, samples or SAMPLES)
+    R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
+    px, py = groove.groove(x, 2)
     (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
     speed = np.hypot(x1, y1)
     turning = x1 * y2 - y1 * x2

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.shapes import Contour
-from geneva_cli.machine.engagement import LawDriven, Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Plane, plane
 from geneva_cli.parts.crank import crank_contours, is_whole, without_lock
@@ -40,7 +40,7 @@ class Outlines(NamedTuple):
 
     plane: Plane
     sizes: Sizes
-    slots: dict[Station, Contour]
+    slots: dict[Engagement, Contour]
     wheel: Contour
     crank: list[Contour]
     relief: str
@@ -62,9 +62,9 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     """
     where = plane(mechanism)
     size = sizes(where)
-    curved = any(isinstance(station, LawDriven) for station in where.kinds)
+    curved = any(engagement.slot.curved for engagement in where.kinds)
     fine = max(0.5 * CURVED * where.L, tolerance)
-    walls = {station: slot_walls(where, size, station, fine) for station in where.kinds}
+    walls = {engagement: slot_walls(where, size, engagement, fine) for engagement in where.kinds}
     close = (CURVED if curved else EXACT) * where.L
     wheel = wheel_contour(where, size, walls)
     crank, relief, clash = _relieved(Clash(where, size, wheel, []), wheel, close)
@@ -76,12 +76,12 @@ def _sweep(bare: Clash) -> Callable[[int], tuple[Array, Array]]:
 
 
 def slot_walls(
-    plane: Plane, sizes: Sizes, station: Station, tolerance: float, curves: str = "arcs"
+    plane: Plane, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
     """The walls of one slot, straight or curved; see ``curved_walls`` for ``curves``."""
-    if isinstance(station, LawDriven):
-        return curved_walls(plane, sizes, station, tolerance, curves)
-    return straight_walls(plane, sizes, station)
+    if engagement.slot.curved:
+        return curved_walls(plane, sizes, engagement, tolerance, curves)
+    return straight_walls(plane, sizes, engagement)
 
 
 def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour], str, Clash]:
@@ -117,8 +117,10 @@ def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour],
 def _overlap(clash: Clash) -> float:
     """By how much the crank and the wheel overlap at most in all motions."""
     least = 0.0
-    for station, behind in clash.plane.rollers:
-        count = 2 + int(station.motion_deg / SWEPT_DEG)
-        at = behind + np.linspace(station.entry_deg, station.exit_deg, count) + 0.3 * SWEPT_DEG
+    for engagement, behind in clash.plane.rollers:
+        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+        at = (
+            behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
+        )
         least = min(least, float(clash.locking(clash.pose(at)).min()))
     return -least

@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import UNLOCKED
-from geneva_cli.machine.engagement import LawDriven
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Station
+    from geneva_cli.machine.engagement import Engagement
     from geneva_cli.numerics.jet import Array
 
 TURN = 720  # input angles at which a roller's path is looked at
@@ -56,7 +55,7 @@ def sizes(plane: Plane) -> Sizes:
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = plane.mechanism.spec, plane.L
-    given, r = spec.size, spec.roller_radius_mm
+    given, r = spec.size, plane.mechanism.roller_radius_mm
     w = r + given.slot_clearance_mm
     outside = plane.sign > 0.0
     rim = _or(given.wheel_radius_mm, max(mouth(plane, s, r) for s in plane.kinds))
@@ -67,8 +66,7 @@ def sizes(plane: Plane) -> Sizes:
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
-    linkage = spec.drive.kind in UNLOCKED
-    bore = 0.0 if linkage else _crank_bore(given, min(room, depth - relief), L)
+    bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
     wall_min = _or(given.wall_min_mm, L / 200.0)
     wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall_min, given.wheel_hub_mm, L))
     wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
@@ -94,30 +92,30 @@ def sizes(plane: Plane) -> Sizes:
     return out
 
 
-def mouth(plane: Plane, station: Station, r: float) -> float:
+def mouth(plane: Plane, engagement: Engagement, r: float) -> float:
     """Radius at which the wheel ends where a roller of radius r enters and leaves a slot.
 
     There the roller touches the wall that faces the crank's axis, at the foot of the
     perpendicular from it.
     """
-    x, y = station.pitch(station.entry_deg, 0)
-    if isinstance(station, LawDriven) or not getattr(station, "offset", 0.0):
+    x, y = engagement.slot(engagement.entry_deg, 0)
+    if not engagement.slot.offset:
         return math.hypot(plane.L * math.hypot(x.c[0], y.c[0]), r)
-    return max(math.hypot(*corner(plane, station, end, r)) for end in (-1.0, 1.0))
+    return max(math.hypot(*corner(plane, engagement, end, r)) for end in (-1.0, 1.0))
 
 
-def corner(plane: Plane, station: Station, end: float, r: float) -> tuple[float, float]:
+def corner(plane: Plane, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
     """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
-    x, y = station.pitch(station.entry_deg if end < 0.0 else station.exit_deg, 0)
+    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
     px, py = plane.L * x.c[0], plane.L * y.c[0]
-    cx, cy = rest(plane, station, end)
+    cx, cy = rest(plane, engagement, end)
     share = r / math.dist((px, py), (cx, cy))
     return px + share * (cx - px), py + share * (cy - py)
 
 
-def rest(plane: Plane, station: Station, end: float) -> tuple[float, float]:
-    """The crank's axis in the wheel's frame before (-1) and after (1) a station's motion."""
-    b = -end * station.half_step
+def rest(plane: Plane, engagement: Engagement, end: float) -> tuple[float, float]:
+    """The crank's axis in the wheel's frame before (-1) and after (1) a engagement's motion."""
+    b = -end * engagement.half_step
     return plane.L * math.cos(b), plane.L * math.sin(b)
 
 
@@ -150,16 +148,16 @@ def _even(radius: float) -> float:
     return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
 
 
-def _pitch(plane: Plane, station: Station) -> Array:
+def _pitch(plane: Plane, engagement: Engagement) -> Array:
     """Points of a slot's pitch curve, (n, 2)."""
-    x, y = station.pitch(np.linspace(station.entry_deg, station.exit_deg, TURN + 1), 0)
+    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
     return plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
 
 
-def _end(plane: Plane, station: Station, w: float, bottom: float) -> float:
+def _end(plane: Plane, engagement: Engagement, w: float, bottom: float) -> float:
     """How near to the wheel's axis the slot is cut (inside: how far from it)."""
-    reach = np.hypot(*_pitch(plane, station).T)
-    if isinstance(station, LawDriven):
+    reach = np.hypot(*_pitch(plane, engagement).T)
+    if engagement.slot.curved:
         return float(reach.min() - w if plane.sign > 0.0 else reach.max() + w)
     return float(reach.min() - bottom - w if plane.sign > 0.0 else reach.max() + bottom + w)
 
@@ -171,10 +169,10 @@ def _arm(plane: Plane) -> float:
     return float(min(np.hypot(*p.T).min() for p in far))
 
 
-def _to_slot(plane: Plane, station: Station) -> float:
+def _to_slot(plane: Plane, engagement: Engagement) -> float:
     """Distance of the slots beside it from the crank's axis, while the wheel rests."""
-    points = _pitch(plane, station)
-    return float(min(np.hypot(*(points - rest(plane, station, e)).T).min() for e in (-1.0, 1.0)))
+    points = _pitch(plane, engagement)
+    return float(min(np.hypot(*(points - rest(plane, engagement, e)).T).min() for e in (-1.0, 1.0)))
 
 
 def _lock(plane: Plane, arm: float, w: float, rim: float) -> float:
@@ -183,10 +181,10 @@ def _lock(plane: Plane, arm: float, w: float, rim: float) -> float:
     0 for none: linkages hold their wheel in other ways.
     """
     spec, size = plane.mechanism.spec, plane.mechanism.spec.size
-    if size.lock_radius_mm == 0.0 or spec.drive.kind in UNLOCKED:
+    if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
         return 0.0
     room = arm - w - size.lock_clearance_mm
-    least, r = max(plane.L - rim, 0.0), spec.roller_radius_mm
+    least, r = max(plane.L - rim, 0.0), plane.mechanism.roller_radius_mm
     if room <= least:
         raise GenevaError(
             f"no room for a locking disc: it would have to reach {least:.4g} mm, to the rim, and "

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED, Pitch, pitch, pitch_at_retrace, retraces
 from geneva_cli.table import Table
@@ -48,19 +48,19 @@ class Slot(NamedTuple):
 
 
 def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
-    """The slot of a mechanism at ascending input angles of its first station."""
-    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
-    L = size.center_distance_mm
-    offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
-    back = retraces(station)
+    """The slot of a mechanism at ascending input angles of its first engagement."""
+    engagement, size = mechanism.engagements[0].through, mechanism.spec.size
+    L = mechanism.center_distance_mm
+    offset = mechanism.roller_radius_mm + size.slot_clearance_mm
+    back = retraces(engagement)
     if back:
         input_deg = np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg)
-    at = pitch_at(station, input_deg, back)
+    at = pitch_at(engagement, input_deg, back)
     # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
     # flanks keep the sides they had on the way in.
-    straight = station.rail(station.entry_deg) is not None
+    straight = engagement.slot.axis(engagement.entry_deg) is not None
     if straight:
-        first = pitch(station, station.entry_deg)
+        first = pitch(engagement, engagement.entry_deg)
         ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
         side = np.where(ahead < 0.0, -1.0, 1.0)
     else:
@@ -72,7 +72,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
     return Slot(
         input_deg,
-        np.degrees(station.motion(input_deg, 0).c[0]),
+        np.degrees(engagement.motion(input_deg, 0).c[0]),
         centre,
         centre + offset * normal,
         centre - offset * normal,
@@ -81,14 +81,14 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     )
 
 
-def pitch_at(station: Station, input_deg: Array, back: bool) -> Pitch:
+def pitch_at(engagement: Engagement, input_deg: Array, back: bool) -> Pitch:
     """The pitch curve, with its limit put in at a retracing mid-motion."""
     middle = np.flatnonzero(np.abs(input_deg) < MIDDLE_DEG) if back else np.array([], dtype=int)
     safe = input_deg.copy()
-    safe[middle] = 0.5 * station.entry_deg  # any regular place; overwritten below
-    at = pitch(station, safe)
+    safe[middle] = 0.5 * engagement.entry_deg  # any regular place; overwritten below
+    at = pitch(engagement, safe)
     if len(middle):
-        limit = pitch_at_retrace(station)
+        limit = pitch_at_retrace(engagement)
         for column, value in zip(at, limit, strict=True):
             column[middle] = value
     return at
@@ -106,32 +106,32 @@ def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
-    station = mechanism.stations[0].slot_station
+    engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)
-    ends = [station.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
-    if not station.symmetric:
-        ends += [*[x for x in cusps if x > 0.0], station.exit_deg]
+    ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
+    if not engagement.motion.symmetric:
+        ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
     parts = [
         _smooth(mechanism, a, b, tolerance_mm)[:-1] for a, b in zip(ends, ends[1:], strict=False)
     ]
     found = np.concatenate((*parts, [ends[-1]]))
-    return np.concatenate((found[:-1], -found[::-1])) if station.symmetric else found
+    return np.concatenate((found[:-1], -found[::-1])) if engagement.motion.symmetric else found
 
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
     """Where a flank stops and turns back, the roller being as large as the curve is sharp."""
-    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
-    offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
-    offset /= size.center_distance_mm
+    engagement, size = mechanism.engagements[0].through, mechanism.spec.size
+    offset = mechanism.roller_radius_mm + size.slot_clearance_mm
+    offset /= mechanism.center_distance_mm
 
     def excess(x: float, side: float) -> float:
-        at = pitch(station, x)
+        at = pitch(engagement, x)
         return float(at.speed - side * offset * at.turning)
 
     # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
-    step = station.motion_deg / SURVEY
-    grid = station.entry_deg + step * (np.arange(SURVEY) + 0.5)
-    at = pitch(station, grid)
+    step = engagement.motion_deg / SURVEY
+    grid = engagement.entry_deg + step * (np.arange(SURVEY) + 0.5)
+    at = pitch(engagement, grid)
     found = []
     for side in (-1.0, 1.0):
         sign = np.sign(at.speed - side * offset * at.turning)
@@ -191,10 +191,10 @@ def _respread(found: Array, root: Array) -> Array:
 
 def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float]:
     """The integral of the node density over the grid as a share of one, and its total."""
-    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
-    L = size.center_distance_mm
-    offset = mechanism.spec.roller_radius_mm + size.slot_clearance_mm
-    at = pitch_at(station, grid, retraces(station))
+    engagement, size = mechanism.engagements[0].through, mechanism.spec.size
+    L = mechanism.center_distance_mm
+    offset = mechanism.roller_radius_mm + size.slot_clearance_mm
+    at = pitch_at(engagement, grid, retraces(engagement))
     turning = np.abs(at.turning)
     # sqrt(k) ds for the outer flank: its curve is longer by turning * offset
     density = np.sqrt(turning * (L * at.speed + offset * turning))
@@ -236,11 +236,11 @@ def _chord_errors(mechanism: Mechanism, input_deg: Array, places: Array) -> Arra
 
 def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """The slot as ``geneva profile`` writes it: for a chord tolerance, or ``samples`` evenly."""
-    station = mechanism.stations[0].slot_station
+    engagement = mechanism.engagements[0].through
     if samples is None:
         input_deg = nodes(mechanism, tolerance_mm)
     else:
-        input_deg = np.linspace(station.entry_deg, station.exit_deg, samples)
+        input_deg = np.linspace(engagement.entry_deg, engagement.exit_deg, samples)
     at = slot(mechanism, input_deg)
     columns = [at.input_deg, at.wheel_deg]
     for points in (at.centre, at.left, at.right):

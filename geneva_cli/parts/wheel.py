@@ -8,7 +8,7 @@ from typing import NoReturn
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes
 
@@ -19,18 +19,18 @@ SAME = 1e-9  # of the centre distance: radii nearer to each other are one
 HELD = 0.2
 
 
-def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Station, Contour]) -> Contour:
+def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
     """The wheel's contour, counterclockwise: outside its material's edge, inside its opening's.
 
-    ``slots`` has for each station the walls of its slot, from the corner on one side of the mouth
-    round the bottom to the other, in the wheel's frame with that slot ahead. Raises GenevaError
-    where a recess leaves no horn beside a slot.
+    ``slots`` has for each engagement the walls of its slot, from the corner on one side of the
+    mouth round the bottom to the other, in the wheel's frame with that slot ahead. Raises
+    GenevaError where a recess leaves no horn beside a slot.
     """
     found: list[Segment] = []
     around = plane.slots
-    for i, (station, direction) in enumerate(around):
+    for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
-        found += turned(slots[station], direction).segments
+        found += turned(slots[engagement], direction).segments
         next_start = turned(slots[following], ahead).segments[0].start
         found += _rim(plane, sizes, found[-1].end, next_start, _between(plane, direction, ahead))
     return closed(LAYER, found)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
 
 
 class Range(NamedTuple):
@@ -36,6 +39,62 @@ class OneOf(tuple[str, ...]):
 
     def __str__(self) -> str:
         return "one of " + ", ".join(f'"{word}"' for word in self)
+
+
+class Words(NamedTuple):
+    """A number in a range, or one of some words that stand for a number to be worked out."""
+
+    range: Range
+    words: tuple[str, ...]
+
+    def __contains__(self, x: object) -> bool:
+        return x in self.range
+
+    def __str__(self) -> str:
+        return f"{self.range}, or " + " or ".join(f'"{word}"' for word in self.words)
+
+
+class Csv(NamedTuple):
+    """Pairs from a CSV file, the first of each ascending; ``key`` names the file in the spec."""
+
+    key: str
+    x: str
+    y: str
+    step_min: float  # the least step of x: closer points make a spline of rounding errors
+    y_max: float  # the largest size of y
+    points_min: int
+
+    def __str__(self) -> str:
+        return f"a CSV file of {self.x},{self.y}"
+
+    def fault(self, pairs: Sequence[tuple[float, float]], i: int) -> str:
+        """What is wrong with the i-th pair, seen from the one before it; nothing if it is sound."""
+        x, y = pairs[i]
+        if not (math.isfinite(x) and abs(y) <= self.y_max):
+            return (
+                f"{self.x} and {self.y} must be finite, {self.y} from -{self.y_max:g} to "
+                f"{self.y_max:g}"
+            )
+        if i and x < pairs[i - 1][0] + self.step_min:
+            return (
+                f"{self.x} = {x:.12g} must be above the one before it, by {self.step_min:g} or "
+                "more: of closer points the derivatives are rounding; thin them out"
+            )
+        return ""
+
+    def check(
+        self, pairs: Sequence[tuple[float, float]], file: str, place: tuple[str, str]
+    ) -> None:
+        """Raise GenevaError for pairs that break the rule."""
+        name = file or place[1]
+        for i in range(len(pairs)):
+            fault = self.fault(pairs, i)
+            if fault:
+                raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
+        if len(pairs) < self.points_min:
+            raise GenevaError(
+                f"{name}: {len(pairs)} points; at least {self.points_min} are needed", place
+            )
 
 
 POSITIVE = Range(1e-12, 1e12)

@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-import math
 import re
-from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.spec.rules import Csv
 
 POINTS_MAX = 100_000
 BYTES_MAX = 1 << 24
 
 
-class Pairs(NamedTuple):
-    """What the pairs are: their names, the least step of the first, the largest second."""
-
-    x: str
-    y: str
-    step_min: float
-    y_max: float
-    points_min: int
-
-
-def read_pairs(path: str, kind: Pairs, key: tuple[str, ...]) -> list[tuple[float, float]]:
+def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, float]]:
     """The pairs in a file, the first of each ascending; a header and ``#`` lines are passed over.
 
     Raises GenevaError naming the file's line or, where the file cannot be read, the spec's key.
@@ -30,30 +19,22 @@ def read_pairs(path: str, kind: Pairs, key: tuple[str, ...]) -> list[tuple[float
     points: list[tuple[float, float]] = []
     for number, line in enumerate(_text(path, key).split("\n"), 1):
         row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
-        if row == [""] or row[0].startswith("#") or row == [kind.x, kind.y]:
+        if row == [""] or row[0].startswith("#") or row == [rule.x, rule.y]:
             continue
         where = f"{path}:{number}"
         try:
             x, y = (float(cell) for cell in row)
         except ValueError:
             shown = cut(",".join(row))
-            raise GenevaError(f'{where}: "{shown}" is not two numbers {kind.x},{kind.y}') from None
-        if not (math.isfinite(x) and abs(y) <= kind.y_max):
-            raise GenevaError(
-                f"{where}: {kind.x} and {kind.y} must be finite, {kind.y} from -{kind.y_max:g} to "
-                f"{kind.y_max:g}"
-            )
-        if points and x < points[-1][0] + kind.step_min:
-            raise GenevaError(
-                f"{where}: {kind.x} = {x:.12g} must be above the one before it, by "
-                f"{kind.step_min:g} or more: of closer points the derivatives are rounding; thin "
-                "them out"
-            )
+            raise GenevaError(f'{where}: "{shown}" is not two numbers {rule.x},{rule.y}') from None
         points.append((x, y))
+        fault = rule.fault(points, len(points) - 1)
+        if fault:
+            raise GenevaError(f"{where}: {fault}")
         if len(points) > POINTS_MAX:
             raise GenevaError(f"{where}: more than {POINTS_MAX} points; thin them out")
-    if len(points) < kind.points_min:
-        raise GenevaError(f"{path}: {len(points)} points; at least {kind.points_min} are needed")
+    if len(points) < rule.points_min:
+        raise GenevaError(f"{path}: {len(points)} points; at least {rule.points_min} are needed")
     return points
 
 

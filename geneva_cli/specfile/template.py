@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.specfile.reader import TABLES, Field, fields, kind_keys
+from geneva_cli.machine import registry
+from geneva_cli.spec.schema import REQUIRED, Field, fields
+from geneva_cli.specfile.writer import keys_of, quoted
 
 # KIND -> what it says of itself, and the keys that it sets
 KINDS: dict[str, tuple[str, dict[str, dict[str, Any]]]] = {
@@ -109,15 +111,15 @@ def template(kind: str) -> str:
     lines = [
         f"# A Geneva mechanism: {about}.",
         "# Keys behind a # have the default shown, or none; remove the # to set them.",
-        f"title = {_quoted(about)}",
+        f"title = {quoted(about)}",
     ]
-    for name, table in TABLES.items():
-        lines += ["", f"[{name}]"]
-        values = given.get(name, {})
-        keys = fields(table)
-        if name == "drive":
-            keys += fields(kind_keys(values.get("kind", "crank")))
-        lines += [_line(field, values) for field in keys]
+    wheel, drive = given["wheel"], given.get("drive", {})
+    gearing = registry.gearing(wheel.get("gearing", "external"))
+    # any law may be put in: a template shows the keys of all
+    law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
+    keys = keys_of(gearing, registry.drive(drive.get("kind", "crank")), law_keys)
+    for name, table in keys.items():
+        lines += ["", f"[{name}]", *[_line(field, given.get(name, {})) for field in table]]
     return "\n".join(lines) + "\n"
 
 
@@ -125,10 +127,6 @@ def _line(field: Field, values: dict[str, Any]) -> str:
     rule = f"; {field.rule}" if field.rule is not None else ""
     note = f"  # {field.meaning}{rule}"
     if field.key in values:
-        return f"{field.key} = {_quoted(values[field.key])}{note}"
-    default = "..." if field.default in (None, ...) else _quoted(field.default)
+        return f"{field.key} = {quoted(values[field.key])}{note}"
+    default = "..." if field.default in (None, REQUIRED) else quoted(field.default)
     return f"# {field.key} = {default}{note}"
-
-
-def _quoted(value: Any) -> str:
-    return f'"{value}"' if isinstance(value, str) else f"{value}"

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.proof import Proof
-from geneva_cli.specfile.reader import load_and
+from geneva_cli.specfile.reader import read
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
@@ -39,14 +39,15 @@ class Verdict(NamedTuple):
 
 def verdict(path: str) -> Verdict:
     """Judge one spec; a spec that cannot be read is a verdict too."""
-
-    def judge(mechanism: Mechanism) -> Verdict:
-        spec, proof = mechanism.spec, Proof(mechanism)
-        told = (*cautions(mechanism), *turn_cautions(proof))
-        return Verdict(spec.path, spec.files, tuple(judged(mechanism, proof)), told)
-
     try:
-        return load_and(path, judge)
+        text = read(path)
+        spec = text.spec()
+        with text.located():
+            mechanism = build(spec)
+            proof = Proof(mechanism)
+            told = (*cautions(mechanism), *turn_cautions(proof))
+            checks = tuple(judged(mechanism, proof))
+        return Verdict(spec.path, spec.files, checks, told)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 

@@ -21,6 +21,7 @@ NAMES = (
     "jerk_entry",
     "rollers_max",
 )
+SIGNS = {"external": 1.0, "internal": -1.0}  # the wheels with closed forms
 ROWS_MAX = 10_000
 SOLVED_MAX = 1_000  # of wheels without a closed form, whose peak is searched for: milliseconds each
 
@@ -38,11 +39,11 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
         raise GenevaError(f"--rollers {cut(rollers)}: a crank carries at least 1")
     if rollers > 1 and A:
         raise GenevaError(
-            "--rollers with --A: the stations differ, so one row cannot describe them; write a "
+            "--rollers with --A: the engagements differ, so one row cannot describe them; write a "
             'spec with kind = "side-crank" and use `geneva report`'
         )
     rows, wheels = [], parse_z(z)
-    solved = bool(A) or gearing == "spherical"
+    solved = bool(A) or gearing not in SIGNS
     if solved and len(wheels) > SOLVED_MAX:
         what = "with --A" if A else "of spherical wheels"
         raise GenevaError(
@@ -53,21 +54,21 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
             if solved:
                 rows.append(_general(slots, gearing, n_rpm, rollers, A))
             else:
-                rows.append(_classic(slots, gearing, n_rpm, rollers))
+                rows.append(_classic(slots, gearing, SIGNS[gearing], n_rpm, rollers))
         except GenevaError as error:
             raise GenevaError(f"--z {slots}: {error}") from None
     return rows_table(NAMES, rows)
 
 
-def _classic(z: int, gearing: str, n_rpm: float, rollers: int) -> tuple[object, ...]:
+def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
     """A row in closed form, without the machinery of motions."""
-    motion = 2.0 * classic.half_motion_deg(gearing, 1, z)
-    classic.refuse_jam(rollers, motion, gearing)
+    motion = 2.0 * classic.half_motion_deg(sign, 1, z)
+    classic.refuse_jam(rollers, motion, sign < 0.0)
     l, cos_b = sin_cos_pi(1, z)
-    gap = classic.gap(gearing, 1, z)
+    gap = classic.gap(sign, 1, z)
     entry = l / cos_b  # the jump at entry is tan b, the jerk after it 3 tan² b
     acceleration, at_deg = (
-        (entry, 0.5 * motion) if gearing == "internal" else classic.acceleration_peak(l, gap)
+        (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
     )
     return (
         z,
@@ -87,21 +88,23 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     """A row by the machinery of motions."""
     from geneva_cli.analysis.peaks import acceleration_peak, ends, velocity_peak
     from geneva_cli.analysis.timing import timings
-    from geneva_cli.machine.drives.side_crank import Keys
+    from geneva_cli.machine import registry
+    from geneva_cli.machine.drives.crank import Crank
+    from geneva_cli.machine.drives.side_crank import SideCrank
     from geneva_cli.machine.mechanism import build
-    from geneva_cli.spec.tables import Drive, Spec, Wheel
+    from geneva_cli.machine.spec import Spec
 
-    drive = Drive("side-crank" if A else "crank", n_rpm, rollers)
-    mechanism = build(Spec(Wheel(z, gearing), drive, Keys(A) if A else None))
-    station = mechanism.stations[0]
-    acceleration = acceleration_peak(station)
-    jumps = ends(station)
+    drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)
+    mechanism = build(Spec(registry.gearing(gearing)(z), drive))
+    engagement = mechanism.engagements[0]
+    acceleration = acceleration_peak(engagement)
+    jumps = ends(engagement)
     return (
         z,
         gearing,
         rollers,
         *timings(mechanism)[0],
-        velocity_peak(station).max,
+        velocity_peak(engagement).max,
         acceleration.max,
         abs(acceleration.at_deg),
         jumps.acceleration_entry,

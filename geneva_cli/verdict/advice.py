@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.budget import OutOfTime, until
-from geneva_cli.spec.tables import Spec
-from geneva_cli.specfile import reader
 from geneva_cli.verdict.checks import Check, checks, each, one
 from geneva_cli.verdict.remedies import Value, Way, value_now, ways
 
@@ -114,7 +113,7 @@ class Adviser:
         self, mechanism: Mechanism, rows: list[Check], taken: float, parts: bool = True
     ) -> None:
         self.mechanism = mechanism
-        self.spec = mechanism.asked
+        self.spec = mechanism.spec
         self.passed = {c.name for c in rows if c.passes is not False}
         self.taken = taken
         self.parts = parts
@@ -262,14 +261,10 @@ def rounded(good: float, far: float, bad: float) -> float:
 
 def changed(spec: Spec, table: str, key: str, value: Value) -> Spec | None:
     """The spec with one value changed; None for a value that the reader would refuse."""
-    name = "kind" if table == "drive" and key not in spec.drive._fields else table
-    keys: Any = getattr(spec, name)
-    field = next(f for f in reader.fields(type(keys)) if f.key == key)
-    if isinstance(value, (int, float)) and value not in field.rule:
+    try:
+        return spec.with_(f"{table}.{key}", value)
+    except GenevaError:
         return None
-    attribute = key if key in keys._fields else f"{key}_"
-    replaced: dict[str, Any] = {name: keys._replace(**{attribute: value})}
-    return spec._replace(**replaced)
 
 
 def line(key: str, value: Value) -> str:

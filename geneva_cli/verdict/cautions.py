@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.analysis.peaks import QUANTITIES, peak
-from geneva_cli.machine.drives import UNLOCKED
-from geneva_cli.machine.engagement import LawDriven, LawMotion
-from geneva_cli.machine.mechanism import Mechanism, matched_ratio_of
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import extrema
@@ -26,53 +24,47 @@ def cautions(mechanism: Mechanism) -> list[str]:
             "nothing holds the wheel in the dwell: there is no locking disc, and the spec names "
             'nothing else (held_by = "brake", "detent" or "pin" in [wheel])'
         )
-    station = mechanism.stations[0]
+    engagement = mechanism.engagements[0]
     out.extend(_rounded_points(mechanism))
-    if not isinstance(station, LawMotion):
+    law = mechanism.law
+    if law is None:
         return out
     back = turns_back(mechanism)
     if back:
         out.append(
-            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; "
-            + (
-                "the sine group does so for |lambda| > 1/8"
-                if mechanism.spec.motion.law == "sine-group"
-                else "the law's points must not fall"
-            )
+            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; {law.TURNS_BACK}"
         )
-    if isinstance(station, LawDriven) and not retraces(station):
+    if engagement.slot.curved and not retraces(engagement):
         out.append(_off_the_mid_condition(mechanism))
-    if max(abs(half(0.0, 2).c[2]) for half in (station.law.first, station.law.second)) > 1e-9:
+    if max(abs(half(0.0, 2).c[2]) for half in (law.first, law.second)) > 1e-9:
         out.append(
-            f'the law "{station.law.name}" starts and stops with a jump in acceleration: a soft '
-            "shock at both ends"
+            f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
+            "both ends"
         )
-    if isinstance(station, LawDriven):
+    if engagement.slot.curved:
         out.extend(_loose(mechanism))
     out.extend(_undercut(mechanism))
     return out
 
 
 def _no_lock(mechanism: Mechanism) -> bool:
-    return mechanism.spec.size.lock_radius_mm == 0.0 or mechanism.spec.drive.kind in UNLOCKED
+    return mechanism.spec.size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS
 
 
 def _rounded_points(mechanism: Mechanism) -> list[str]:
     """What the points of a file, as rounded as they are, leave unknown of the jerk."""
-    spec, station = mechanism.spec, mechanism.stations[0]
-    law = getattr(station, "law", None)
-    if getattr(spec.kind, "ratio_file", None):
-        from geneva_cli.machine.drives.noncircular_gears import ratio_doubt
-
-        top = peak(station, "velocity")  # the crank's jerk counts there most
-        decimals, share = ratio_doubt(spec, station.mid_deg + top.at_deg)
-        move = share * top.max
-    elif law is not None and law.doubt:
-        decimals, rate = law.doubt()
-        move = rate * 2.0 * station.half_step / (station.motion_deg * DEGREE) ** 3
+    engagement, law = mechanism.engagements[0], mechanism.law
+    top = peak(engagement.motion, "velocity")  # of a ratio, the crank's jerk counts there most
+    ratio = mechanism.spec.drive.doubt(engagement.mid_deg + top.at_deg)
+    points = law.doubt() if law else None
+    if ratio:
+        decimals, move = ratio.decimals, ratio.move * top.max
+    elif points:
+        whole = (engagement.motion_deg * DEGREE) ** 3
+        decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
     else:
         return []
-    share = move / peak(station, "jerk").max
+    share = move / peak(engagement.motion, "jerk").max
     if share < SHOWN_DOUBT:
         return []
     return [
@@ -83,13 +75,14 @@ def _rounded_points(mechanism: Mechanism) -> list[str]:
 
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     """The least velocity and its input angle, where the wheel turns against its direction."""
-    station, pick = mechanism.stations[0], QUANTITIES["velocity"]
+    engagement, pick = mechanism.engagements[0], QUANTITIES["velocity"]
+    motion = engagement.motion
 
     def curve(x: float) -> tuple[float, float, float]:
-        v, a, j = pick(station.motion(x, 3).derivatives())
+        v, a, j = pick(motion(x, 3).derivatives())
         return v, a * DEGREE, j * DEGREE * DEGREE
 
-    breaks = station.breaks_deg
+    breaks = motion.breaks_deg
     places = [
         x for a, b in zip(breaks, breaks[1:], strict=False) for x in (*extrema(curve, a, b), b)
     ]
@@ -97,11 +90,12 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     # Rounding leaves a law that stands still a few units in its last place on either side of 0.
     noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
     value = curve(least)[0]
-    return (value, mechanism.shown_deg(station.mid_deg + least)) if value < -noise else None
+    at_deg = mechanism.shown_deg(engagement.mid_deg + least)
+    return (value, at_deg) if value < -noise else None
 
 
 def _off_the_mid_condition(mechanism: Mechanism) -> str:
-    matched = matched_ratio_of(mechanism)
+    matched = mechanism.matched_ratio
     helps = (
         f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
         if matched is not None
@@ -135,7 +129,7 @@ def _undercut(mechanism: Mechanism) -> list[str]:
     found = undercut(mechanism)
     if found is None or found.depth_mm < SHOWN_UNDERCUT:
         return []
-    r = mechanism.spec.roller_radius_mm + mechanism.spec.size.slot_clearance_mm
+    r = mechanism.roller_radius_mm + mechanism.spec.size.slot_clearance_mm
     free = found.radius_mm - mechanism.spec.size.slot_clearance_mm
     helps = (
         "a smaller roller or a longer motion makes it less"

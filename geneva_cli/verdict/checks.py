@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.peaks import Peaks, worst
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import GEARED
-from geneva_cli.machine.engagement import LawDriven, LawMotion
-from geneva_cli.machine.kinds import Z_DRAWN, is_flat
+from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.parts.assembly import is_flat
+from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT, turns_back
 
 if TYPE_CHECKING:
@@ -73,14 +73,15 @@ def _held(
 def _motion(mechanism: Mechanism) -> Asked:
     """The checks that every machine of its kind must pass, by name."""
     asked: Asked = {"dwell_deg": lambda: _held("dwell_deg", _dwell(mechanism), "at least", 0.0)}
-    if mechanism.spec.drive.kind in GEARED:
+    gears = mechanism.spec.drive.gears
+    if gears:
         for gear in ("driver", "driven"):
             name = f"{gear}_gear_convexity"
-            asked[name] = partial(_convexity, mechanism, name)
-    station = mechanism.stations[0]
-    if isinstance(station, LawMotion):
+            asked[name] = partial(_convexity, gears, name)
+    engagement = mechanism.engagements[0]
+    if mechanism.law is not None:
         asked["velocity_min"] = lambda: _forwards(mechanism)
-    if isinstance(station, LawDriven):
+    if engagement.slot.curved:
         if mechanism.spec.limits.pressure_angle_max_deg is None:
             asked["pressure_angle_deg"] = partial(_pressure, mechanism, 90.0)
         asked["undercut_mm"] = lambda: _undercut(mechanism)
@@ -88,13 +89,13 @@ def _motion(mechanism: Mechanism) -> Asked:
 
 
 def _dwell(mechanism: Mechanism) -> float:
-    return min(mechanism.dwell_deg(i) for i in range(len(mechanism.stations)))
+    return min(mechanism.dwell_deg(i) for i in range(len(mechanism.engagements)))
 
 
-def _convexity(mechanism: Mechanism, name: str) -> Check:
+def _convexity(gears: Gears, name: str) -> Check:
     from geneva_cli.parts.gear_curves import convexity
 
-    least = convexity(mechanism)._asdict()[name.removesuffix("_gear_convexity")]
+    least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
     return _held(name, least, "above", 0.0)
 
 
@@ -144,16 +145,16 @@ def _cleared(c: Clearance) -> Check:
 def _unturned(mechanism: Mechanism) -> str:
     """Why no full turn is made."""
     spec = mechanism.spec
-    if spec.wheel.gearing == "spherical":
+    if not spec.wheel.FLAT:
         return "the parts of a spherical wheel are not drawn or turned against each other"
     if spec.wheel.z > Z_DRAWN:
         return f"wheels of more than {Z_DRAWN} slots are not drawn"
-    return f'the parts of kind = "{spec.drive.kind}" are not drawn or turned against each other'
+    return f'the parts of kind = "{spec.drive.NAME}" are not drawn or turned against each other'
 
 
 def _limits(mechanism: Mechanism) -> Asked:
     """The spec's own limits, by the check's name."""
-    limits = {k: v for k, v in mechanism.spec.limits._asdict().items() if v is not None}
+    limits = {k: v for k, v in mechanism.spec.limits.as_dict().items() if v is not None}
     asked: Asked = {}
     for key, limit in limits.items():
         if key in _INVARIANTS:

@@ -11,7 +11,6 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Line, backwards, closed
-from geneva_cli.machine.engagement import LawDriven
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
@@ -88,7 +87,7 @@ def turning(found: Outlines, turn: FullTurn) -> list[Clearance]:
 
 def motion_play_max(found: Outlines) -> float:
     """The play, degrees either way, up to which a slot sets the wheel's motion."""
-    step = min(2.0 * math.degrees(station.half_step) for station in found.plane.kinds)
+    step = min(2.0 * math.degrees(engagement.half_step) for engagement in found.plane.kinds)
     return MOTION_PLAY_MAX * step
 
 
@@ -133,9 +132,9 @@ def _walls(found: Outlines) -> Iterator[Clearance]:
 def _between_slots(found: Outlines) -> float:
     """The thinnest wall between a slot and the next one, negative where they cut each other."""
     around, near = found.plane.slots, math.inf
-    for i, (station, direction) in enumerate(around):
+    for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
-        walls = turned(found.slots[station], direction)
+        walls = turned(found.slots[engagement], direction)
         ends = walls.segments[-1].end, walls.segments[0].start
         slot = closed(walls.layer, [*walls.segments, Line(*ends)])
         inside = Polyarc([backwards(slot) if found.plane.sign > 0.0 else slot])
@@ -143,7 +142,7 @@ def _between_slots(found: Outlines) -> float:
             1e-6 * found.plane.L, 0.01 * found.plane.L
         )
         near = min(near, float(inside.signed(points).min()))
-        if all(s is station for s, _ in around):
+        if all(s is engagement for s, _ in around):
             break
     return near
 
@@ -174,11 +173,11 @@ def _branches(found: Outlines) -> Iterator[Clearance]:
 
     Farther than the slot is wide an island is left between them, which falls out.
     """
-    station = found.plane.slots[0][0]
-    if not isinstance(station, LawDriven):
+    engagement = found.plane.slots[0][0]
+    if not engagement.slot.curved:
         return
-    t = station.entry_deg * (1.0 - np.arange(LOOKS) / LOOKS)
-    (x, y), (u, v) = (station.pitch(s * t, 0) for s in (1.0, -1.0))
+    t = engagement.entry_deg * (1.0 - np.arange(LOOKS) / LOOKS)
+    (x, y), (u, v) = (engagement.slot(s * t, 0) for s in (1.0, -1.0))
     turn = np.remainder(
         np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
     )
@@ -187,5 +186,5 @@ def _branches(found: Outlines) -> Iterator[Clearance]:
     for name, gap in (("branches_apart_mm", apart), ("branches_crossed_mm", -apart)):
         i = int(np.argmax(gap))
         value = max(float(gap[i]), 0.0)
-        at_deg = found.plane.given.shown_deg(station.mid_deg + float(t[i]))
+        at_deg = found.plane.given.shown_deg(engagement.mid_deg + float(t[i]))
         yield clearance(name, value, at_deg, False, limit)

@@ -63,7 +63,7 @@ def ways(check: str, mechanism: Mechanism) -> Iterator[Way]:
     if check in _WAYS:
         if check in ("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm"):
             yield from _hub(mechanism, check.partition("_")[0])
-        given = mechanism.asked.motion.law is not None
+        given = mechanism.spec.motion is not None
         yield from (way for way in _WAYS[check] if given or way not in _LONGER)
     else:
         yield from _back(mechanism)
@@ -72,14 +72,14 @@ def ways(check: str, mechanism: Mechanism) -> Iterator[Way]:
 
 def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
     """A key's value, of a size that is left out the one that it gets; None where it has none."""
-    spec = mechanism.asked
-    name = "kind" if table == "drive" and key not in spec.drive._fields else table
-    keys = getattr(spec, name)
-    value: Value = getattr(keys, key, getattr(keys, f"{key}_", None))
+    spec = mechanism.spec
+    value: Value = spec.table(table).get(key)
     if value is not None or table != "size":
         return value or ("" if key in WORDS else value)
     if key == "roller_radius_mm":
-        return mechanism.spec.roller_radius_mm
+        return mechanism.roller_radius_mm
+    if key == "center_distance_mm":
+        return mechanism.center_distance_mm
     return _size(mechanism, key)
 
 
@@ -107,15 +107,14 @@ def _hub(mechanism: Mechanism, part: str) -> Iterator[Way]:
 
 def _back(mechanism: Mechanism) -> Iterator[Way]:
     """Given sizes, each towards its default and then left out."""
-    size = mechanism.asked.size
+    given, defaults = mechanism.spec.size.as_dict(), Size().as_dict()
     for key in FREE:
-        usual = getattr(Size(), key)
-        if getattr(size, key) == usual:
+        usual = defaults[key]
+        if given[key] == usual:
             continue
         values: list[Value] = [usual]
         if usual is None:
-            left_out: dict[str, Any] = {key: None}
-            without = mechanism.spec._replace(size=mechanism.spec.size._replace(**left_out))
+            without = mechanism.spec.with_(f"size.{key}", None)
             default = _size(mechanism._replace(spec=without), key)
             values = [None] if default is None else [default, None]
         yield Way("size", key, lambda now, values=values: values)  # type: ignore[misc]

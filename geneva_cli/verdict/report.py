@@ -9,11 +9,12 @@ from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.peaks import Peaks, placed, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import LawDriven, Station
-from geneva_cli.machine.kinds import is_flat
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
+from geneva_cli.parts.assembly import is_flat
 from geneva_cli.parts.proof import Proof
+from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.advice import judged
@@ -69,25 +70,27 @@ def _said(check: Check) -> str:
 ECHOED = {  # what the numbers below rest on, besides the machine's own shape
     "drive": ("n_rpm",),
     "size": ("slot_clearance_mm", "lock_clearance_mm", "face_width_mm"),
-    "load": Load._fields,
-    "limits": Limits._fields,
+    "load": tuple(key.key for key in fields(Load)),
+    "limits": tuple(key.key for key in fields(Limits)),
 }
 
 
 def _inputs(mechanism: Mechanism) -> dict[str, Any]:
     """What was asked: speed, clearances, load and limits."""
-    spec = mechanism.asked
+    spec = mechanism.spec
     values: dict[str, Any] = {"inputs.wheel.held_by": spec.wheel.held_by}
+    tables = {"drive": spec.drive, "size": spec.size, "load": spec.load, "limits": spec.limits}
     for table, names in ECHOED.items():
-        values |= {f"inputs.{table}.{key}": getattr(getattr(spec, table), key) for key in names}
+        given = tables[table].as_dict()
+        values |= {f"inputs.{table}.{key}": given[key] for key in names}
     return values
 
 
 def _stations(mechanism: Mechanism) -> dict[str, Any]:
-    """Timing and peaks; where the stations differ, what they share and their worst, then each."""
+    """Timing and peaks; where engagements differ, what they share and their worst, then each."""
     each = [
         _timing(mechanism, i) | _peaks(mechanism, placed(mechanism, s))
-        for i, s in enumerate(mechanism.stations)
+        for i, s in enumerate(mechanism.engagements)
     ]
     if len(each) == 1:
         return each[0] | {"stations": None}
@@ -100,40 +103,26 @@ def _stations(mechanism: Mechanism) -> dict[str, Any]:
     return shared | _peaks(mechanism, worst(mechanism)) | {"stations": rows}
 
 
-# In words, where the name of a kind is none that stands behind an article.
-FRONTS = {
-    "cam": "a crank whose roller runs in a cam",
-    "elliptical-gears": "a crank behind elliptical gears",
-    "epicyclic": "a roller on a planet gear",
-    "four-bar": "a point of a four-bar linkage",
-    "gear-sector": "a crank with gear sectors",
-    "geneva-pair": "a crank behind a first Geneva wheel",
-    "noncircular-gears": "a crank behind noncircular gears",
-    "slider-crank": "a point of a slider-crank",
-}
-
-
 def words(mechanism: Mechanism) -> str:
     """The design in words."""
     spec = mechanism.spec
     wheel, drive = spec.wheel, spec.drive
-    article = "An" if wheel.gearing[0] in "aeiou" else "A"
-    curved = mechanism.stations[0].rail(mechanism.stations[0].entry_deg) is None
-    slots = "curved" if curved else "straight offset" if wheel.offset_mm else "straight radial"
-    front = FRONTS.get(drive.kind, f"a {drive.kind}")
-    count = len(wheel.steps_deg or drive.roller_angles_deg or ()) or drive.rollers
+    article = "An" if wheel.NAME[0] in "aeiou" else "A"
+    slot = mechanism.engagements[0].slot
+    slots = "curved" if slot.curved else "straight offset" if slot.offset else "straight radial"
+    count = len(wheel.steps or drive.roller_angles_deg or ()) or drive.rollers
     rollers = "one roller" if count == 1 else f"{count} rollers"
     text = (
-        f"{article} {wheel.gearing} wheel of {wheel.z} {slots} slots, driven by {front} with "
+        f"{article} {wheel.NAME} wheel of {wheel.z} {slots} slots, driven by {drive.WORDS} with "
         f"{rollers} at {drive.n_rpm:g} rpm."
     )
-    if mechanism.law:
-        text += f' The wheel follows the law "{mechanism.law.name}"'
+    if spec.motion:
+        text += f' The wheel follows the law "{spec.motion.law.NAME}"'
         if spec.motion.alpha0_deg:
             text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
-        text += "; its slots are cut to suit." if curved else "; the groove is cut to suit."
-    each = [timings(mechanism)[i] for i in range(len(mechanism.stations))]
-    steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.stations))})
+        text += "; its slots are cut to suit." if slot.curved else "; the groove is cut to suit."
+    each = [timings(mechanism)[i] for i in range(len(mechanism.engagements))]
+    steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.engagements))})
     turn = "turns by " + " or ".join(f"{step:.6g}" for step in steps) + " deg"
     if len(each) == 1:
         text += (
@@ -151,7 +140,7 @@ def _timing(mechanism: Mechanism, i: int) -> dict[str, Any]:
     # Krasniqi's (15) and (16): t = phi/omega, shortest at the highest speed that the limits on
     # force, torque and stress allow (n itself where none bounds it; none where no speed keeps
     # them), and the work coefficient of one roller, k_r = phi/(2 pi - phi).
-    motion = mechanism.stations[i].motion_deg
+    motion = mechanism.engagements[i].motion_deg
     fastest = loads.fastest_rpm(mechanism)
     if fastest is not None and math.isinf(fastest):
         fastest = mechanism.spec.drive.n_rpm
@@ -214,15 +203,15 @@ def _drive(mechanism: Mechanism) -> dict[str, Any]:
 def _sizes(mechanism: Mechanism) -> dict[str, Any]:
     """Sizes in millimetres; the wheel's radius is the one at which no roller fouls its rim."""
     spec = mechanism.spec
-    L, r = spec.size.center_distance_mm, spec.roller_radius_mm
+    L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
     R = mechanism.ratio * L
-    station = mechanism.stations[0]
-    mouth, bottom = _distance(station, station.entry_deg) * L, _distance(station, 0.0) * L
-    if spec.wheel.gearing == "spherical":
+    engagement = mechanism.engagements[0]
+    mouth, bottom = _distance(engagement, engagement.entry_deg) * L, _distance(engagement, 0.0) * L
+    if not spec.wheel.FLAT:
         return _sphere_sizes(mechanism, L, r)
-    inside = spec.wheel.gearing == "internal"
+    inside = spec.wheel.SIGN < 0.0
     rim = math.hypot(mouth, r)
-    curved = isinstance(station, LawDriven)
+    curved = engagement.slot.curved
     return {
         **dict.fromkeys(_SPHERE),
         "sizes.center_distance_mm": L,
@@ -310,18 +299,18 @@ _FLAT = [
 ]
 
 
-def _distance(station: Station, input_deg: float) -> float:
-    x, y = station.pin(input_deg, 0)
+def _distance(engagement: Engagement, input_deg: float) -> float:
+    x, y = engagement.path(input_deg, 0)
     return math.hypot(x.c[0], y.c[0])
 
 
 def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> dict[str, Any]:
     """Sizes of a spherical wheel: the slot is a meridian between two polar angles."""
-    station = mechanism.stations[0]
-    mouth, bottom = (station.pitch(x, 0)[0].c[0] for x in (station.entry_deg, 0.0))
+    engagement = mechanism.engagements[0]
+    mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
     return {
         **dict.fromkeys(_FLAT),
-        "sizes.axes_deg": mechanism.spec.wheel.axes_deg,
+        **{f"sizes.{key}": value for key, value in mechanism.spec.wheel.own_sizes.items()},
         "sizes.sphere_radius_mm": L,
         "sizes.crank_arm_mm": mechanism.ratio * L,
         "sizes.roller_radius_mm": r,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.kinds import is_flat
+from geneva_cli.parts.assembly import is_flat
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.verdict.clearances import motion_play_max

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import repo
 from witness import mp, to_radians
+from words import Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Load, Motion, Size, Spec, Wheel
-from geneva_cli.specfile.reader import load
+from geneva_cli.spec.tables import Load, Size
 
 DESIGNS = repo.DESIGNS
 LOAD = Load(0.02, 3.0, friction=0.1)
@@ -55,13 +55,13 @@ def test_forces_against_bodies_cut_free(name, four_bar):
         mechanism = build(MACHINES[name])
     else:
         mechanism = four_bar if name == "four-bar" else load(str(DESIGNS / f"{name}.toml"))
-        mechanism = mechanism._replace(spec=mechanism.spec._replace(load=LARGE))
-    spec, station = mechanism.spec, mechanism.stations[0]
+        mechanism = mechanism._replace(spec=mechanism.spec.but(load=LARGE))
+    spec, engagement = mechanism.spec, mechanism.engagements[0]
     machine = load_witness.machine(spec, NEAR.get(name))
     for share in (0.8, 0.2, -0.15, -0.6):
-        x = share * (station.entry_deg if share > 0.0 else -station.exit_deg)
+        x = share * (engagement.entry_deg if share > 0.0 else -engagement.exit_deg)
         true, speed = load_witness.loads(spec, *machine, x)
-        found = loads.state(mechanism, station, x)
+        found = loads.state(mechanism, engagement, x)
         assert found.torque_Nm == pytest.approx(float(true.torque), rel=2e-14)
         assert found.pin_force_N == pytest.approx(float(true.force), rel=2e-14)
         assert found.input_torque_Nm == pytest.approx(float(true.shaft), rel=2e-14)
@@ -100,7 +100,7 @@ def test_friction_on_the_sphere(x):
     force = normal + mp.mpf(0.2) * mp.sign(rubs) * tangent
     pin = torque / np.dot(np.cross(at, force), up) / mp.mpf("0.08")
     shaft = np.dot(np.cross(at, pin * force), turns) * mp.mpf("0.08")
-    found = loads.state(mechanism, mechanism.stations[0], x)
+    found = loads.state(mechanism, mechanism.engagements[0], x)
     assert found.pin_force_N == pytest.approx(float(pin), rel=1e-14)
     assert found.input_torque_Nm == pytest.approx(float(shaft), rel=1e-14)
 
@@ -108,12 +108,12 @@ def test_friction_on_the_sphere(x):
 @pytest.mark.parametrize("name", ["curved, matched", "curved", "offset", "internal"])
 def test_many_angles_at_once_are_the_same(name):
     mechanism = build(MACHINES[name]._replace(size=Size(face_width_mm=10.0)))
-    station = mechanism.stations[0]
-    x = np.linspace(station.entry_deg, station.exit_deg, 21)
-    assert 0.0 in x or station.entry_deg != -station.exit_deg
-    every = loads.state(mechanism, station, x)
+    engagement = mechanism.engagements[0]
+    x = np.linspace(engagement.entry_deg, engagement.exit_deg, 21)
+    assert 0.0 in x or engagement.entry_deg != -engagement.exit_deg
+    every = loads.state(mechanism, engagement, x)
     for i, place in enumerate(x):
-        one = loads.state(mechanism, station, float(place))
+        one = loads.state(mechanism, engagement, float(place))
         for field in one._fields:
             # 16 ulp: NumPy's sine and the library's differ by one
             assert getattr(one, field) == pytest.approx(getattr(every, field)[i], rel=4e-15), field
@@ -121,5 +121,5 @@ def test_many_angles_at_once_are_the_same(name):
 
 def test_nothing_slides_while_gears_drive():
     mechanism = load(str(DESIGNS / "gear-sector.toml"))
-    at = contact(mechanism.stations[0], 0.0)
+    at = contact(mechanism.engagements[0], 0.0)
     assert (at.touches.c[0], at.along.c[0], at.spin.c[0], at.arm.c[0]) == (0.0, 0.0, 0.0, 0.0)

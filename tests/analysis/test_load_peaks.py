@@ -6,14 +6,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from witness import mp
+from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.machine.drives import elliptical_gears, side_crank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.scan import hopeful, scan
-from geneva_cli.spec.tables import Drive, Limits, Load, Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.load_cautions import load_cautions
 from geneva_cli.verdict.report import report
 
@@ -28,12 +28,12 @@ def crank(z, gearing="external", load=BOTH, **wheel):
 
 def side(z, A, gearing="internal", load=BOTH):
     drive = Drive("side-crank")
-    return Spec(Wheel(z, gearing), drive, side_crank.Keys(A), size=WIDE, load=load)
+    return Spec(Wheel(z, gearing), drive, Keys("side-crank", A), size=WIDE, load=load)
 
 
 def elliptical(z, e, gearing, load=BOTH):
     drive = Drive("elliptical-gears")
-    return Spec(Wheel(z, gearing), drive, elliptical_gears.Keys(e), size=WIDE, load=load)
+    return Spec(Wheel(z, gearing), drive, Keys("elliptical-gears", e), size=WIDE, load=load)
 
 
 def curved(law, ratio=None, load=BOTH, z=6, alpha0=0.0):
@@ -52,7 +52,7 @@ NARROW = [
 ]
 
 
-@pytest.mark.parametrize("spec", NARROW, ids=lambda s: f"{s.drive.kind} {s.kind[0]}")
+@pytest.mark.parametrize("spec", NARROW, ids=lambda s: f"{s.drive.NAME} {s.kind[0]}")
 def test_inertia_alone_takes_the_peaks_of_the_motion(spec):
     """T1 = I w² psi' psi'' and T = I w² psi'', whose peaks have a search of their own: 64 ulp."""
     mechanism = build(spec)
@@ -87,12 +87,12 @@ def test_against_a_dense_grid(spec):
     Near where friction turns round the force is steep, and ends in a jump: 2e-3 for the grid.
     """
     mechanism = build(spec)
-    station = mechanism.stations[0]
-    breaks = station.breaks_deg
+    engagement = mechanism.engagements[0]
+    breaks = engagement.motion.breaks_deg
     near = np.geomspace(1e-6, 1.0, 300)
     grids = [np.linspace(a, b, 3001)[1:-1] for a, b in pairwise(breaks)]
     x = np.concatenate([*grids, near, -near, breaks[:1], breaks[-1:]])
-    every = loads.state(mechanism, station, x)
+    every = loads.state(mechanism, engagement, x)
     for quantity, values in every._asdict().items():
         found = loads.greatest(mechanism, quantity).max
         most = float(np.max(np.abs(values)))
@@ -138,9 +138,9 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     """The press with curved slots: 544 MPa at -1.93 deg was only where the search stopped."""
     size, load = Size(441.89, 20.0, face_width_mm=30.0), Load(6.484556, 497.0)
     mechanism = build(Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=size))
-    mechanism = mechanism._replace(spec=mechanism.spec._replace(load=load))
-    station = mechanism.stations[0]
-    assert loads.state(mechanism, station, -1.0).contact_stress_MPa == pytest.approx(
+    mechanism = mechanism._replace(spec=mechanism.spec.but(load=load))
+    engagement = mechanism.engagements[0]
+    assert loads.state(mechanism, engagement, -1.0).contact_stress_MPa == pytest.approx(
         2179.5, abs=0.1
     )
     found = loads.greatest(mechanism, "contact_stress_MPa")
@@ -175,13 +175,13 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
 @pytest.mark.parametrize("spec", [crank(5), curved("3-4-5", "matched"), side(5, 0.5)])
 def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
     """Solved at each place, not searched for: the load there is the limit to 64 ulp."""
-    mechanism = build(spec._replace(load=load, limits=Limits(**{key: limit})))
+    mechanism = build(spec.but(load=load, limits=Limits(**{key: limit})))
     n = loads.fastest_rpm(mechanism)
     if spec.motion.law and quantity == "contact_stress_MPa":
         assert n is None  # without bound beside the cusp
         return
     assert n is not None
-    again = build(mechanism.spec._replace(drive=spec.drive._replace(n_rpm=n)))
+    again = build(mechanism.spec.but(drive=spec.drive.but(n_rpm=n)))
     assert loads.greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
 
 
@@ -212,8 +212,10 @@ def test_friction_that_holds_the_wheel():
     mechanism = build(crank(3, load=Load(0.0, 3.0, friction=3.0)))
     found = loads.greatest(mechanism, "pin_force_N")
     assert math.isinf(found.max)
-    station = mechanism.stations[0]
-    beside = [loads.state(mechanism, station, found.at_deg + x).pin_force_N for x in (-1e-6, 1e-6)]
+    engagement = mechanism.engagements[0]
+    beside = [
+        loads.state(mechanism, engagement, found.at_deg + x).pin_force_N for x in (-1e-6, 1e-6)
+    ]
     assert max(beside) == math.inf
     assert 1e6 < min(beside) < math.inf
     assert any("friction of 3 holds the wheel" in text for text in load_cautions(mechanism))

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Drive, Load, Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Load, Size
 
 OMEGA = 2.0 * math.pi
 # Krasniqi's press: peak inertia torque 345.2 N m on straight slots, resisting torque 497 N m.
@@ -20,7 +21,7 @@ PRESS = Spec(
 
 
 def pin_force(motion: Motion) -> float:
-    return loads.greatest(build(PRESS._replace(motion=motion)), "pin_force_N").max
+    return loads.greatest(build(PRESS.but(motion=motion)), "pin_force_N").max
 
 
 def test_the_press_with_straight_slots() -> None:
@@ -53,11 +54,11 @@ def test_off_the_mid_condition_the_force_has_no_bound() -> None:
 
 def test_near_mid_motion_it_grows_as_published() -> None:
     """23.9 kN one degree before mid-motion, 2.1 MN a hundredth before it."""
-    mechanism = build(PRESS._replace(motion=Motion("sine-group", ratio=0.5)))
-    station = mechanism.stations[0]
-    assert loads.state(mechanism, station, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
+    mechanism = build(PRESS.but(motion=Motion("sine-group", ratio=0.5)))
+    engagement = mechanism.engagements[0]
+    assert loads.state(mechanism, engagement, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
     # printed to two digits, cut off
-    assert loads.state(mechanism, station, -0.01).pin_force_N == pytest.approx(2.15e6, rel=0.01)
+    assert loads.state(mechanism, engagement, -0.01).pin_force_N == pytest.approx(2.15e6, rel=0.01)
 
 
 @pytest.mark.parametrize(
@@ -82,8 +83,8 @@ def test_inertia_factors(z: int, force: float, power: float) -> None:
 def test_power_closes_over_a_cycle() -> None:
     """Without friction the input's work over a motion is the resisting torque's alone."""
     mechanism = build(PRESS)
-    station = mechanism.stations[0]
+    engagement = mechanism.engagements[0]
     x, weights = np.polynomial.legendre.leggauss(60)
-    torque = [loads.state(mechanism, station, float(60.0 * t)).input_torque_Nm for t in x]
+    torque = [loads.state(mechanism, engagement, float(60.0 * t)).input_torque_Nm for t in x]
     work = float(np.dot(torque, weights)) * math.radians(60.0)
     assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves

@@ -84,7 +84,7 @@ def rows(text):
 def test_against_roots_at_50_digits(machine, gearing, A):
     for z in range(3, 25):
         m = machine(z, gearing, A)
-        found, w = peaks(m.stations[0]), Geneva(z, gearing, A)
+        found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
         for name in NAMES:
             got = getattr(found, name)
             size, at_deg = w.peak(name)
@@ -107,7 +107,7 @@ def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
     A = sign * (1.0 - gap)
     for z in (3, 4, 6, 9, 24):
         m = machine(z, gearing, A)
-        found, w = peaks(m.stations[0]), Geneva(z, gearing, A)
+        found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
         for name in NAMES:
             size, _ = w.peak(name)
             # A peak near 180 degrees is down to a million doubles wide, and lies between two.
@@ -119,7 +119,7 @@ def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
 def test_no_point_of_2000_is_above_the_peak(machine, gearing, A):
     for z in range(3, 25):
         m = machine(z, gearing, A)
-        s, w = m.stations[0], Geneva(z, gearing, A)
+        s, w = m.engagements[0], Geneva(z, gearing, A)
         found = peaks(s)
         x = np.clip(w.angles(1000), s.entry_deg, 0.0)
         assert len(x) == 2000
@@ -144,7 +144,7 @@ def test_table_external(machine, z):
     cos_at, at_deg, acceleration, jerk = rows(EXTERNAL)[z]
     ratio, velocity, entry, jerk_entry = rows(CONSTANTS)[z]
     m = machine(z)
-    found = peaks(m.stations[0])
+    found = peaks(m.engagements[0])
     assert m.ratio == ratio  # correctly rounded
     assert found.velocity.max == near(velocity, SIZE)
     assert found.velocity.at_deg == 0.0
@@ -162,7 +162,7 @@ def test_table_internal(machine, z):
     velocity, jerk_mid = rows(INTERNAL)[z]
     _, _, entry, jerk_entry = rows(CONSTANTS)[z]
     m = machine(z, "internal")
-    s = m.stations[0]
+    s = m.engagements[0]
     found = peaks(s)
     assert found.velocity == (near(velocity, SIZE), 0.0)
     assert found.acceleration == (near(entry, SIZE), s.entry_deg)
@@ -174,7 +174,7 @@ def test_table_internal(machine, z):
 def test_table_power(machine, z):
     size, at_deg = POWER[z]
     m = machine(z)
-    found = peaks(m.stations[0]).power
+    found = peaks(m.engagements[0]).power
     assert found.max == near(size, SIZE)
     assert found.at_deg == pytest.approx(at_deg, abs=1e-8)  # as printed: ten digits
 
@@ -183,18 +183,18 @@ def test_of_two_equal_peaks_the_earlier(machine):
     for gearing in ("external", "internal"):
         for A in OFFSETS:
             m = machine(5, gearing, A)
-            found = peaks(m.stations[0])
+            found = peaks(m.engagements[0])
             for name in NAMES:
                 assert getattr(found, name).at_deg <= 0.0
 
 
 def test_worst_station_of_a_side_crank_with_two_rollers(machine):
     m = machine(4, A=0.6, rollers=2)
-    each = [peaks(s) for s in m.stations]
+    each = [peaks(s) for s in m.engagements]
     found = worst(m)
     for name in NAMES:
         greatest = max(each, key=lambda p: getattr(p, name).max)
-        s = m.stations[each.index(greatest)]
+        s = m.engagements[each.index(greatest)]
         got, own = getattr(found, name), getattr(greatest, name)
         assert got == (own.max, pytest.approx(s.mid_deg + own.at_deg, abs=1e-12))
-    assert found.ends.acceleration_entry == max(ends(s).acceleration_entry for s in m.stations)
+    assert found.ends.acceleration_entry == max(ends(s).acceleration_entry for s in m.engagements)

@@ -4,10 +4,11 @@ import cmath
 import math
 
 import pytest
+from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.analysis.positive_drive import positive_drive
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Drive, Load, Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.cautions import cautions
 
 PRESS = Spec(Wheel(6), Drive(n_rpm=60.0), size=Size(441.89, 20.0))
@@ -15,7 +16,7 @@ MIXED = Load(256.0 / (2.0 * math.pi) ** 2, 497.0)  # Krasniqi's: I w² = 256 and
 
 
 def drive(motion, load=MIXED):
-    return positive_drive(build(PRESS._replace(motion=motion, load=load)))
+    return positive_drive(build(PRESS.but(motion=motion, load=load)))
 
 
 def test_krasniqis_law_lacks_the_wall_on_a_third_of_the_motion():
@@ -43,24 +44,26 @@ def test_resistance_alone_leaves_one_way_loose():
 
 
 def test_straight_slots_always_drive():
-    assert positive_drive(build(PRESS._replace(load=MIXED))) is None
+    assert positive_drive(build(PRESS.but(load=MIXED))) is None
 
 
 def test_the_caution_names_the_cam():
-    said = cautions(build(PRESS._replace(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
+    said = cautions(build(PRESS.but(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
     assert any("not positively driven" in text and '"cam"' in text for text in said)
-    cam = PRESS._replace(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
+    cam = PRESS.but(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
     assert not cautions(build(cam))
 
 
 def test_the_caution_s_gap_lies_where_it_says():
     """Between the branches at the places that lack the wall, not the slot's greatest elsewhere."""
     load = Load(4.0, 40.0)  # the wall is missing near mid-motion and mouth, not where most is cut
-    mechanism = build(PRESS._replace(motion=Motion("sine-group", ratio=0.5), load=load))
-    found, station = positive_drive(mechanism), mechanism.stations[0]
+    mechanism = build(PRESS.but(motion=Motion("sine-group", ratio=0.5), load=load))
+    found, engagement = positive_drive(mechanism), mechanism.engagements[0]
 
     def apart(degrees):
-        here, there = (complex(*[v.c[0] for v in station.pitch(d, 0)]) for d in (degrees, -degrees))
+        here, there = (
+            complex(*[v.c[0] for v in engagement.slot(d, 0)]) for d in (degrees, -degrees)
+        )
         return 441.89 * abs(here) * abs(cmath.phase(here / there))
 
     places = [a + (b - a) * i / 200 for a, b in found.loose_deg for i in range(201)]

@@ -7,12 +7,11 @@ from typing import Any
 
 import pytest
 import repo
+from words import load
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.peaks import peaks_table
-from geneva_cli.machine import kinds
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.specfile.reader import load
 from geneva_cli.table import Table
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.report import report
@@ -46,8 +45,8 @@ def angles(name: str, value: Any) -> list[tuple[str, float]]:
 
 
 def one_zero(mechanism: Mechanism) -> None:
-    first = mechanism.stations[0]
-    whole = 360.0 * kinds.turns(mechanism.spec)
+    first = mechanism.engagements[0]
+    whole = 360.0 * mechanism.spec.drive.turns
     low = -180.0 if whole == 360.0 else first.mid_deg + first.entry_deg
     page, summary = report(mechanism).table, peaks_table(mechanism)
     rows = checks(mechanism)

@@ -302,7 +302,7 @@ def test_nul_in_a_name():
         '["\\u001b]0;x\\u0007"]\n',
         '[motion]\nlaw = "\\u001b[31m"\n',
         '[motion]\nlaw = "table"\nfile = "\\u001b[31m"\n',
-        'wheel.gearing = "\\u009b31m"\n',
+        'wheel.NAME = "\\u009b31m"\n',
     ],
     ids=["key", "kind", "table", "law", "file", "gearing"],
 )

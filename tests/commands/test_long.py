@@ -17,13 +17,13 @@ import warnings
 import numpy as np
 import pytest
 import repo
+from words import load
 
 from geneva_cli.analysis.motion import HELD, SAMPLES_MAX, motion_table
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 from geneva_cli.parts.slot_profile import profile_table
-from geneva_cli.specfile.reader import load
 from geneva_cli.study.survey import survey
 from geneva_cli.table import PIECE, Table, record_table, rows_table
 
@@ -102,7 +102,7 @@ def test_the_closest_points_that_are_read():
     put("law.csv", "".join(f"{u!r},{s!r}\n" for u, s in rows))
     put("table.toml", '[wheel]\nz = 6\n[motion]\nlaw = "table"\nfile = "law.csv"\n')
     put("named.toml", '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\n')
-    found, wanted = (peaks(load(name).stations[0]) for name in ("table.toml", "named.toml"))
+    found, wanted = (peaks(load(name).engagements[0]) for name in ("table.toml", "named.toml"))
     assert found.jerk.max == pytest.approx(wanted.jerk.max, rel=3e-4)
     assert found.acceleration.max == pytest.approx(wanted.acceleration.max, rel=1e-6)
 

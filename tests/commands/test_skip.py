@@ -47,7 +47,7 @@ def kernel(monkeypatch):
 
 @pytest.fixture
 def jets(monkeypatch):
-    """Every class of station that has a motion of its own."""
+    """Every class of engagement that has a motion of its own."""
     return [
         Counter(monkeypatch, cls, "motion", lambda order=3: order)
         for cls in {c for k in (SlotDriven, LawDriven) for c in k.__mro__ if "motion" in vars(c)}
@@ -59,20 +59,20 @@ def counted(jets):
     return sum(c.positions for c in jets)
 
 
-def evenly(station):
-    half = np.linspace(station.entry_deg, 0.0, N // 2 + 1)
+def evenly(engagement):
+    half = np.linspace(engagement.entry_deg, 0.0, N // 2 + 1)
     return np.concatenate([half[:-1], -half[::-1]])
 
 
-def test_plain_crank_evaluates_half(station, kernel, jets):
-    s = station(6)
+def test_plain_crank_evaluates_half(engagement, kernel, jets):
+    s = engagement(6)
     x = evenly(s)
     s.derivatives(x)
     assert (kernel.positions, counted(jets)) == (N // 2 + 1, 0)
 
 
-def test_plain_crank_at_unsymmetric_angles_evaluates_all(station, kernel, jets):
-    s = station(6)
+def test_plain_crank_at_unsymmetric_angles_evaluates_all(engagement, kernel, jets):
+    s = engagement(6)
     x = evenly(s)[:-1]
     s.derivatives(x)
     assert (kernel.positions, counted(jets)) == (N - 1, 0)
@@ -88,8 +88,8 @@ def test_plain_crank_at_unsymmetric_angles_evaluates_all(station, kernel, jets):
     ],
     ids=["side-crank", "cycloidal", "sine-group", "tilted-sine-group"],
 )
-def test_jets_evaluate_half_where_the_motion_is_symmetric(station, kernel, jets, keys, halved):
-    s = station(6, **keys)
+def test_jets_evaluate_half_where_the_motion_is_symmetric(engagement, kernel, jets, keys, halved):
+    s = engagement(6, **keys)
     s.derivatives(evenly(s))
     assert counted(jets) == (N // 2 + 1 if halved else N)
     assert kernel.positions == 0
@@ -102,32 +102,32 @@ def test_motion_does_not_evaluate_the_dwell(machine, kernel, jets):
     assert kernel.positions in (inside, inside // 2 + 1)
 
 
-def test_only_the_orders_that_are_asked_for(station, kernel, jets):
-    s = station(6)
+def test_only_the_orders_that_are_asked_for(engagement, kernel, jets):
+    s = engagement(6)
     out = s.derivatives(evenly(s), (1, 2))
     assert len(out) == 2
     assert kernel.orders == {(1, 2)}
     assert {o for c in jets for o in c.orders} <= {2}
 
 
-def test_a_jet_carries_no_more_than_it_must(station):
-    for s in (station(6), station(6, A=0.6), station(6, law="cycloidal")):
+def test_a_jet_carries_no_more_than_it_must(engagement):
+    for s in (engagement(6), engagement(6, A=0.6), engagement(6, law="cycloidal")):
         for order in range(4):
             assert len(s.motion(np.array([-1.0, 0.0]), order).c) == order + 1
 
 
 @pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk", "power"])
-def test_a_symmetric_peak_is_looked_for_in_one_half(station, jets, quantity):
-    s = station(6, A=0.6)
+def test_a_symmetric_peak_is_looked_for_in_one_half(engagement, jets, quantity):
+    s = engagement(6, A=0.6)
     peaks_module.peak(s, quantity)
     assert 0 < counted(jets) < 300
     assert all(c.below_zero for c in jets)
     assert {o for c in jets for o in c.orders} == {peaks_module._ORDER[quantity]}
 
 
-def test_the_classic_peaks_need_no_search(station, jets):
+def test_the_classic_peaks_need_no_search(engagement, jets):
     """Velocity and acceleration of a plain crank: closed forms."""
-    s = station(6)
+    s = engagement(6)
     peaks_module.velocity_peak(s)
     peaks_module.acceleration_peak(s)
     assert counted(jets) == 0
@@ -167,8 +167,8 @@ def test_a_plain_spec_loads_no_other_drive(tmp_path):
     assert not modules & {"kernel", "profile", "law_table", "loads", "checks", "motion"}
 
 
-def test_a_count_would_be_noticed(station, jets):
-    s = station(6, A=0.6)
+def test_a_count_would_be_noticed(engagement, jets):
+    s = engagement(6, A=0.6)
     s.motion(np.zeros(7))
     s.motion(math.pi)
     assert counted(jets) == 8

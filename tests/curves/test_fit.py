@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from scipy.special import fresnel
+from words import load
 
 from geneva_cli.curves.fit import arcs, chords, cubics
 from geneva_cli.curves.fit.arcs import _block_tridiagonal
 from geneva_cli.curves.shapes import Arc, Cubic, Line
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.pitch_curve import pitch, pitch_at_retrace, retraces
-from geneva_cli.specfile.reader import load
 
 KINDS = [chords, arcs, cubics]
 SEEN = 200  # the polylines that errors are measured with stray by the tolerance over this
@@ -262,25 +262,27 @@ def sides(mechanism):
     (speed - o turning) T, and a corner where that changes its sign. Where the pin retraces its
     way, travel turns round at mid-motion, and the flanks keep their sides.
     """
-    station, size = mechanism.stations[0].slot_station, mechanism.spec.size
-    L, back = size.center_distance_mm, retraces(station)
+    engagement, size = mechanism.engagements[0].through, mechanism.spec.size
+    L, back = size.center_distance_mm, retraces(engagement)
 
     def pieces(t):
-        at = pitch(station, np.where(t == 0.0, 0.5 * station.entry_deg, t) if back else t)
+        at = pitch(engagement, np.where(t == 0.0, 0.5 * engagement.entry_deg, t) if back else t)
         rows = [np.array(row) for row in at[:6]]
         if back:
-            for row, value in zip(rows, pitch_at_retrace(station), strict=False):
+            for row, value in zip(rows, pitch_at_retrace(engagement), strict=False):
                 row[t == 0.0] = value
         return rows
 
     for side in (-1.0, 0.0, 1.0):
-        offset = side * (mechanism.spec.roller_radius_mm + size.slot_clearance_mm) / L
+        offset = side * (mechanism.roller_radius_mm + size.slot_clearance_mm) / L
 
         def along(t, outwards, offset=offset):
             *_, speed, turning = pieces(t)
             return speed - (-offset if outwards else offset) * turning
 
-        ends = [station.entry_deg, 0.0] + ([] if station.symmetric else [station.exit_deg])
+        ends = [engagement.entry_deg, 0.0] + (
+            [] if engagement.motion.symmetric else [engagement.exit_deg]
+        )
         for a, b in zip(ends, ends[1:], strict=False):
             outwards = back and a >= 0.0
             grid = np.linspace(a, b, 2049)[1:-1]
@@ -346,8 +348,11 @@ def test_no_design_with_a_curved_slot_is_left_out():
         mechanism = load(str(path))
         size = mechanism.spec.size
         if mechanism.spec.motion is not None and size is not None:
-            station = mechanism.stations[0].slot_station
-            if station.rail(station.entry_deg) is None and size.roller_radius_mm is not None:
+            engagement = mechanism.engagements[0].through
+            if (
+                engagement.slot.axis(engagement.entry_deg) is None
+                and size.roller_radius_mm is not None
+            ):
                 curved.append(path.stem)
     assert curved == CURVED
 

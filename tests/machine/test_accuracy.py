@@ -44,9 +44,9 @@ CONDITION = {
 }
 
 
-def angles(station, witness):
+def angles(engagement, witness):
     """200 input angles: even in the input, even in the crank's angle, the ends and the middle."""
-    entry = station.entry_deg
+    entry = engagement.entry_deg
     ends = [entry]
     for _ in range(3):  # within 1e-15 rad
         ends.append(math.nextafter(ends[-1], 0.0))
@@ -56,8 +56,8 @@ def angles(station, witness):
     return np.concatenate([first, -first[::-1]])
 
 
-def test_the_grid_has_200_angles_with_both_ends_and_the_middle(station):
-    x = angles(station(6), Geneva(6))
+def test_the_grid_has_200_angles_with_both_ends_and_the_middle(engagement):
+    x = angles(engagement(6), Geneva(6))
     assert len(x) == 200
     assert sorted(x) == list(x)
     assert (x[0], x[-1]) == (-60.0, 60.0)
@@ -66,10 +66,10 @@ def test_the_grid_has_200_angles_with_both_ends_and_the_middle(station):
 
 
 @pytest.mark.parametrize(("gearing", "A"), CONDITION)
-def test_error_within_8_ulp_of_the_peak(station, gearing, A):
+def test_error_within_8_ulp_of_the_peak(engagement, gearing, A):
     over, largest = [], 0.0
     for z in Z:
-        s, w = station(z, gearing, A), Geneva(z, gearing, A)
+        s, w = engagement(z, gearing, A), Geneva(z, gearing, A)
         x = angles(s, w)
         got = {
             "jets": s.motion(x, 3).derivatives(),
@@ -102,20 +102,20 @@ def test_error_within_8_ulp_of_the_peak(station, gearing, A):
 
 
 @pytest.mark.parametrize(("gearing", "A"), CONDITION)
-def test_entry_angle_within_3_ulp(station, gearing, A):
+def test_entry_angle_within_3_ulp(engagement, gearing, A):
     # 3: the crank's angle at entry is a double already, off by half a unit; an internal wheel's
     # is up to twice the input's and counts up to 1.7-fold there (A = -0.9). Then one sum.
     for z in Z:
-        s = station(z, gearing, A)
+        s = engagement(z, gearing, A)
         exact = to_degrees(Geneva(z, gearing, A).half_motion)
         assert s.exit_deg == -s.entry_deg
         assert abs(mp.mpf(s.exit_deg) - exact) <= 3 * math.ulp(s.exit_deg), z
 
 
 @pytest.mark.parametrize(("gearing", "A"), CONDITION)
-def test_numbers_and_arrays_agree(station, gearing, A):
+def test_numbers_and_arrays_agree(engagement, gearing, A):
     for z in (3, 4, 7, 12, 24):
-        s, w = station(z, gearing, A), Geneva(z, gearing, A)
+        s, w = engagement(z, gearing, A), Geneva(z, gearing, A)
         x = angles(s, w)
         many = s.motion(x, 3).derivatives()
         one = np.array([s.motion(float(v), 3).derivatives() for v in x]).T
@@ -129,9 +129,9 @@ def test_numbers_and_arrays_agree(station, gearing, A):
 
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", [-0.9, 0.0, 0.6, 0.99])
-def test_both_ends_and_the_middle_are_exact(station, gearing, A):
+def test_both_ends_and_the_middle_are_exact(engagement, gearing, A):
     for z in Z:
-        s = station(z, gearing, A)
+        s = engagement(z, gearing, A)
         b = math.pi / z
         x = np.array([s.entry_deg, 0.0, s.exit_deg])
         numbers = zip(*[s.motion(v).derivatives() for v in x.tolist()], strict=True)
@@ -146,8 +146,8 @@ def test_both_ends_and_the_middle_are_exact(station, gearing, A):
 
 
 @pytest.mark.parametrize("z", [3, 6, 24])  # their entry angles, 30°, 60°, 82.5°, are doubles
-def test_just_after_entry_the_velocity_keeps_its_digits(station, z):
-    s, w = station(z), Geneva(z)
+def test_just_after_entry_the_velocity_keeps_its_digits(engagement, z):
+    s, w = engagement(z), Geneva(z)
     b = math.pi / z
     assert s.exit_deg == 90.0 * (z - 2) / z
     for tau in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8):

@@ -10,11 +10,10 @@ import math
 import pytest
 from machine_witness import linkage, path_closed
 from witness import mp, taylor, to_radians
+from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.machine.drives.four_bar import Keys
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Drive, Spec, Wheel
 
 BAC = "-36.1383650809511319485453673973"
 AC = "1.61519035738111650432595895942"
@@ -26,36 +25,48 @@ UNIT = 100.0  # mm
 
 @pytest.fixture(scope="module")
 def machine():
-    keys = Keys(0.4 * UNIT, 0.9 * UNIT, UNIT, UNIT, float(AC) * UNIT, float(BAC), entry_deg=123.28)
+    keys = Keys(
+        "four-bar",
+        0.4 * UNIT,
+        0.9 * UNIT,
+        UNIT,
+        UNIT,
+        float(AC) * UNIT,
+        float(BAC),
+        entry_deg=123.28,
+    )
     return build(Spec(Wheel(4), Drive("four-bar"), keys))
 
 
 @pytest.fixture(scope="module")
-def station(machine):
-    return machine.stations[0]
+def engagement(machine):
+    return machine.engagements[0]
 
 
-def test_the_motion_angle(station):
+def test_the_motion_angle(engagement):
     whole = 360.0 - 2.0 * float(ENTRY)
-    assert station.motion_deg == pytest.approx(whole, rel=1e-12)
-    assert (station.entry_deg, station.exit_deg) == pytest.approx(
+    assert engagement.motion_deg == pytest.approx(whole, rel=1e-12)
+    assert (engagement.entry_deg, engagement.exit_deg) == pytest.approx(
         (-whole / 2, whole / 2), rel=1e-12
     )
 
 
-def test_the_wheel_stands_where_the_reference_has_it(machine, station):
+def test_the_wheel_stands_where_the_reference_has_it(machine, engagement):
     x, y = (float(c) * UNIT for c in CENTRE)
     L = math.hypot(x, y)
-    assert machine.spec.size.center_distance_mm == pytest.approx(L, rel=1e-12)
+    assert machine.center_distance_mm == pytest.approx(L, rel=1e-12)
     # Slots at entry and exit, from the fixed x axis; ours are from the line of centres.
     line = math.degrees(math.atan2(-y, -x))
-    for deg, want in ((station.entry_deg, float(FIRST)), (station.exit_deg, float(FIRST) + 90.0)):
-        px, py = (c.c[0] for c in station.pin(deg, 1))
+    for deg, want in (
+        (engagement.entry_deg, float(FIRST)),
+        (engagement.exit_deg, float(FIRST) + 90.0),
+    ):
+        px, py = (c.c[0] for c in engagement.path(deg, 1))
         at = math.degrees(math.atan2(py, px)) + line
         assert math.remainder(at - want, 360.0) == pytest.approx(0.0, abs=1e-10)  # 1e-12 rad
 
 
-def test_peaks(station, machine):
+def test_peaks(engagement, machine):
     found = worst(machine)
     assert found.velocity.max == pytest.approx(float("3.3051512042012370683"), rel=1e-12)
     assert found.velocity.at_deg == pytest.approx(0.0, abs=1e-9)
@@ -72,7 +83,7 @@ class Exact:
     point_mm, point_deg, branch = AC, 0.0, "+"
 
 
-def test_the_whole_curve(station):
+def test_the_whole_curve(engagement):
     """Against the reference's own geometry, which no search has touched."""
     path, centre = linkage("four-bar", Exact), mp.mpc(*CENTRE)
     arm = mp.expj(mp.mpf(BAC) * mp.pi / 180)
@@ -82,10 +93,10 @@ def test_the_whole_curve(station):
         return A + (path(phi) - A) * arm - centre
 
     for t in (-0.98, -0.7, -0.33, -0.05, 0.0, 0.21, 0.5, 0.9):
-        x = t * station.exit_deg
+        x = t * engagement.exit_deg
         psi = taylor(lambda p: mp.arg(pin(mp.pi + p)), to_radians(x), 3)
         psi[0] -= (mp.mpf(FIRST) + 45) * mp.pi / 180
-        for value, want in zip(station.motion(x).derivatives(), psi, strict=True):
+        for value, want in zip(engagement.motion(x).derivatives(), psi, strict=True):
             assert value == pytest.approx(float(want), rel=1e-12, abs=2e-12)
 
 
@@ -109,24 +120,24 @@ def coupler(phi, a, g, b, c, k, kap):
     )
 
 
-def test_closed_forms_of_the_linkage(station):
+def test_closed_forms_of_the_linkage(engagement):
     """Hand-derived, for the reference: 1.10 for the path and 1.6 for the wheel."""
     links = [mp.mpf(v) for v in ("0.4", "0.9", "1", "1", AC)]
     angle = mp.mpf(BAC) * mp.pi / 180
     centre = mp.mpc(*CENTRE)
     for t in (-0.9, -0.4, 0.0, 0.3, 0.8):
-        x = t * station.exit_deg
+        x = t * engagement.exit_deg
         P, *way = coupler(mp.pi + to_radians(x), *links, angle)
         want = [float(v) for v in path_closed(P - centre, *way)]
-        got = station.motion(x).derivatives()[1:]
+        got = engagement.motion(x).derivatives()[1:]
         for value, exact in zip(got, want, strict=True):
             assert value == pytest.approx(exact, rel=1e-12, abs=2e-12)
 
 
-def test_entry_is_tangent_to_the_slot(station):
+def test_entry_is_tangent_to_the_slot(engagement):
     """The wheel's own witness: the pin's velocity at both ends has no part across the slot."""
-    for deg in (station.entry_deg, station.exit_deg):
-        x, y = station.pin(deg, 1)
+    for deg in (engagement.entry_deg, engagement.exit_deg):
+        x, y = engagement.path(deg, 1)
         across = x.c[0] * y.c[1] - y.c[0] * x.c[1]
         size = math.hypot(x.c[0], y.c[0]) * math.hypot(x.c[1], y.c[1])
         assert abs(across) <= 1e-12 * size

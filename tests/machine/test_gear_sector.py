@@ -6,18 +6,17 @@ import numpy as np
 import pytest
 from mpmath import mp
 from witness import Geneva, to_degrees, to_radians
+from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.gear_sector import Keys
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Drive, Spec, Wheel
 
 CASES = [(3, 60.0, "shockless"), (6, 20.0, "shockless"), (3, 200.0, 0.5), (4, 150.0, 0.4)]
 
 
 def machine(z, sector, ratio="shockless"):
-    return build(Spec(Wheel(z), Drive("gear-sector"), Keys(sector, ratio)))
+    return build(Spec(Wheel(z), Drive("gear-sector"), Keys("gear-sector", sector, ratio)))
 
 
 def slots(b):
@@ -40,7 +39,7 @@ def slots(b):
 def test_against_50_digits(z, sector, ratio):
     """16 units in the last place of each peak, and what b's own last place moves (its slope in b
     is below 8 peaks): b is a root found in doubles, and every value hangs on it."""
-    s = machine(z, sector, ratio).stations[0]
+    s = machine(z, sector, ratio).engagements[0]
     b = mp.mpf(s.inner.half_step)
     slot, D = slots(b), to_radians(sector)
     a_t, u = to_radians(s.handover_deg), mp.mpf(s.u)
@@ -65,7 +64,7 @@ def test_against_50_digits(z, sector, ratio):
 @pytest.mark.parametrize(("z", "sector", "ratio"), CASES)
 def test_a_step(z, sector, ratio):
     """The step and both handovers: 2 (b - psi_t) + u D, speeds that agree."""
-    s = machine(z, sector, ratio).stations[0]
+    s = machine(z, sector, ratio).engagements[0]
     first, last = (s.motion(x).derivatives() for x in (s.entry_deg, s.exit_deg))
     assert last[0] - first[0] == pytest.approx(2.0 * math.pi / z, abs=1e-14)
     assert (first[1], last[1]) == (0.0, 0.0)
@@ -78,7 +77,7 @@ def test_a_step(z, sector, ratio):
 
 def test_no_jump_at_l_over_1_minus_l():
     """u = l/(1-l): a_t = 0, and the wheel of six slots' first half is Geneva's own."""
-    s = machine(3, 60.0).stations[0]
+    s = machine(3, 60.0).engagements[0]
     assert s.u == pytest.approx(1.0, abs=1e-14)  # b = 30 degrees: 60 + 1 * 60 = 120
     assert s.motion(-s.half_sector, 2).derivatives()[2] == pytest.approx(0.0, abs=1e-14)
     witness = Geneva(6).derivatives(-20.0)
@@ -87,7 +86,7 @@ def test_no_jump_at_l_over_1_minus_l():
 
 
 def test_the_jump_is_the_slots_acceleration_there():
-    s = machine(3, 200.0, 0.5).stations[0]
+    s = machine(3, 200.0, 0.5).engagements[0]
     slot = slots(mp.mpf(s.inner.half_step))
     jump = s.motion(-s.half_sector, 2).derivatives()[2]
     assert jump == pytest.approx(float(abs(slot(to_radians(s.handover_deg))[2])), abs=1e-13)

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
+from words import Motion, Spec, Wheel
 
 from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.machine.laws import standard as laws
 from geneva_cli.machine.mechanism import build, law_of
-from geneva_cli.spec.tables import Motion, Spec, Wheel
 
 CASES = [
     *[(name, 0.0) for name in laws.LAWS],
@@ -123,7 +123,7 @@ def test_derivatives_are_continuous_but_for_the_breaks_named(law):
 def test_constants(machine, name):
     found = characteristic(laws.LAWS[name]())
     m = machine(6, law=name)
-    s = m.stations[0]
+    s = m.engagements[0]
     of_machine = peaks(s)
     rate = math.radians(s.motion_deg)
     for k, (quantity, constant) in enumerate(
@@ -173,8 +173,8 @@ def test_table_reproduces_what_was_sampled(sampled):
 
 def test_table_peaks(sampled):
     m = build(sampled)
-    found = peaks(m.stations[0])
-    scale = 2.0 * m.stations[0].half_step / math.radians(120.0)
+    found = peaks(m.engagements[0])
+    scale = 2.0 * m.engagements[0].half_step / math.radians(120.0)
     # 1e-6: the spline's own error, see above
     assert found.velocity.max == near(35 / 16 * scale, 1e-6)
     assert found.velocity.at_deg == pytest.approx(0.0, abs=1e-4)

@@ -17,14 +17,14 @@ import machine_witness
 import numpy as np
 import pytest
 from witness import mp, to_degrees, to_radians
+from words import Wheel
 
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine import drives
-from geneva_cli.machine.engagement import LawDriven, SphereDriven
-from geneva_cli.spec.tables import Wheel
+from geneva_cli.machine.engagement import SphereDriven
 from geneva_cli.specfile.reader import fields, load
 
 NAMES = ("position", "velocity", "acceleration", "jerk")
@@ -126,7 +126,7 @@ def machine(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def witness(machine):
-    """A function from a case's name to its witnesses, one a station."""
+    """A function from a case's name to its witnesses, one a engagement."""
 
     @cache
     def make(case):
@@ -138,9 +138,9 @@ def witness(machine):
     return make
 
 
-def angles(station):
+def angles(engagement):
     """60 input angles: even, both ends and their neighbourhoods, and around the middle."""
-    first, last = station.entry_deg, station.exit_deg
+    first, last = engagement.entry_deg, engagement.exit_deg
     near = [1e-12, 1e-9, 1e-6, 1e-3, 0.1]
     out = {0.0, first, last, math.nextafter(first, 0.0), math.nextafter(last, 0.0)}
     out |= {first + abs(first) * t for t in near} | {last - abs(last) * t for t in near}
@@ -151,30 +151,30 @@ def angles(station):
 
 @pytest.fixture(scope="module")
 def exact(machine, witness):
-    """A function from a case and a station to the angles with the witness's derivatives 0..4."""
+    """A function from a case and a engagement to the angles with the witness's derivatives 0..4."""
 
     @cache
     def make(case, i):
-        x = angles(machine(case).stations[i])
+        x = angles(machine(case).engagements[i])
         return x, np.array([witness(case)[i].derivatives(v) for v in x]).T
 
     return make
 
 
-def slack(station):
+def slack(engagement):
     """Half a unit of the largest of the places that were rounded to doubles, radians."""
-    far = abs(station.mid_deg) + max(-station.entry_deg, station.exit_deg)
+    far = abs(engagement.mid_deg) + max(-engagement.entry_deg, engagement.exit_deg)
     return float(to_radians(math.ulp(far))) / 2.0
 
 
-def bars(station, x, reference, k, units, case=""):
+def bars(engagement, x, reference, k, units, case=""):
     """The error allowed of derivative k at each angle: see the top of this file."""
     peak = float(np.max(np.abs(reference[k])))
     slope = np.abs(reference[k + 1]).astype(float)
     condition = np.abs(np.radians(x)) * slope / peak
     if case in ON_PATH:
-        condition = np.maximum(condition, 1.0 / min(a.along for a in station.anchors))
-    return units * math.ulp(peak) * np.maximum(1.0, condition) + slope * slack(station)
+        condition = np.maximum(condition, 1.0 / min(a.along for a in engagement.anchors))
+    return units * math.ulp(peak) * np.maximum(1.0, condition) + slope * slack(engagement)
 
 
 every = pytest.mark.parametrize("case", CASES)
@@ -183,15 +183,15 @@ every = pytest.mark.parametrize("case", CASES)
 def test_every_kind_and_every_gearing_has_an_entry(machine):
     specs = [machine(case).spec for case in CASES]
     # a gear sector's motion is in pieces: test_gear_sector.py has its witness
-    assert {s.drive.kind for s in specs} | {"gear-sector"} == set(drives.KINDS)
+    assert {s.drive.NAME for s in specs} | {"gear-sector"} == set(drives.KINDS)
     gearings = next(f.rule for f in fields(Wheel) if f.key == "gearing")
-    assert {s.wheel.gearing for s in specs} == set(gearings)
+    assert {s.wheel.NAME for s in specs} == set(gearings)
     for kind in drives.KINDS:  # and each front drive before each gearing and each kind of slot
         # a pair's first wheel turns its crank through less than half a turn, and back at once
         module = import_module(f"geneva_cli.machine.drives.{drives.KINDS[kind]}")
         if hasattr(module, "front") and kind != "geneva-pair":
-            mine = [s for s in specs if s.drive.kind == kind]
-            assert {s.wheel.gearing for s in mine} == set(gearings), kind
+            mine = [s for s in specs if kind == s.drive.NAME]
+            assert {s.wheel.NAME for s in mine} == set(gearings), kind
             assert any(s.wheel.offset_mm for s in mine), kind
             assert any(s.drive.rollers > 1 for s in mine), kind
 
@@ -199,8 +199,8 @@ def test_every_kind_and_every_gearing_has_an_entry(machine):
 @every
 def test_stations_and_their_places(machine, witness, case):
     m, reference = machine(case), witness(case)
-    assert len(m.stations) == len(reference)
-    for i, (s, w) in enumerate(zip(m.stations, reference, strict=True)):
+    assert len(m.engagements) == len(reference)
+    for i, (s, w) in enumerate(zip(m.engagements, reference, strict=True)):
         # three roundings of a sum, and the crank's own angle, 45 degrees and more, is a double that
         # counts up to twice
         bar = 6 * math.ulp(max(45.0, abs(s.mid_deg) + max(-s.entry_deg, s.exit_deg)))
@@ -215,7 +215,7 @@ def test_stations_and_their_places(machine, witness, case):
 
 @every
 def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
-    for s, w in zip(machine(case).stations, witness(case), strict=True):
+    for s, w in zip(machine(case).engagements, witness(case), strict=True):
         x = np.array([s.entry_deg, s.exit_deg])
         for wheel, velocity in (
             tuple(zip(*[s.motion(v).derivatives()[:2] for v in x.tolist()], strict=True)),
@@ -229,7 +229,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     over = []
-    for i, s in enumerate(machine(case).stations):
+    for i, s in enumerate(machine(case).engagements):
         x, reference = exact(case, i)
         for how, got in (("jets", s.motion(x, 3).derivatives()), ("arrays", s.derivatives(x))):
             for k, name in enumerate(NAMES):
@@ -237,7 +237,7 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
                 values = [mp.mpf(float(v)) for v in got[k]]
                 error = np.abs(np.array(values) - reference[k]).astype(float)
                 over += [
-                    f"{name} ({how}) of station {i} at {x[j]:.17g}: {error[j] / bar[j]:.3g} bars"
+                    f"{name} ({how}) of engagement {i} at {x[j]:.17g}: {error[j] / bar[j]:.3g} bars"
                     for j in np.flatnonzero(~(error <= bar))
                 ]
     assert not over, "\n".join(over[:40])
@@ -245,7 +245,7 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
 
 @every
 def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
-    for i in range(len(machine(case).stations)):
+    for i in range(len(machine(case).engagements)):
         w = witness(case)[i]
         if w.closed is None:  # a law or a linkage: nobody derived it by hand
             continue
@@ -257,7 +257,7 @@ def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case
 
 @every
 def test_numbers_and_arrays_agree(machine, exact, case):
-    for i, s in enumerate(machine(case).stations):
+    for i, s in enumerate(machine(case).engagements):
         x, reference = exact(case, i)
         many = s.motion(x, 3).derivatives()
         one = np.array([s.motion(float(v), 3).derivatives() for v in x]).T
@@ -269,7 +269,7 @@ def test_numbers_and_arrays_agree(machine, exact, case):
 
 @every
 def test_a_symmetric_motion_is_mirrored(machine, exact, case):
-    for i, s in enumerate(machine(case).stations):
+    for i, s in enumerate(machine(case).engagements):
         if not s.symmetric:
             continue
         x, reference = exact(case, i)
@@ -283,20 +283,20 @@ def test_a_symmetric_motion_is_mirrored(machine, exact, case):
 @every
 def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
     """The pin's place, the slot's axis and the pitch curve are three views of one thing."""
-    for i, s in enumerate(machine(case).stations):
+    for i, s in enumerate(machine(case).engagements):
         w, x = witness(case)[i], exact(case, i)[0]
-        px, py = (c.c[0] for c in s.pin(x, 1))
+        px, py = (c.c[0] for c in s.path(x, 1))
         wheel = s.motion(x, 0).c[0]
         across = py * np.cos(wheel) - px * np.sin(wheel)
         along = px * np.cos(wheel) + py * np.sin(wheel)
-        u, v = (c.c[0] for c in s.pitch(x, 1))
+        u, v = (c.c[0] for c in s.slot(x, 1))
         # 1e-14: a few roundings of lengths up to 2 L, and the anchors' of the input angle; 1e-12
         # where the law of sines divides two small angles, one of them known to 1e-16 of a step
-        bar = 1e-12 if s.rail(s.entry_deg) and w.law else 1e-14
+        bar = 1e-12 if s.slot.axis(s.entry_deg) and w.law else 1e-14
         for j in range(0, len(x), 3):
             if x[j] == 0.0 and w.law:
                 continue  # 0/0 in the law of sines
-            true = w.pin(to_radians(x[j]))
+            true = w.path(to_radians(x[j]))
             assert abs(complex(px[j], py[j]) - complex(true)) <= bar
         if isinstance(s, SphereDriven):
             assert np.max(np.abs(across)) <= 1e-14
@@ -305,7 +305,7 @@ def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
             assert not v.any()
             continue
         assert np.max(np.hypot(u - along, v - across)) <= 1e-14
-        if isinstance(s, LawDriven):
+        if s.slot.curved:
             continue
         # A straight slot: every place of the pin is on one line, offset from the wheel's centre.
         turn = np.polyfit(u, v, 1)[0] if np.ptp(u) else 0.0
@@ -316,14 +316,14 @@ def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
 
 @every
 def test_lever_and_speed_in_the_slot(machine, witness, case):
-    for s, w in zip(machine(case).stations, witness(case), strict=True):
+    for s, w in zip(machine(case).engagements, witness(case), strict=True):
         for t in (0.9, 0.5, 0.2, -0.3, -0.7):
             x = t * (s.entry_deg if t > 0.0 else -s.exit_deg)
-            found = s.rail(x)
-            if isinstance(s, LawDriven):
+            found = s.slot.axis(x)
+            if s.slot.curved:
                 assert found is None
                 continue
-            lever, speed = (float(v) for v in w.rail(to_radians(x)))
+            lever, speed = (float(v) for v in w.slot.axis(to_radians(x)))
             assert [j.c[0] for j in found] == [
                 pytest.approx(lever, rel=1e-13),
                 pytest.approx(speed, rel=1e-13),
@@ -334,11 +334,11 @@ def test_lever_and_speed_in_the_slot(machine, witness, case):
 def test_loads_keep_the_energy(machine, case):
     """Without friction the input does what the wheel takes, and nothing is lost between."""
     m = machine(case)
-    load_ = m.spec.load._replace(inertia_kgm2=0.02, torque_Nm=3.0)
-    loaded = m._replace(spec=m.spec._replace(load=load_))
+    load_ = m.spec.load.but(inertia_kgm2=0.02, torque_Nm=3.0)
+    loaded = m._replace(spec=m.spec.but(load=load_))
     w = m.spec.drive.n_rpm * math.pi / 30.0
-    L = m.spec.size.center_distance_mm / 1000.0
-    for s in m.stations:
+    L = m.center_distance_mm / 1000.0
+    for s in m.engagements:
         for t in (0.8, 0.3, -0.4):
             x = t * (s.entry_deg if t > 0.0 else -s.exit_deg)
             _, v, a, _ = s.motion(x).derivatives()
@@ -346,8 +346,8 @@ def test_loads_keep_the_energy(machine, case):
             torque = 0.02 * w * w * a + 3.0
             assert found.torque_Nm == pytest.approx(torque, rel=1e-12)
             assert found.input_torque_Nm == pytest.approx(torque * v, rel=1e-12)
-            if s.rail(x):
-                lever = s.rail(x)[0].c[0]
+            if s.slot.axis(x):
+                lever = s.slot.axis(x)[0].c[0]
                 assert math.tan(math.radians(found.pressure_deg)) == pytest.approx(
                     abs(s.offset) / lever, rel=1e-12
                 )
@@ -362,7 +362,7 @@ def test_peaks_against_a_dense_grid(machine, case):
         pick = QUANTITIES[quantity]
         peak = getattr(found, quantity)
         grids = []
-        for s in m.stations:
+        for s in m.engagements:
             parts = [np.linspace(a, b, 4001) for a, b in pairwise(s.breaks_deg)]
             values = s.motion(np.concatenate(parts), 5).derivatives()
             grids.append(np.max(np.abs(pick(values)[0])))
@@ -370,11 +370,11 @@ def test_peaks_against_a_dense_grid(machine, case):
         assert max(grids) * (1.0 - 1e-12) <= peak.max <= max(grids) * (1.0 + 1e-5), quantity
         there = [
             abs(pick(s.motion(peak.at_deg - s.mid_deg, 5).derivatives())[0])
-            for s in m.stations
+            for s in m.engagements
             if s.entry_deg - 1e-9 <= peak.at_deg - s.mid_deg <= s.exit_deg + 1e-9
         ]
         assert peak.max == pytest.approx(max(there), rel=1e-9), quantity
-    ends = [(s.motion(s.entry_deg), s.motion(s.exit_deg)) for s in m.stations]
+    ends = [(s.motion(s.entry_deg), s.motion(s.exit_deg)) for s in m.engagements]
     for k, first, last in (
         (2, found.ends.acceleration_entry, found.ends.acceleration_exit),
         (3, found.ends.jerk_entry, found.ends.jerk_exit),
@@ -429,7 +429,7 @@ def rows(table):
 def test_spherical_constants(machine, row):
     z, *exact = row
     m = machine(text(f"z = {z}, {SPHERE}"))
-    s, found = m.stations[0], worst(m)
+    s, found = m.engagements[0], worst(m)
     # Motion and dwell are half a turn each, whatever z.
     assert (s.entry_deg, s.exit_deg, timings(m)[0].k) == (-90.0, 90.0, 1.0)
     assert found.velocity.max == pytest.approx(float(exact[0]), rel=1e-15)
@@ -444,7 +444,7 @@ def test_spherical_constants(machine, row):
 @pytest.mark.parametrize("row", rows(POINTS), ids=lambda row: row[0])
 def test_spherical_sample_points(machine, row):
     at, *exact = row
-    s = machine(text(f"z = 6, {SPHERE}")).stations[0]
+    s = machine(text(f"z = 6, {SPHERE}")).engagements[0]
     for value, want in zip(s.motion(float(at)).derivatives(), exact, strict=True):
         assert value == pytest.approx(float(want), rel=0.0, abs=8 * math.ulp(1.0))
 
@@ -463,15 +463,15 @@ def test_spherical_closed_forms(machine, z, axes):
         math.tan(b) * math.cos(th) ** 2, rel=1e-13
     )
     half = math.degrees(math.acos(math.tan(th) / math.tan(S)))
-    assert m.stations[0].exit_deg == pytest.approx(half, rel=1e-13)
+    assert m.engagements[0].exit_deg == pytest.approx(half, rel=1e-13)
 
 
 @pytest.mark.parametrize("z", [3, 5, 12])
 def test_a_spherical_wheel_lies_between_the_flat_ones(machine, z):
     """Shafts at 0 and at 180 degrees: external and internal wheels."""
     for axes, gearing in ((1e-4, "external"), (180.0 - 1e-4, "internal")):
-        ball = machine(text(f"z = {z}, {SPHERE}, axes_deg = {axes}")).stations[0]
-        flat = machine(text(f'z = {z}, gearing = "{gearing}"')).stations[0]
+        ball = machine(text(f"z = {z}, {SPHERE}, axes_deg = {axes}")).engagements[0]
+        flat = machine(text(f'z = {z}, gearing = "{gearing}"')).engagements[0]
         # 1e-9: the flat ones' difference is of the square of the angle, 3e-12, times up to z³
         assert ball.exit_deg == pytest.approx(flat.exit_deg, rel=1e-9)
         for t in (0.0, 0.3, 0.8):
@@ -490,7 +490,7 @@ def test_offset_slots_trade_their_ends(machine, z, share):
     m = machine(text(f"z = {z}, offset_mm = {100.0 * e!r}"))
     d = math.asin(e / math.cos(b))
     l = math.sin(b) * math.cos(d)
-    s, ends = m.stations[0], worst(m).ends
+    s, ends = m.engagements[0], worst(m).ends
     assert m.ratio == pytest.approx(l, rel=1e-15)
     assert s.motion_deg == pytest.approx(180.0 - 360.0 / z, rel=1e-14)
     assert s.exit_deg == pytest.approx(90.0 - math.degrees(b + d), rel=1e-13)
@@ -500,7 +500,7 @@ def test_offset_slots_trade_their_ends(machine, z, share):
     # The roller never reaches the foot of the axis: e < L - R.
     assert abs(e) < 1.0 - l
     # The other sign is the same motion backwards.
-    other = machine(text(f"z = {z}, offset_mm = {-100.0 * e!r}")).stations[0]
+    other = machine(text(f"z = {z}, offset_mm = {-100.0 * e!r}")).engagements[0]
     x = 0.4 * s.exit_deg
     ours, theirs = s.motion(x).derivatives(), other.motion(-x).derivatives()
     back = [-v if k % 2 == 0 else v for k, v in enumerate(theirs)]
@@ -513,11 +513,11 @@ def test_unequal_steps_are_wheels_of_their_own(machine):
     assert [t.index_deg for t in timings(m)] == [72.0, 48.0]
     assert [t.motion_deg for t in timings(m)] == [108.0, 132.0]
     assert [t.dwell_deg for t in timings(m)] == [60.0, 60.0]
-    five = machine(text("z = 5")).stations[0]
+    five = machine(text("z = 5")).engagements[0]
     for x in (-54.0, -20.0, 7.0, 54.0):
         wanted = pytest.approx(five.motion(x).derivatives(), rel=1e-14, abs=1e-15)
-        assert m.stations[0].motion(x).derivatives() == wanted
-    x, y = (c.c[0] for c in m.stations[1].pin(30.0, 0))
+        assert m.engagements[0].motion(x).derivatives() == wanted
+    x, y = (c.c[0] for c in m.engagements[1].path(30.0, 0))
     assert math.hypot(1.0 - x, y) == pytest.approx(math.sin(math.radians(24.0)), rel=1e-15)
 
 
@@ -571,7 +571,7 @@ def test_gear_geneva_closed_forms(machine, z, fixed, rp):
     u = 2 * z / (z - 2)
     c = 1 + u if fixed == "sun" else 1 - u
     R0 = math.sin(b) + rp
-    s = m.stations[0]
+    s = m.engagements[0]
     velocity = s.motion(0.0).derivatives()[1]
     assert velocity == pytest.approx((R0 + c * rp) / (1.0 - R0 - rp), rel=1e-14)
     entry = (R0 - c * c * rp) / math.cos(b)
@@ -586,7 +586,7 @@ def test_elliptical_gears_closed_forms(machine, e, phase, gearing):
     z, g = 6, 1 if gearing == "external" else -1
     drive = f"{GEARS}{e}" + ("" if phase > 0 else QUICK)
     m = machine(text(f'z = {z}, gearing = "{gearing}"', drive))
-    s, b, e = m.stations[0], math.pi / z, phase * e
+    s, b, e = m.engagements[0], math.pi / z, phase * e
     half = math.tan((math.pi / 2 - g * b) / 2)
     entry = 2.0 * math.atan((1 + e) / (1 - e) * half)
     assert s.entry_deg == pytest.approx(-math.degrees(entry), rel=1e-14)
@@ -602,17 +602,17 @@ def test_a_front_drive_scales_the_jump_by_its_ratio_there(machine, witness):
     """Entry tan b f1², whatever the gearing and the slots."""
     for case in CASES:
         m = machine(case)
-        if m.spec.drive.kind in ("crank", "epicyclic", "cam") or case in ON_PATH or m.law:
+        if m.spec.drive.NAME in ("crank", "epicyclic", "cam") or case in ON_PATH or m.law:
             continue
         keys = "" if not m.spec.wheel.offset_mm else f", offset_mm = {m.spec.wheel.offset_mm}"
-        gearing = f', gearing = "{m.spec.wheel.gearing}"'
+        gearing = f', gearing = "{m.spec.wheel.NAME}"'
         axes = f", axes_deg = {m.spec.wheel.axes_deg}" if "spherical" in gearing else ""
-        for s, w in zip(m.stations, witness(case), strict=True):
+        for s, w in zip(m.engagements, witness(case), strict=True):
             z = round(math.pi / float(w.b)) if not m.spec.wheel.steps_deg else None
             if z is None:
                 jump = math.tan(float(w.b))
             else:
-                plain = machine(text(f"z = {z}{gearing}{axes}{keys}")).stations[0]
+                plain = machine(text(f"z = {z}{gearing}{axes}{keys}")).engagements[0]
                 jump = plain.motion(plain.entry_deg).derivatives()[2]
             front = machine_witness.Front(m.spec.drive, m.spec.kind)
             f1 = float(front.closed(w.mid + w.entry)[0])
@@ -624,7 +624,7 @@ def test_cam_groove(machine, witness):
     """R(0) = L V/(1 + V); R' by the law of sines; at entry R'/R = cot(phi1 + b)."""
     for case in ("cam", "cam-early", "cam-two-rollers", "cam-internal"):
         m, w = machine(case), witness(case)[0]
-        s, g = m.stations[0], -1 if m.spec.wheel.gearing == "internal" else 1
+        s, g = m.engagements[0], -1 if m.spec.wheel.NAME == "internal" else 1
         V = s.motion(0.0).derivatives()[1]
         assert m.ratio == pytest.approx(V / (1 + g * V), rel=1e-14)
         for t in np.linspace(0.02, 1.0, 23):

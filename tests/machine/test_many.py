@@ -28,12 +28,12 @@ def designs(count, seed):
 
 
 @pytest.mark.parametrize("part", range(10))
-def test_none_is_missed(station, part):
+def test_none_is_missed(engagement, part):
     """5,000 designs against the adaptive search of geneva_cli.peaks, which shares no formula."""
     z, internal, A = designs(5000, 1)
     size, at_deg = acceleration_peaks(z, internal, A)
     for i in range(part, len(z), 10):
-        found = peak(station(int(z[i]), GEARINGS[int(internal[i])], float(A[i])), "acceleration")
+        found = peak(engagement(int(z[i]), GEARINGS[int(internal[i])], float(A[i])), "acceleration")
         where = (int(z[i]), GEARINGS[int(internal[i])], float(A[i]))
         # the other one's own error comes on top: jets run up to 31 units near |A| = 1
         assert size[i] == pytest.approx(found.max, rel=2 * EXACT), where

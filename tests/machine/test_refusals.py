@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from words import load
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import drives
-from geneva_cli.specfile.reader import load
 
 WHEEL = "[wheel]\nz = 6\n"
 BALL = WHEEL + 'gearing = "spherical"\n'
@@ -322,12 +322,12 @@ def test_a_gear_geneva_that_is_built_never_turns_back(z, fixed, side):
     spec = f'[wheel]\nz = {z}\n[drive]\nkind = "epicyclic"\nfixed = "{fixed}"\nplanet_ratio = @'
     for size in (0.005, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.399):
         try:
-            s = built(spec, repr(side * size)).stations[0]
+            s = built(spec, repr(side * size)).engagements[0]
         except GenevaError:
             continue
         x = np.linspace(s.entry_deg, s.exit_deg, 401)
         assert np.min(s.motion(x).derivatives()[1]) >= -1e-15, size
-        px, py = s.pin(x, 1)
+        px, py = s.path(x, 1)
         rho = np.hypot(px.c[0], py.c[0])
         assert np.max(rho) <= math.cos(math.pi / z) * (1.0 + 1e-12), size
 

@@ -69,14 +69,14 @@ from geneva_cli import fit
 from geneva_cli.groove import groove_curve
 def tell(what):
     print(hashlib.sha256(repr(what).encode()).hexdigest())
-cam = load("designs/cam-geneva.toml").stations[0]
+cam = load("designs/cam-geneva.toml").engagements[0]
 for side in (1.0, 0.0):
     curve = groove_curve(cam, 441.89, 20.0 * side)
     for a, b in ((cam.entry_deg, cam.exit_deg), (cam.exit_deg, cam.entry_deg + 360.0)):
         tell(fit.KINDS["arcs"](curve, a, b, 0.001))
 curved = load("designs/modified-sine-matched.toml")
 where = plane(curved)
-tell(slot_walls(where, sizes(where), curved.stations[0], 0.001))
+tell(slot_walls(where, sizes(where), curved.engagements[0], 0.001))
 tell([c.tolist() for c in motion_table(load("designs/table-law.toml"), 999).columns])
 tell([c.tolist() for c in motion_table(load(sys.argv[1]), 999).columns])
 # the kernels do differ: else this test shows nothing

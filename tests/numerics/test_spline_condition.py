@@ -6,9 +6,9 @@ from decimal import Decimal
 
 import numpy as np
 import pytest
+from words import load
 
 from geneva_cli.numerics.spline import at_rest, doubt, periodic
-from geneva_cli.specfile.reader import load
 from geneva_cli.verdict.cautions import cautions
 
 WHEEL = "[wheel]\nz = 6\n[motion]\nlaw = 'table'\nfile = 'law.csv'\n"

@@ -14,10 +14,10 @@ import time
 
 import pytest
 from typer.testing import CliRunner
+from words import load
 
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.app import COMMANDS, app
-from geneva_cli.specfile.reader import load
 
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 OLD = "the old file, whole\n"

@@ -12,17 +12,17 @@ import numpy as np
 import pytest
 import repo
 import shapely
+from geneva_cli.machine.kinds import is_flat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, polygon, turned
+from words import LAWS, Motion, load
 
 from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.kinds import is_flat
-from geneva_cli.machine.laws.standard import LAWS
 from geneva_cli.parts import proof
 from geneva_cli.parts.crank import reliefs
 from geneva_cli.parts.outlines import Outlines, outlines
@@ -30,8 +30,6 @@ from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Clash, NotProved
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
-from geneva_cli.spec.tables import Motion
-from geneva_cli.specfile.reader import load
 
 
 def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
@@ -49,7 +47,7 @@ def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
     roller = disc(size.roller - less)
     cranks = [polygon(contour, flat).buffer(-less) for contour in found.crank]
     for i in range(count):
-        pins = [plane.pin(k, at[i : i + 1])[0] for k in range(len(plane.rollers))]
+        pins = [plane.path(k, at[i : i + 1])[0] for k in range(len(plane.rollers))]
         parts = [affinity.translate(roller, *pin) for pin in pins]
         parts += [affinity.translate(turned(crank, poses[i]), plane.L) for crank in cranks]
         if any(wheel.intersects(turned(part, -turns[i])) for part in parts):
@@ -155,7 +153,7 @@ def test_play_against_polygons(case: dict) -> None:
     for i in np.flatnonzero(play.resting)[::5]:
         at = play.input_deg[i : i + 1]
         parts = [affinity.translate(turned(crank, float(plane.crank(at)[0])), L)]
-        parts += [affinity.translate(roller, *plane.pin(0, at)[0])]
+        parts += [affinity.translate(roller, *plane.path(0, at)[0])]
         for way, edge in ((-1.0, play.back[i]), (1.0, play.on[i])):
             for lead, meets in (
                 (max(0.999 * edge - 3e-4, 0.0), False),
@@ -333,8 +331,8 @@ def test_recesses_turned_against_the_slots(by_deg: float) -> None:
 def test_a_slot_cut_one_degree_off(gearing: str) -> None:
     """At the mouth a roller without clearance meets the wall by L cos b sin(1 deg)."""
     found = made(6, gearing, roller_radius_mm=3.0)
-    station = found.plane.slots[0][0]
-    off = {station: turned_contour(found.slots[station], math.radians(1.0))}
+    engagement = found.plane.slots[0][0]
+    off = {engagement: turned_contour(found.slots[engagement], math.radians(1.0))}
     wrong = spoilt(found, wheel_contour(found.plane, found.sizes, off))
     turn = full_turn(wrong)
     assert turn.driving.mm < -0.9 * L * math.cos(math.pi / 6) * math.sin(math.radians(1.0))
@@ -345,10 +343,10 @@ def test_a_slot_cut_one_degree_off(gearing: str) -> None:
 def test_a_slot_too_short(gearing: str) -> None:
     """0.1 mm short: the roller is in its end by that, at mid-motion."""
     found = made(6, gearing, roller_radius_mm=3.0)
-    station = found.plane.slots[0][0]
+    engagement = found.plane.slots[0][0]
     sizes = found.sizes._replace(slot_bottom=-0.1)
     short = wheel_contour(
-        found.plane, sizes, {station: straight_walls(found.plane, sizes, station)}
+        found.plane, sizes, {engagement: straight_walls(found.plane, sizes, engagement)}
     )
     turn = full_turn(spoilt(found, short))
     assert turn.driving.mm == pytest.approx(-0.1, abs=1e-9)  # the search's own end

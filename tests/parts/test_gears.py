@@ -4,17 +4,16 @@ import math
 
 import numpy as np
 import pytest
+from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import cam, elliptical_gears, noncircular_gears, side_crank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.gear_curves import convexity, gears_table
 from geneva_cli.parts.groove import _distances, groove_table
-from geneva_cli.spec.tables import Drive, Motion, Spec, Wheel
 
 
 def gears(A=None, file=None, path=""):
-    keys = noncircular_gears.Keys(A, file, 120.0)
+    keys = Keys("noncircular-gears", A, file, 120.0)
     return build(Spec(Wheel(6), Drive("noncircular-gears"), keys, path=path))
 
 
@@ -29,8 +28,8 @@ def test_the_side_cranks_gears_are_convex_at_06_and_not_at_08():
 
 
 def test_they_move_the_wheel_as_the_side_crank_does():
-    ours = gears(0.6).stations[0]
-    theirs = build(Spec(Wheel(6), Drive("side-crank"), side_crank.Keys(0.6))).stations[0]
+    ours = gears(0.6).engagements[0]
+    theirs = build(Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.6))).engagements[0]
     assert ours.motion(-30.0).derivatives() == theirs.motion(-30.0).derivatives()
 
 
@@ -47,7 +46,7 @@ def test_pitch_curves_roll_on_each_other():
 
 def test_elliptical_gears_are_ellipses():
     """Equal ellipses about their foci: r = C (1-e²)/2 / (1 -+ e cos), and always convex."""
-    keys = elliptical_gears.Keys(0.3)
+    keys = Keys("elliptical-gears", 0.3)
     mechanism = build(Spec(Wheel(6), Drive("elliptical-gears"), keys))
     at = columns(gears_table(mechanism, 101))
     expected = 100.0 * 0.5 * (1.0 - 0.09) / (1.0 + 0.3 * np.cos(np.radians(at["input_deg"])))
@@ -67,9 +66,9 @@ def ratio_file(tmp_path, change=lambda ratio: ratio):
 
 def test_a_ratio_from_a_file(tmp_path):
     """The elliptical gears' ratio at 181 points; a quintic spline of 2 degrees is good to 1e-10."""
-    ours = gears(file="ratio.csv", path=ratio_file(tmp_path)).stations[0]
-    keys = elliptical_gears.Keys(0.3)
-    theirs = build(Spec(Wheel(6), Drive("elliptical-gears"), keys)).stations[0]
+    ours = gears(file="ratio.csv", path=ratio_file(tmp_path)).engagements[0]
+    keys = Keys("elliptical-gears", 0.3)
+    theirs = build(Spec(Wheel(6), Drive("elliptical-gears"), keys)).engagements[0]
     assert ours.entry_deg == pytest.approx(theirs.entry_deg, abs=1e-9)
     x = np.linspace(-90.0, 90.0, 19)
     for order, digits in ((0, 1e-11), (1, 1e-10), (2, 1e-8), (3, 1e-6)):
@@ -88,7 +87,7 @@ def test_a_ratio_that_no_gears_have(tmp_path, change, said):
 
 def test_the_groove_against_the_law_of_sines():
     """R = L sin psi / sin(phi + psi), from the law's closed form."""
-    spec = Spec(Wheel(6), Drive("cam"), cam.Keys(), Motion("cycloidal"))
+    spec = Spec(Wheel(6), Drive("cam"), Keys("cam"), Motion("cycloidal"))
     at = columns(groove_table(build(spec), 25))
     phi = np.radians(at["input_deg"])
     u = at["input_deg"] / 120.0 + 0.5
@@ -110,10 +109,10 @@ def test_a_plain_crank_has_neither(table):
 def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
     """No bulge, and no jump of its second derivative; derivatives against differences."""
     spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
-    station = build(spec).stations[0]
-    x = station.exit_deg + np.linspace(-1.0, 361.0 - station.motion_deg, 20001)
-    R, slope, bend = _distances(station, x)
-    end = float(station.distances(station.exit_deg, 0)[1].c[0])
+    engagement = build(spec).engagements[0]
+    x = engagement.exit_deg + np.linspace(-1.0, 361.0 - engagement.motion_deg, 20001)
+    R, slope, bend = _distances(engagement, x)
+    end = float(engagement.distances(engagement.exit_deg, 0)[1].c[0])
     assert np.abs(R - end).max() < 0.15 * end
     # Differences against the mean of both sides: their error is h times a bounded derivative.
     h = np.radians(x[1] - x[0])

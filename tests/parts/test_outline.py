@@ -16,12 +16,12 @@ import pytest
 import shapely
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
+from words import LAWS, Drive, Motion, Spec, Wheel, named
 
 from geneva_cli.curves.measure import area, length, vertices
 from geneva_cli.curves.measure import turned as turn
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.laws.standard import LAWS, named
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.assembly import plane
 from geneva_cli.parts.outlines import CURVED, Outlines, outlines
@@ -30,7 +30,7 @@ from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.walls.ways import COVERED, _free
 from geneva_cli.parts.wheel import HELD, wheel_contour
-from geneva_cli.spec.tables import Drive, Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.clearances import turning
 
 L = 100.0
@@ -193,7 +193,7 @@ def theory(found: Outlines) -> tuple[list[Slot], list[float]]:
     bottom = size.slot_bottom_clearance_mm
     if bottom is None:
         bottom = max(size.slot_clearance_mm, r / 20.0)
-    return slots_of(wheel.z, wheel.gearing, r, bottom, wheel.offset_mm, wheel.steps_deg)
+    return slots_of(wheel.z, wheel.NAME, r, bottom, wheel.offset_mm, wheel.steps_deg)
 
 
 def name(case: dict) -> str:
@@ -468,7 +468,7 @@ def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
     assert lock.radius == pytest.approx(found.sizes.lock, rel=1e-12)
     assert math.degrees(lock.sweep) <= 180.0 - 360.0 / z + 1e-9
     middle = np.add(lock.start, lock.end)
-    roller = found.plane.pin(0, np.zeros(1))[0] - [L, 0.0]
+    roller = found.plane.path(0, np.zeros(1))[0] - [L, 0.0]
     cosine = float(middle @ roller) / math.hypot(*middle) / math.hypot(*roller)
     assert cosine == pytest.approx(-1.0, abs=1e-12)
 

@@ -26,13 +26,13 @@ from drawing_witness import apart, backwards, dxf_shapes, svg_shapes
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from typer.testing import CliRunner
+from words import load
 
 from geneva_cli.app import app
 from geneva_cli.parts import outlines as outline
 from geneva_cli.parts import proof
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.parts.walls import curved as curved_walls
-from geneva_cli.specfile.reader import load
 from geneva_cli.specfile.template import KINDS
 from geneva_cli.verdict import advice as adviser
 from geneva_cli.verdict import cautions
@@ -94,8 +94,8 @@ def made_once():
     def of_mechanism(mechanism, tolerance=0.0):
         return mechanism.spec, tolerance
 
-    def of_slot(plane, sizes, station):
-        return id(plane), sizes, id(station)
+    def of_slot(plane, sizes, engagement):
+        return id(plane), sizes, id(engagement)
 
     outlines = kept(outline.outlines, of_mechanism)
     turned = kept(full_turn.full_turn, of_outlines)
@@ -246,7 +246,7 @@ def test_assembly_of_every_design(name):
     shapes = svg_shapes(text)
     require_sound(shapes, name in INTERNAL)
     machine = load(str(path))
-    L = machine.spec.size.center_distance_mm
+    L = machine.center_distance_mm
 
     root = ElementTree.fromstring(text)
     box = [float(x) for x in root.get("viewBox").split()]
@@ -336,8 +336,8 @@ def moved(shapes, angle, ahead=0.0):
 def test_parts_make_the_assembly(name):
     """Each part's own frame: the wheel turned as the motion says, the crank about (L, 0)."""
     read = {p: dxf_shapes(written(DESIGNS[name], p, f"{p}.dxf")) for p in PARTS}
-    found = load(str(DESIGNS[name])).stations[0]
-    L = load(str(DESIGNS[name])).spec.size.center_distance_mm
+    found = load(str(DESIGNS[name])).engagements[0]
+    L = load(str(DESIGNS[name])).center_distance_mm
     # The files' last decimal is 1e-12, and an angle's rounding moves nothing by more than 1e-12.
     psi = float(found.motion(0.0, 0).c[0])
     wheel = moved({"WHEEL": read["wheel"]["WHEEL"]}, psi)
@@ -525,7 +525,7 @@ def test_spherical_wheel_is_a_table_of_meridians(name, axes):
     To 1e-9 of degrees and mm: a few roundings of numbers of this size.
     """
     z, S, b = 6, math.radians(axes), math.pi / 6
-    L = load(str(DESIGNS[name])).spec.size.center_distance_mm
+    L = load(str(DESIGNS[name])).center_distance_mm
     rows = table_of(name, "wheel")
     assert len(rows) == z
     mouth = math.degrees(math.atan2(math.sin(S) * math.cos(b), math.cos(S)))
@@ -602,7 +602,7 @@ def test_groove_of_a_cam(curves):
             near = min(line.distance(flank) for line in lines["GROOVE"])
             assert near < TOLERANCE + SAGITTA
     # All round the flanks are a roller's radius from the pitch line: two tolerances apart.
-    r = load(str(DESIGNS[name])).spec.roller_radius_mm
+    r = load(str(DESIGNS[name])).roller_radius_mm
     for chain in shapes["GROOVE"]:
         for p in points(chain, 5):
             assert pitch.distance(Point(p)) == pytest.approx(r, abs=2.0 * TOLERANCE + SAGITTA)

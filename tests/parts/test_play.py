@@ -11,11 +11,11 @@ from scipy.optimize import brentq
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import disc, made, polygon, turned
+from words import load
 
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Clash, NotProved
-from geneva_cli.specfile.reader import load
 from geneva_cli.verdict.clearances import turning
 
 DESIGNS = repo.DESIGNS
@@ -134,7 +134,7 @@ def free(found: Outlines, at_deg: float, lead_deg: float) -> bool:
         for crank in found.crank
     ]
     for number in range(len(plane.rollers)):
-        parts.append(affinity.translate(roller, *plane.pin(number, at)[0]))
+        parts.append(affinity.translate(roller, *plane.path(number, at)[0]))
     shapely.prepare(wheel)
     turn = float(plane.wheel(at)[0]) + math.radians(lead_deg)
     return not any(wheel.intersects(turned(part, -turn)) for part in parts)
@@ -211,16 +211,16 @@ def test_a_hair_of_overlap_is_contact(tmp_path: Path) -> None:
 def test_angles_are_the_inputs(name: str, entry: float) -> None:
     """Straight slots without clearance touch first at entry: where `report` says it is."""
     mechanism = load(str(DESIGNS / f"{name}.toml"))
-    station = mechanism.stations[0]
-    assert station.entry_deg == pytest.approx(entry, abs=1e-3)
+    engagement = mechanism.engagements[0]
+    assert engagement.entry_deg == pytest.approx(entry, abs=1e-3)
     turn = full_turn(outlines(mechanism))
-    assert turn.driving.at_deg == pytest.approx(station.entry_deg, abs=1e-6)
+    assert turn.driving.at_deg == pytest.approx(engagement.entry_deg, abs=1e-6)
 
 
 def test_angles_of_a_longer_period_begin_at_its_entry() -> None:
     mechanism = load(str(DESIGNS / "geneva-pair.toml"))
     plane = outlines(mechanism).plane
-    entry = mechanism.stations[0].entry_deg
+    entry = mechanism.engagements[0].entry_deg
     assert plane.shown_deg(plane.start_deg) == pytest.approx(entry, abs=1e-9)
     turns = [plane.shown_deg(plane.start_deg + x) for x in np.linspace(0.0, 359.0, 60)]
     assert turns == sorted(turns)

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from words import Drive, Motion, Spec, Wheel, named
 
-from geneva_cli.machine.laws.standard import named
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.parts.slot_profile import chord_errors, nodes, profile_table, slot
-from geneva_cli.spec.tables import Drive, Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Size
 
 L = 200.0
 SIZE = Size(center_distance_mm=L, roller_radius_mm=9.0, slot_clearance_mm=0.25)
@@ -118,10 +118,10 @@ def dense_error(mechanism: Mechanism, x: np.ndarray) -> float:
 
 def greedy(mechanism: Mechanism, tolerance: float) -> int:
     """How many of the longest chords that stay within the tolerance cover the slot."""
-    station = mechanism.stations[0]
-    count, a = 0, station.entry_deg
-    while a < station.exit_deg:
-        far = 0.0 if a < 0.0 else station.exit_deg
+    engagement = mechanism.engagements[0]
+    count, a = 0, engagement.entry_deg
+    while a < engagement.exit_deg:
+        far = 0.0 if a < 0.0 else engagement.exit_deg
         low, high = a, far
         if dense_error(mechanism, np.array([a, far])) > tolerance:
             for _ in range(25):

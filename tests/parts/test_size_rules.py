@@ -4,11 +4,12 @@ from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
+from words import Motion, Spec, Wheel
 
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Size
 
 HUGE = [
     "roller_radius_mm",

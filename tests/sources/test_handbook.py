@@ -49,12 +49,12 @@ def test_share_of_the_motion_runs_from_1_6_to_11_24(machine):
 
 
 @pytest.mark.parametrize("z", Z)
-def test_slot_and_crank_stand_at_right_angles_only_at_the_ends(station, z):
+def test_slot_and_crank_stand_at_right_angles_only_at_the_ends(engagement, z):
     """The handbook: the angle O1 A O2 is always pi/2. It is so at entry and exit, never between."""
-    s = station(z)
+    s = engagement(z)
 
     def cosine(deg):
-        x, y = (v.c[0] for v in s.pin(deg, 0))
+        x, y = (v.c[0] for v in s.path(deg, 0))
         return (x * (x - 1.0) + y * y) / (math.hypot(x, y) * math.hypot(x - 1.0, y))
 
     for deg in (s.entry_deg, s.exit_deg):
@@ -65,14 +65,14 @@ def test_slot_and_crank_stand_at_right_angles_only_at_the_ends(station, z):
 
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("z", [3, 4, 6, 24])
-def test_soft_shock_at_entry(station, gearing, z):
+def test_soft_shock_at_entry(engagement, gearing, z):
     """The handbook: the roller's velocity against the cross is zero at entry.
 
     Only its part across the slot is, so the wheel starts from rest; along the slot it is R w.
     """
-    s = station(z, gearing)
+    s = engagement(z, gearing)
     for deg, sign in ((s.entry_deg, -1.0), (s.exit_deg, 1.0)):
-        x, y = s.pin(deg, 1)
+        x, y = s.path(deg, 1)
         position, velocity = np.array([x.c[0], y.c[0]]), np.array([x.c[1], y.c[1]])
         ray = position / np.hypot(*position)
         along, across = ray @ velocity, ray[0] * velocity[1] - ray[1] * velocity[0]
@@ -83,13 +83,13 @@ def test_soft_shock_at_entry(station, gearing, z):
         assert s.motion(deg).derivatives()[1] == 0.0
 
 
-def gap(station, deg):
+def gap(engagement, deg):
     """Angle by which the pin leads the slot's own mid line, in the wheel: 0 for a straight slot."""
-    x, y = station.pitch(deg, 0)
+    x, y = engagement.slot(deg, 0)
     return np.degrees(np.arctan2(y.c[0], x.c[0]))
 
 
-def test_not_almost_any_law_for_one_curved_slot(station):
+def test_not_almost_any_law_for_one_curved_slot(engagement):
     """The handbook: curved slots give almost any law. But in and out must use one track.
 
     The pin passes each radius twice, at input angles -x and x, and meets one track only where the
@@ -101,19 +101,19 @@ def test_not_almost_any_law_for_one_curved_slot(station):
         ("3-4-5", -0.566, 0.375),
         ("sine-group", 0.0, 4.566),
     ):
-        s = station(6, law=law)
+        s = engagement(6, law=law)
         lead, lag = gap(s, x), gap(s, -x)
         assert lead == pytest.approx(-lag, abs=1e-13)  # odd: two tracks, mirror images
         assert np.max(lead) == pytest.approx(greatest, abs=6e-4)  # three digits, and the grid
         assert np.min(lead) == pytest.approx(least, abs=6e-4)
-    assert np.all(gap(station(6, law="harmonic"), x[1:-1]) < 0.0)
-    straight = station(6)
+    assert np.all(gap(engagement(6, law="harmonic"), x[1:-1]) < 0.0)
+    straight = engagement(6)
     assert np.all(gap(straight, x) == 0.0)
 
 
-def test_separation_of_the_two_tracks(station):
+def test_separation_of_the_two_tracks(engagement):
     """2 rho sin(lead): 0.019 L for the cycloid, 0.091 L for Krasniqi's law."""
     x = np.linspace(-60.0, 0.0, 4001)
     for law, distance in (("cycloidal", 0.019), ("sine-group", 0.091)):
-        _, y = station(6, law=law).pitch(x, 0)
+        _, y = engagement(6, law=law).slot(x, 0)
         assert 2.0 * np.max(np.abs(y.c[0])) == pytest.approx(distance, abs=5e-4)

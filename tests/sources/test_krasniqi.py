@@ -67,14 +67,14 @@ def test_velocity_to_snap_vanish_at_both_ends(shape):
         assert law(u, 4).derivatives()[1:] == (0.0, 0.0, 0.0, 0.0)
 
 
-def test_misprint_18_fifth_sine(station):
+def test_misprint_18_fifth_sine(engagement):
     """Printed 4 lambda sin 5x: the end velocities then differ by the integral, -2 lambda/5."""
     shape = mp.mpf("0.05")
     right = mp.quad(lambda u: series_18(u, shape), [0, 0.5, 1])
     wrong = mp.quad(lambda u: series_18(u, shape, fifth=4), [0, 0.5, 1])
     assert abs(right) < 1e-30
     assert abs(wrong / (4 * mp.pi / 3) * mp.pi + 2 * shape / 5) < 1e-30
-    s = station(6, law="sine-group", lambda_=0.05)
+    s = engagement(6, law="sine-group", lambda_=0.05)
     assert s.motion(s.exit_deg).derivatives()[1] == 0.0
 
 
@@ -102,20 +102,20 @@ def test_monotone_up_to_an_eighth(shape, sign):
 
 @pytest.mark.parametrize(("shape", "least"), [(0.13, None), (0.15, -0.004), (0.25, -0.139)])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_misprint_table_1_has_laws_that_turn_back(station, shape, least, sign):
+def test_misprint_table_1_has_laws_that_turn_back(engagement, shape, least, sign):
     """Rows +-0.15 and +-0.25 turn the wheel back: 6 slots in 120 degrees, as there."""
-    s = station(6, law="sine-group", lambda_=sign * shape)
+    s = engagement(6, law="sine-group", lambda_=sign * shape)
     velocity = s.motion(np.linspace(-60.0, 60.0, 20001), 1).c[1]
     assert np.min(velocity) < 0.0
     if least is not None:
         assert np.min(velocity) == pytest.approx(least, abs=5e-4)  # as printed
 
 
-def test_overshoot_at_a_quarter(station):
+def test_overshoot_at_a_quarter(engagement):
     """At lambda = 0.25 the wheel goes 2.33 degrees too far before it comes back (or first)."""
     x = np.linspace(-60.0, 60.0, 20001)
     for sign in (-1.0, 1.0):
-        wheel = np.degrees(station(6, law="sine-group", lambda_=0.25 * sign).motion(x, 0).c[0])
+        wheel = np.degrees(engagement(6, law="sine-group", lambda_=0.25 * sign).motion(x, 0).c[0])
         over = max(-30.0 - np.min(wheel), np.max(wheel) - 30.0)
         assert over == pytest.approx(2.33, abs=5e-3)  # as printed
 
@@ -138,12 +138,12 @@ def curve_4(R, shape, z, degs):
 
 @pytest.mark.parametrize("shape", [0.0, 0.05, -0.1])
 @pytest.mark.parametrize("ratio", [0.4, 0.5, 0.6])
-def test_4_is_our_pitch_curve(station, shape, ratio):
+def test_4_is_our_pitch_curve(engagement, shape, ratio):
     """With lambda = L/R, and mirrored: there the wheel turns the other way."""
-    s = station(6, law="sine-group", lambda_=shape, ratio=ratio)
+    s = engagement(6, law="sine-group", lambda_=shape, ratio=ratio)
     degs = [-60.0, -44.0, -20.0, -1.0, 0.0, 7.0, 30.0, 59.0, 60.0]
     for deg, M in zip(degs, curve_4(mp.mpf(ratio), shape, 6, degs), strict=True):
-        x, y = (v.c[0] for v in s.pitch(deg, 0))
+        x, y = (v.c[0] for v in s.slot(deg, 0))
         # 4e-16: sums of three products of sizes up to 1.6
         assert x == pytest.approx(float(M.real), abs=4.5e-16)
         assert y == pytest.approx(-float(M.imag), abs=4.5e-16)
@@ -180,9 +180,9 @@ def test_mid_condition_at_the_usual_radius(machine, law, z, motion_deg):
     assert m.ratio == near(math.sin(math.pi / z), 1e-4)
 
 
-def test_cycloid_of_6_slots_in_120_degrees_is_matched_by_itself(machine, station):
+def test_cycloid_of_6_slots_in_120_degrees_is_matched_by_itself(machine, engagement):
     assert machine(6, law="cycloidal", ratio="matched").ratio == pytest.approx(0.5, abs=1.2e-16)
-    s = station(6, law="cycloidal")
+    s = engagement(6, law="cycloidal")
     assert retraces(s)
     assert pitch_at_retrace(s).pressure < math.radians(45.0)
 
@@ -193,22 +193,22 @@ def test_matched_radius_of_the_sine_group(machine, z, ratio):
     assert machine(z, law="sine-group", ratio="matched").ratio == near(ratio, 4e-16)
 
 
-def test_misprint_geometry_of_6_slots_at_half_radius(station):
+def test_misprint_geometry_of_6_slots_at_half_radius(engagement):
     """Its own machine: psi1(0) = 4/3, not l/(1-l) = 1: at mid-motion the pressure angle is 90°."""
-    s = station(6, law="sine-group")
+    s = engagement(6, law="sine-group")
     assert s.motion(0.0).derivatives()[1] == near(4.0 / 3.0, 4e-16)
     assert not retraces(s)
     assert math.degrees(pitch(s, 0.0).pressure) == pytest.approx(90.0, abs=1e-12)
-    x, y = s.pitch(0.0, 1)
+    x, y = s.slot(0.0, 1)
     assert x.c[1] == 0.0
     assert y.c[1] == near(0.5 - 0.5 * 4.0 / 3.0, 1e-14)
 
 
 @pytest.mark.parametrize("law", ["cycloidal", "3-4-5", "sine-group"])
 @pytest.mark.parametrize("ratio", [0.45, 0.55])
-def test_slot_geometry_in_closed_form(station, law, ratio):
+def test_slot_geometry_in_closed_form(engagement, law, ratio):
     """|M'|, curvature and pressure angle of the centre line, from section 5.3 of the notes."""
-    s, R = station(6, law=law, ratio=ratio), ratio
+    s, R = engagement(6, law=law, ratio=ratio), ratio
     for deg in (-59.0, -40.0, -15.0, -2.0, 5.0, 33.0, 58.0):
         phi = math.radians(deg)
         _, p1, p2, _ = s.motion(deg).derivatives()
@@ -230,9 +230,9 @@ def test_slot_geometry_in_closed_form(station, law, ratio):
 
 
 @pytest.mark.parametrize("law", ["cycloidal", "3-4-5", "4-5-6-7", "sine-group"])
-def test_a_soft_slot_starts_along_the_crank_circle(station, law):
+def test_a_soft_slot_starts_along_the_crank_circle(engagement, law):
     """At entry, where psi1 = psi2 = 0: |M'| = R and curvature 1/R."""
-    s = station(6, law=law, ratio=0.5)
+    s = engagement(6, law=law, ratio=0.5)
     at = pitch(s, s.entry_deg)
     assert at.speed == near(0.5, 4e-16)
     assert abs(at.turning) / at.speed == near(2.0, 1e-14)

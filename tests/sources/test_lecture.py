@@ -89,7 +89,7 @@ def test_misprint_internal_entry_triangle(machine):
         assert outside.motion_deg / 2 + phi_1 == near(90.0, 1e-15)  # it belongs there
 
 
-def test_misprint_kinematics_are_shown_without_restriction(station):
+def test_misprint_kinematics_are_shown_without_restriction(engagement):
     """tan phi = l sin a/(1 - l cos a) and i hold outside only; inside l -> -l, psi -> -psi."""
     for z in (3, 4, 6, 12):
         l = math.sin(math.pi / z)
@@ -97,8 +97,8 @@ def test_misprint_kinematics_are_shown_without_restriction(station):
             a = math.radians(deg)
             tan_phi = l * math.sin(a) / (1 - l * math.cos(a))
             i = l * (math.cos(a) - l) / (1 - 2 * l * math.cos(a) + l * l)
-            outside = station(z).motion(deg).derivatives()
-            inside = station(z, "internal").motion(deg).derivatives()
+            outside = engagement(z).motion(deg).derivatives()
+            inside = engagement(z, "internal").motion(deg).derivatives()
             # 1e-13: at z = 3 the textbook denominator loses two digits
             assert math.tan(outside[0]) == near(tan_phi, 1e-13)
             assert outside[1] == near(i, 1e-13)
@@ -110,12 +110,12 @@ def test_misprint_kinematics_are_shown_without_restriction(station):
             )
 
 
-def test_misprint_law_of_sines_is_the_external_one(station):
+def test_misprint_law_of_sines_is_the_external_one(engagement):
     """R/L = sin psi/sin(a + psi) outside; inside sin psi/sin(a - psi)."""
     for z in (3, 5, 8):
         l, a = math.sin(math.pi / z), math.radians(20.0)
-        outside = station(z).motion(20.0, 0).c[0]
-        inside = station(z, "internal").motion(20.0, 0).c[0]
+        outside = engagement(z).motion(20.0, 0).c[0]
+        inside = engagement(z, "internal").motion(20.0, 0).c[0]
         assert math.sin(outside) / math.sin(a + outside) == near(l, 1e-14)
         assert math.sin(inside) / math.sin(a - inside) == near(l, 1e-14)
         assert abs(math.sin(inside) / math.sin(a + inside) / l - 1) > 0.1

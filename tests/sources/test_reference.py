@@ -34,9 +34,9 @@ ROWS = [line.split() for line in POINTS.strip().split("\n")]
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: "-".join(row[:4]))
-def test_sample_point(station, row):
+def test_sample_point(engagement, row):
     gearing, z, A, at, *exact = row
-    s = station(int(z), gearing, float(A))
+    s = engagement(int(z), gearing, float(A))
     x = s.entry_deg + math.degrees(0.001) if "alpha" in at else float(at)
     values = s.motion(x).derivatives()
     inside = [s.motion(t).derivatives() for t in (s.entry_deg, s.entry_deg / 3.0, 0.0)]

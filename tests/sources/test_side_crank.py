@@ -60,14 +60,14 @@ def printed(text):
 
 def all_of(machine, z, A):
     m = machine(z, A=A)
-    return m.stations[0], peaks(m.stations[0])
+    return m.engagements[0], peaks(m.engagements[0])
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"z{row[0]}-A{row[1]}")
 def test_table(machine, row):
     z, A, motion, velocity, acceleration, a_deg, power, p_deg, entry = row
-    station, found = all_of(machine, int(z), float(A))
-    assert station.motion_deg == printed(motion)
+    engagement, found = all_of(machine, int(z), float(A))
+    assert engagement.motion_deg == printed(motion)
     assert found.velocity.max == printed(velocity)
     assert found.velocity.at_deg == 0.0
     assert found.acceleration.max == printed(acceleration)
@@ -79,17 +79,17 @@ def test_table(machine, row):
 
 @pytest.mark.parametrize("z", range(3, 25))
 @pytest.mark.parametrize("A", [-0.5, 0.3, 0.6, 0.99])
-def test_equation_1_motion_angle_and_offset(station, z, A):
+def test_equation_1_motion_angle_and_offset(engagement, z, A):
     """A = sin((phi_s1 - phi_s2)/2) / sin(phi_s2/2), with phi_s2 = pi - 2 pi/z."""
-    s1, s2 = math.radians(station(z, A=A).motion_deg), math.pi - 2.0 * math.pi / z
+    s1, s2 = math.radians(engagement(z, A=A).motion_deg), math.pi - 2.0 * math.pi / z
     # 1e-15 absolute: the difference of two angles below 2 pi, each rounded
     assert math.sin((s1 - s2) / 2.0) / math.sin(s2 / 2.0) == pytest.approx(A, abs=4e-15)
 
 
-def test_equation_2_loses_the_sign_before_mid_motion(station):
+def test_equation_2_loses_the_sign_before_mid_motion(engagement):
     """(2), f = arccos((A + cos phi)/sqrt(W)), is right for 0 <= phi <= pi only; atan2 for all."""
     A, z = 0.6, 6
-    s = station(z, A=A)
+    s = engagement(z, A=A)
     for deg in (-80.0, -20.0, 20.0, 80.0):
         phi = math.radians(deg)
         f = math.acos((A + math.cos(phi)) / math.sqrt(1.0 + 2.0 * A * math.cos(phi) + A * A))
@@ -100,9 +100,9 @@ def test_equation_2_loses_the_sign_before_mid_motion(station):
         assert (ours == pytest.approx(wheel, abs=1e-15)) == (deg > 0.0)
 
 
-def test_equation_3_coulisse_angle_to_wheel_angle(station):
+def test_equation_3_coulisse_angle_to_wheel_angle(engagement):
     """tan(gamma) = sin f / (1/sin(pi/z) - cos f)."""
-    s, w = station(8, A=0.6), Geneva(8, A=0.6)
+    s, w = engagement(8, A=0.6), Geneva(8, A=0.6)
     for deg in (-100.0, -45.0, 10.0, 90.0):
         phi = math.radians(deg)
         f = math.atan2(math.sin(phi), 0.6 + math.cos(phi))
@@ -154,8 +154,8 @@ def test_misprint_ratios_fit_no_single_offset(machine):
 def test_1_58_is_the_ratio_at_a_motion_of_180_degrees(machine):
     """1.58 = 1 + 1/sqrt(3), exact for phi_s1 = 180°, that is A = 1/sqrt(3)."""
     A = 1.0 / math.sqrt(3.0)
-    station, _ = all_of(machine, 6, A)
-    assert station.motion_deg == pytest.approx(180.0, abs=1e-13)
+    engagement, _ = all_of(machine, 6, A)
+    assert engagement.motion_deg == pytest.approx(180.0, abs=1e-13)
     velocity, acceleration, power = ratios(machine, A)
     assert velocity == near(1.0 + A, 2e-15)
     assert [velocity, acceleration, power] == pytest.approx([1.577, 2.510, 3.990], abs=5e-4)
@@ -187,9 +187,9 @@ def test_as_A_nears_1_the_crank_turns_at_half_speed(machine, z):
     """A -> 1: velocity/2, acceleration/4, power/8, twice the motion angle."""
     A = 1.0 - 1e-9
     plain_station, plain = all_of(machine, z, 0.0)
-    station, slow = all_of(machine, z, A)
+    engagement, slow = all_of(machine, z, A)
     # 1e-4: with phi = 2 f but for an angle of some sqrt(1 - A)
-    assert station.motion_deg == near(2.0 * plain_station.motion_deg, 1e-4)
+    assert engagement.motion_deg == near(2.0 * plain_station.motion_deg, 1e-4)
     assert plain.velocity.max / slow.velocity.max == near(2.0, 1e-4)
     assert plain.acceleration.max / slow.acceleration.max == near(4.0, 1e-4)
     assert plain.power.max / slow.power.max == near(8.0, 1e-4)
@@ -201,7 +201,7 @@ def test_A_0_is_the_plain_crank(machine):
     from geneva_cli.spec.tables import Drive, Spec, Wheel
 
     m = build(Spec(Wheel(6), Drive("side-crank"), Keys(0.0)))
-    s, plain = m.stations[0], machine(6).stations[0]
+    s, plain = m.engagements[0], machine(6).engagements[0]
     assert s.entry_deg == plain.entry_deg
     for deg in (-60.0, -31.0, -1.0, 0.0, 17.0, 60.0):
         ours, theirs = s.motion(deg).derivatives(), plain.motion(deg).derivatives()

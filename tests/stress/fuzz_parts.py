@@ -13,12 +13,12 @@ import warnings
 from fuzz_machines import machine_text
 from fuzz_spec import consistent, read, sound
 from fuzzing import campaign, in_time
+from geneva_cli.machine.kinds import is_flat
 
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.kinds import is_flat
 from geneva_cli.parts.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.study.batch import Verdict, checks_table
@@ -55,7 +55,7 @@ def one(text):
         sound(motion_table(found, 97))
         sound(flat(report(found).table), BOUNDLESS)
         sound(checks_table([Verdict("", checks=tuple(judged(found)))]), BOUNDLESS)
-        tolerance = TOLERANCE * found.spec.size.center_distance_mm / 100.0
+        tolerance = TOLERANCE * found.center_distance_mm / 100.0
         for part in PARTS:
             for samples in (None, 33, 50) if is_table(found, part, False) else ():
                 tried(part_table, found, part, tolerance, samples)

@@ -149,15 +149,15 @@ def read(data):
 
 def consistent(mechanism):
     """What holds of every machine: rest at both ends, a whole step, an ascending window."""
-    for station in mechanism.stations:
-        assert station.entry_deg < station.exit_deg
-        b = station.half_step
-        for x, wheel in ((station.entry_deg, -b), (station.exit_deg, b)):
-            p = station.motion(x, 3).derivatives()
+    for engagement in mechanism.engagements:
+        assert engagement.entry_deg < engagement.exit_deg
+        b = engagement.half_step
+        for x, wheel in ((engagement.entry_deg, -b), (engagement.exit_deg, b)):
+            p = engagement.motion(x, 3).derivatives()
             assert all(math.isfinite(v) for v in p), f"not finite at {x!r}: {p}"
             # a law given as points ends where its spline does: rounding of sums of such terms
             assert abs(p[0] - wheel) <= 1e-9 * b, f"wheel at {x!r}: {p[0]!r}, not {wheel!r}"
-    for i in range(len(mechanism.stations)):
+    for i in range(len(mechanism.engagements)):
         assert math.isfinite(mechanism.dwell_deg(i))
 
 

@@ -43,16 +43,16 @@ from spline_witness import derivatives
 from test_machines import CASES, ON_PATH
 from witness import LAWS as LAW_WITNESSES
 from witness import PolynomialLaw, SineLaw, krasniqi, mp
+from words import LAWS, Drive, Motion, Spec, Wheel
 
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import drives
-from geneva_cli.machine.laws.standard import LAWS
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.wheels.classic_arrays import Kernel
 from geneva_cli.parts.slot_profile import nodes, slot
 from geneva_cli.spec import tables as keys
-from geneva_cli.spec.tables import Drive, Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Size
 from geneva_cli.specfile.reader import fields, load
 
 LIMIT = 16.0
@@ -585,10 +585,10 @@ def unit(peak):
     return math.ulp(float(peak))
 
 
-def angles(station, even=9):
+def angles(engagement, even=9):
     """Input angles in degrees, ascending: evenly, and close to both ends, the middle, the cuts."""
     half = []
-    for end in (station.entry_deg, station.exit_deg):
+    for end in (engagement.entry_deg, engagement.exit_deg):
         near = [end]
         for _ in range(3):
             near.append(math.nextafter(near[-1], 0.0))
@@ -598,24 +598,24 @@ def angles(station, even=9):
         half += [end * t for t in (0.7499999999, 0.75, 0.7500000001, 1e-3, 1e-6, 1e-9, 1e-15)]
         half += [math.copysign(t, end) for t in (math.degrees(1e-15), 1e-15, 1e-12, 1e-4)]
         half += [end * (i + 0.37) / even for i in range(even)]
-    inside = {x for x in half if station.entry_deg <= x <= station.exit_deg}
+    inside = {x for x in half if engagement.entry_deg <= x <= engagement.exit_deg}
     return np.array(sorted({0.0, *inside}))
 
 
-def values_at(station, x):
+def values_at(engagement, x):
     """Position to jerk by each route through the program."""
     routes = [
-        station.motion(x, 3).derivatives(),
-        station.derivatives(x),
-        station.derivatives(x[:-1]),
+        engagement.motion(x, 3).derivatives(),
+        engagement.motion.derivatives(x),
+        engagement.motion.derivatives(x[:-1]),
     ]
     some = x[:: max(1, len(x) // 7)]
-    return routes, some, [station.motion(float(v), 3).derivatives() for v in some]
+    return routes, some, [engagement.motion(float(v), 3).derivatives() for v in some]
 
 
-def compare(table, machine, station, x, exact, peak, condition, where, book=None):
+def compare(table, machine, engagement, x, exact, peak, condition, where, book=None):
     """Position to jerk at the angles x, by every route."""
-    routes, some, numbers = strictly(values_at, station, x)
+    routes, some, numbers = strictly(values_at, engagement, x)
     place = [f"{where} at {v:.17g}" for v in x]
     for k, name in enumerate(NAMES):
         u, values = unit(peak[name]), [e[k] for e in exact]
@@ -725,17 +725,17 @@ def straight_one(table, z, gearing, kind, values, m):
     except GenevaError as error:
         table.fault(f"{machine} {where}: refused: {error}")
         return
-    for j, station in enumerate(mechanism.stations):
-        place = where + (f" station {j + 1}" if m > 1 else "")
+    for j, engagement in enumerate(mechanism.engagements):
+        place = where + (f" engagement {j + 1}" if m > 1 else "")
         w = Straight(z, gearing, kind, values, 2 * mp.pi * j / m)
-        x = angles(station)
+        x = angles(engagement)
         exact = [w.at(radians(v)) for v in x]
         # A tiny step of each value: 1e-40 is far above 120 digits and far below 1 - A.
         h = mp.mpf(10) ** -40
         others = [w.varied(i, h) for i in range(len(values))]
         moved = [[o.at(radians(v)) for v in x] for o in others]
         peak_of, more = {}, {}
-        mid = math.ulp(station.mid_deg)
+        mid = math.ulp(engagement.mid_deg)
         crank = [w.half * (mp.mpf(i) / 24 - 1) for i in range(49)]
         if j == 0:
             crank = crank[:25]  # the second half mirrors the first
@@ -752,8 +752,8 @@ def straight_one(table, z, gearing, kind, values, m):
             more[name] = _size_condition(w, name, peak_of[name], values, h)
         size = {n: peak_of[n][0] for n in NAMES[1:]} | {"position": w.b}
         condition = []
-        outer = np.abs(x) > 0.75 * np.where(x < 0.0, -station.entry_deg, station.exit_deg)
-        entry = max(math.ulp(station.entry_deg), math.ulp(station.exit_deg))
+        outer = np.abs(x) > 0.75 * np.where(x < 0.0, -engagement.entry_deg, engagement.exit_deg)
+        entry = max(math.ulp(engagement.entry_deg), math.ulp(engagement.exit_deg))
         for k, name in enumerate(NAMES):
             u = unit(size[name])
             slope = np.array([abs(float(e[k + 1])) for e in exact])
@@ -765,8 +765,8 @@ def straight_one(table, z, gearing, kind, values, m):
                 c = np.maximum(c, np.array(by) * math.ulp(v) / u)
             condition.append(c)
         book = w.textbook(x)
-        compare(table, machine, station, x, exact, size, condition, place, book)
-        got = strictly(peaks, station)
+        compare(table, machine, engagement, x, exact, size, condition, place, book)
+        got = strictly(peaks, engagement)
         farthest = max(abs(e) for e in w.ends)
         compare_peaks(table, machine, got, peak_of, farthest, place, more)
 
@@ -1000,7 +1000,7 @@ def curved_one(table, name, shape, series, top, z, gearing, kind, values, sample
         except GenevaError as error:
             table.fault(f"{machine} {where}: refused: {error}")
             continue
-        station = mechanism.stations[0]
+        engagement = mechanism.engagements[0]
         motion_deg = natural - mp.mpf(alpha0)
         u = max(unit(natural), math.ulp(alpha0), unit(motion_deg))
         h = mp.mpf(10) ** -40
@@ -1011,7 +1011,7 @@ def curved_one(table, name, shape, series, top, z, gearing, kind, values, sample
         ]
         cond = max([0.0, *[math.degrees(b) / u for b in by]])
         table.add(
-            (machine, "motion angle"), ulps([station.motion_deg], [motion_deg], u), cond, where
+            (machine, "motion angle"), ulps([engagement.motion_deg], [motion_deg], u), cond, where
         )
         laid_out(
             table, machine, mechanism, series, top, exact_values, front, gearing, z, ratio, where
@@ -1020,25 +1020,25 @@ def curved_one(table, name, shape, series, top, z, gearing, kind, values, sample
 
 def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, ratio, where):
     """Motion, peaks and slot for the motion angle that the program has."""
-    station = mechanism.stations[0]
-    whole, step = radians(station.motion_deg), 2 * mp.pi / z
-    entry = radians(station.entry_deg)
+    engagement = mechanism.engagements[0]
+    whole, step = radians(engagement.motion_deg), 2 * mp.pi / z
+    entry = radians(engagement.entry_deg)
 
     def at(x):
         s = series.at((x - entry) / whole)
         return [step * (s[0] - mp.mpf(1) / 2), *[step * s[k] / whole**k for k in range(1, 6)]]
 
-    x = angles(station, 7)
+    x = angles(engagement, 7)
     # At a joint of the law a jump is read off on one side; keep a little off.
     joints = [float(a) for a, _ in series.pieces[1:]]
-    u = (x - station.entry_deg) / station.motion_deg
+    u = (x - engagement.entry_deg) / engagement.motion_deg
     for j in joints:
         x, u = x[np.abs(u - j) > 1e-12], u[np.abs(u - j) > 1e-12]
     exact = [at(radians(v)) for v in x]
     scale = {"position": step, "power": step**2 / whole**3}
     scale |= {n: step / whole**k for k, n in enumerate(NAMES) if k}
     size = {n: top[n][0] * scale[n] for n in (*NAMES, "power")}
-    own = np.maximum(np.array([math.ulp(v) for v in x]), math.ulp(station.entry_deg))
+    own = np.maximum(np.array([math.ulp(v) for v in x]), math.ulp(engagement.entry_deg))
     condition = []
     for k, name in enumerate(NAMES):
         slope = np.array([abs(float(e[k + 1])) for e in exact])
@@ -1047,15 +1047,15 @@ def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, 
         for k, by in enumerate(series.moves(u)):
             by = by * float(scale[NAMES[k]]) / unit(size[NAMES[k]])
             condition[k] = np.maximum(condition[k], by)
-    b, w = math.pi / z, math.radians(station.motion_deg)
+    b, w = math.pi / z, math.radians(engagement.motion_deg)
     s = series.textbook(u)
     book = [2 * b * (s[0] - 0.5), *[2 * b * s[k] / w**k for k in (1, 2, 3)]]
-    compare(table, machine, station, x, exact, size, condition, where, book)
+    compare(table, machine, engagement, x, exact, size, condition, where, book)
     found = {}
     for name in PEAKS:
         places = [Found(c.size, entry + c.x * whole, c.shift * whole) for c in top[name][1]]
         found[name] = (size[name], places)
-    got = strictly(peaks, station)
+    got = strictly(peaks, engagement)
     compare_peaks(table, machine, got, found, whole / 2, where)
     slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, ratio, where)
 
@@ -1078,13 +1078,15 @@ def slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, 
     l = mp.sin(mp.pi / z) if ratio is None else mp.mpf(ratio)
     wheel = max(abs(float(e[0])) for e in exact)
     curve = pitch_curve(values, front, gearing, l)
-    L = mp.mpf(mechanism.spec.size.center_distance_mm)
+    L = mp.mpf(mechanism.center_distance_mm)
     points = [curve(radians(v), e[0], e[1]) for v, e in zip(x, exact, strict=True)]
     far = unit(L * max(abs(p) for p, _ in points))
     got = strictly(slot, mechanism, x)
     if not (np.isfinite(got.left).all() and np.isfinite(got.right).all()):
         table.fault(f"{machine} {where}: NaN or infinity in a flank")
-    own = np.maximum(np.array([math.ulp(v) for v in x]), math.ulp(mechanism.stations[0].entry_deg))
+    own = np.maximum(
+        np.array([math.ulp(v) for v in x]), math.ulp(mechanism.engagements[0].entry_deg)
+    )
     h = mp.mpf(10) ** -40
     place = [f"{where} at {v:.17g}" for v in x]
     near = []
@@ -1139,7 +1141,7 @@ def varied_specs(spec):
         for key, v in (getattr(spec, part) or keys.Motion())._asdict().items():
             if isinstance(v, float) and v:
                 up = getattr(spec, part)._replace(**{key: math.nextafter(v, math.inf)})
-                yield spec._replace(**{part: up})
+                yield spec.but(**{part: up})
 
 
 def other_one(table, name, text, mechanism, sample):
@@ -1149,17 +1151,19 @@ def other_one(table, name, text, mechanism, sample):
     witnesses = [
         [machine_witness.on_path(s, *near)] if near else machine_witness.motions(s) for s in specs
     ]
-    for j, station in enumerate(mechanism.stations):
-        place = where if len(mechanism.stations) == 1 else f"{where} station {j + 1}"
+    for j, engagement in enumerate(mechanism.engagements):
+        place = where if len(mechanism.engagements) == 1 else f"{where} engagement {j + 1}"
         w, *moved = [m[j] for m in witnesses]
-        x = angles(station, 5)[:: 3 if sample else 1]
+        x = angles(engagement, 5)[:: 3 if sample else 1]
         if w.law is not None and hasattr(w.law, "pieces"):
-            x = np.array([v for v in x if abs(v) > 1e-9 * station.exit_deg or v == 0.0])
+            x = np.array([v for v in x if abs(v) > 1e-9 * engagement.exit_deg or v == 0.0])
         exact = [w.derivatives(v) for v in x]
         by = [[m.derivatives(v) for v in x] for m in moved]
-        turned = max(math.ulp(v) for v in (station.entry_deg, station.exit_deg, station.mid_deg))
+        turned = max(
+            math.ulp(v) for v in (engagement.entry_deg, engagement.exit_deg, engagement.mid_deg)
+        )
         step = np.radians(np.maximum([math.ulp(v) for v in x], turned))
-        found = strictly(peaks, station)
+        found = strictly(peaks, engagement)
         peak = {"position": w.b}
         for quantity in PEAKS:
             p = getattr(found, quantity)
@@ -1183,7 +1187,7 @@ def other_one(table, name, text, mechanism, sample):
                 change = [abs(float(b[k] - a[k])) for a, b in zip(exact, other, strict=True)]
                 c = np.maximum(c, np.array(change) / u)
             condition.append(c)
-        compare(table, name, station, x, exact, peak, condition, place)
+        compare(table, name, engagement, x, exact, peak, condition, place)
 
 
 def kernel(table, sample):
@@ -1235,9 +1239,9 @@ def chord_case(table, name, L, tolerance, rng):
             table.fault(f"chords {name} {where}: refused without naming --tolerance: {error}")
         return
     got = strictly(slot, mechanism, x).centre
-    station, series = mechanism.stations[0], Series(LAW_WITNESSES[name])
+    engagement, series = mechanism.engagements[0], Series(LAW_WITNESSES[name])
     curve = pitch_curve((), Plain, "external", mp.mpf(1) / 2)
-    whole, entry = radians(station.motion_deg), radians(station.entry_deg)
+    whole, entry = radians(engagement.motion_deg), radians(engagement.entry_deg)
     for i in rng.sample(range(len(x) - 1), min(len(x) - 1, 12)):
         a, b = (mp.mpc(*got[k].tolist()) for k in (i, i + 1))
         for t in (0.21, 0.44, 0.5, 0.57, 0.83):  # not the sixteenths that the program looks at

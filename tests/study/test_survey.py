@@ -33,7 +33,7 @@ def test_field_names():
 def test_closed_forms_agree_with_the_machinery(machine, gearing):
     for z in Z:
         m = machine(z, gearing)
-        s = m.stations[0]
+        s = m.engagements[0]
         got = row(str(z), gearing, 60.0, 1, 0.0)
         assert (got["z"], got["gearing"], got["rollers"]) == (z, gearing, 1)
         assert got["rollers_max"] == m.rollers_max

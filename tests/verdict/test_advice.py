@@ -78,7 +78,7 @@ HELPLESS = ("epicyclic", "undercut")
 
 def table_of(mechanism: Mechanism, key: str) -> str:
     for table, keys in TABLES.items():
-        own = [kind_keys(mechanism.spec.drive.kind)] if table == "drive" else []
+        own = [kind_keys(mechanism.spec.drive.NAME)] if table == "drive" else []
         if key in [f.key for each in (keys, *own) for f in fields(each)]:
             return table
     raise AssertionError(key)

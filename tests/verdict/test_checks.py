@@ -7,17 +7,16 @@ from pathlib import Path
 import pytest
 import repo
 from typer.testing import CliRunner
+from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.side_crank import Keys
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import Most
-from geneva_cli.spec.tables import Drive, Limits, Load, Motion, Size, Spec, Wheel
-from geneva_cli.specfile.reader import load
+from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.clearances import clearances
@@ -35,7 +34,7 @@ def failing(spec: Spec) -> list[str]:
 
 
 def test_a_sound_design_passes() -> None:
-    assert not failing(LOADED._replace(limits=Limits(acceleration_max=1.4, pin_force_max_N=1e4)))
+    assert not failing(LOADED.but(limits=Limits(acceleration_max=1.4, pin_force_max_N=1e4)))
     assert not failing(CURVED)
     assert not cautions(build(LOADED))
     assert not cautions(build(CURVED))
@@ -45,11 +44,11 @@ def test_a_sound_design_passes() -> None:
     ("spec", "said"),
     [
         (Spec(Wheel(25)), "z = 25"),
-        (CURVED._replace(motion=Motion("cycloidal", ratio=0.45)), "mid condition"),
-        (CURVED._replace(motion=Motion("sine-group", 0.13)), "turns back"),
-        (CURVED._replace(motion=Motion("sine-group", -0.13)), "turns back"),
-        (CURVED._replace(motion=Motion("harmonic", ratio="matched")), "soft shock"),
-        (CURVED._replace(size=Size(100.0, 20.0)), "undercut"),
+        (CURVED.but(motion=Motion("cycloidal", ratio=0.45)), "mid condition"),
+        (CURVED.but(motion=Motion("sine-group", 0.13)), "turns back"),
+        (CURVED.but(motion=Motion("sine-group", -0.13)), "turns back"),
+        (CURVED.but(motion=Motion("harmonic", ratio="matched")), "soft shock"),
+        (CURVED.but(size=Size(100.0, 20.0)), "undercut"),
     ],
 )
 def test_cautions(spec: Spec, said: str) -> None:
@@ -58,15 +57,15 @@ def test_cautions(spec: Spec, said: str) -> None:
 
 @pytest.mark.parametrize("shape", [-0.125, 0.0, 0.125])
 def test_the_sine_group_does_not_turn_back_up_to_an_eighth(shape: float) -> None:
-    spec = CURVED._replace(motion=Motion("sine-group", shape, ratio="matched"))
+    spec = CURVED.but(motion=Motion("sine-group", shape, ratio="matched"))
     assert not any("turns back" in text for text in cautions(build(spec)))
 
 
 def test_the_side_crank_moves_the_mid_condition() -> None:
     """l/(1-l) = psi1 (1+A) at mid-motion: the crank there runs 1/(1+A) times as fast."""
-    spec = CURVED._replace(drive=Drive("side-crank"), kind=Keys(0.5))
+    spec = CURVED.but(drive=Drive("side-crank"), kind=Keys("side-crank", 0.5))
     mechanism = build(spec)
-    v = 2.0 * 60.0 / mechanism.stations[0].motion_deg * 1.5
+    v = 2.0 * 60.0 / mechanism.engagements[0].motion_deg * 1.5
     assert mechanism.ratio == pytest.approx(v / (1.0 + v), rel=4e-16 * 4)
     assert not cautions(mechanism)
 
@@ -105,7 +104,7 @@ def test_a_limit_on_loads_needs_a_load(key: str) -> None:
     with pytest.raises(GenevaError, match=f"{key} needs a load.*inertia_kgm2 or torque_Nm") as said:
         build(spec)
     assert said.value.key == ("limits", key)
-    assert (rows(spec._replace(load=Load(torque_Nm=0.1)))[key].value or 0.0) > 0.0
+    assert (rows(spec.but(load=Load(torque_Nm=0.1)))[key].value or 0.0) > 0.0
 
 
 @pytest.mark.parametrize(

@@ -75,7 +75,7 @@ def test_a_sound_design_passes_both(tmp_path: Path) -> None:
 
 
 def test_a_program_finds_the_same_names_for_every_machine() -> None:
-    """Spherical, toothed, a linkage, two unlike stations, and a plain one."""
+    """Spherical, toothed, a linkage, two unlike engagements, and a plain one."""
     trees = {}
     for name in (
         "spherical-z6",
@@ -141,11 +141,11 @@ def test_without_a_good_spec_nothing_is_printed(tmp_path: Path) -> None:
 
 
 def test_peaks_begin_with_spec_and_title() -> None:
-    for name, stations in (("projector", 0), ("two-rollers-side-crank", 2)):
+    for name, engagements in (("projector", 0), ("two-rollers-side-crank", 2)):
         spec = str(DESIGNS / f"{name}.toml")
         tree = json.loads(run("peaks", spec, "--format", "json").stdout)
         assert list(tree)[:2] == ["spec", "title"]
         assert tree["spec"] == spec
-        assert len(tree["stations"] or []) == stations
+        assert len(tree["stations"] or []) == engagements
         greatest = max(s["jerk"]["max"] for s in tree["stations"] or [tree])
         assert tree["jerk"]["max"] == greatest

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
 from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise, sqrt
 
@@ -31,43 +31,43 @@ class Contact(NamedTuple):
     touches: Jet  # 0 while gears drive and no roller does, else 1
 
 
-def contact(station: Station, input_deg: Coefficient, order: int = 0) -> Contact:
-    """The contact at input angles (degrees, one or an array) from a station's mid-motion.
+def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> Contact:
+    """The contact at input angles (degrees, one or an array) from a engagement's mid-motion.
 
     At mid-motion of a curved slot only the values have a limit, that of the way in: there
     ``order`` must be 0.
     """
-    if is_straight(station):
-        return _beside(station, input_deg, order)
+    if is_straight(engagement):
+        return _beside(engagement, input_deg, order)
 
     def beside(x: Coefficient) -> Jet:
-        return Jet([c for jet in _beside(station, x, order) for c in jet.c])
+        return Jet([c for jet in _beside(engagement, x, order) for c in jet.c])
 
     def middle(x: Coefficient) -> Jet:
         assert order == 0
-        return Jet([x * 0.0 + c for c in _middle(station)])
+        return Jet([x * 0.0 + c for c in _middle(engagement)])
 
     # one piece each side of mid-motion, and mid-motion itself
     every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
     return Contact(*[Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)])
 
 
-def is_straight(station: Station) -> bool:
-    """Whether the station's slot is a straight one."""
-    return station.rail(station.entry_deg) is not None
+def is_straight(engagement: Engagement) -> bool:
+    """Whether the engagement's slot is a straight one."""
+    return not engagement.slot.curved
 
 
-def _beside(station: Station, x: Coefficient, order: int) -> Contact:
+def _beside(engagement: Engagement, x: Coefficient, order: int) -> Contact:
     """Wherever the pin moves in its slot, or the slot is straight."""
-    rates = station.motion(x, order + 2).derivative()
+    rates = engagement.motion(x, order + 2).derivative()
     velocity, acceleration = _cut(rates, order), rates.derivative()
     constant = velocity * 0.0
-    rail = station.rail(x, order)
+    rail = engagement.slot.axis(x, order)
     if rail:
         lever, along = rail
-        aside, curvature = constant + station.offset, constant
+        aside, curvature = constant + engagement.slot.offset, constant
     else:
-        mx, my = station.pitch(x, order + 2)
+        mx, my = engagement.slot(x, order + 2)
         ux, uy = mx.derivative(), my.derivative()
         bend_x, bend_y = ux.derivative(), uy.derivative()
         mx, my, ux, uy = (_cut(jet, order) for jet in (mx, my, ux, uy))
@@ -76,29 +76,29 @@ def _beside(station: Station, x: Coefficient, order: int) -> Contact:
         along = sqrt(ux * ux + uy * uy) * way
         lever, aside = outward / along, (mx * uy - my * ux) / along
         curvature = (ux * bend_y - uy * bend_x) / (along * along * along)
-    upright = station.upright(x, order)
-    touches = constant + station.touches(x)
-    spin = (station.carrier(x, order) - velocity * upright) * touches
+    upright = engagement.slot.upright(x, order)
+    touches = constant + engagement.slot.touches(x)
+    spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
     return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches)
 
 
-def _middle(station: Station) -> list[float]:
+def _middle(engagement: Engagement) -> list[float]:
     """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
-    if not retraces(station):
-        values = [jet.c[0] for jet in _beside(station, 0.0, 0)]
+    if not retraces(engagement):
+        values = [jet.c[0] for jet in _beside(engagement, 0.0, 0)]
         values[Contact._fields.index("lever")] = 0.0
         return values
-    at = pitch_at_retrace(station)
+    at = pitch_at_retrace(engagement)
     lever = at.x * at.tangent_x + at.y * at.tangent_y
     way = 1.0 if lever > 0.0 else -1.0
     aside = way * (at.x * at.tangent_y - at.y * at.tangent_x)
-    _, v, a = station.motion(0.0, 2).derivatives()
-    spin = station.carrier(0.0).c[0] - v
+    _, v, a = engagement.motion(0.0, 2).derivatives()
+    spin = engagement.carrier(0.0).c[0] - v
     if abs(at.turning) > BENT:
         curvature = math.copysign(math.inf, way * at.turning)
     else:  # the way in and the way out are one, and its curvature is that beside mid-motion
-        curvature = _beside(station, NEAR * station.entry_deg, 0).curvature.c[0]
+        curvature = _beside(engagement, NEAR * engagement.entry_deg, 0).curvature.c[0]
     return [v, a, way * lever, aside, 0.0, curvature, spin, 1.0, 1.0]
 
 

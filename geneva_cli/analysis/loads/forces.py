@@ -42,12 +42,12 @@ def setting(mechanism: Mechanism) -> Setting:
     if size.face_width_mm is not None:
         # p0² = N E* / (pi b R_e), E* = E / (2 (1 - nu²)) for two bodies of one material
         modulus = load.youngs_modulus_GPa * 1e3 / (2.0 * (1.0 - load.poisson_ratio**2))
-        hertz = modulus / (math.pi * size.face_width_mm * spec.roller_radius_mm)
+        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
     return Setting(
         load.inertia_kgm2 * w * w,
         load.torque_Nm,
-        size.center_distance_mm / 1000.0,
-        spec.roller_radius_mm / size.center_distance_mm,
+        mechanism.center_distance_mm / 1000.0,
+        mechanism.roller_radius_mm / mechanism.center_distance_mm,
         load.friction,
         load.efficiency,
         hertz,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
 from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, forces, setting, sliding
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
@@ -37,13 +37,13 @@ class State(NamedTuple):
     pressure_deg: Number
 
 
-def state(mechanism: Mechanism, station: Station, input_deg: Coefficient) -> State:
-    """The loads of a station at an input angle from its mid-motion, or at an array of angles."""
+def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) -> State:
+    """The loads of a engagement at an input angle from its mid-motion, or at an array of angles."""
     import numpy as np
 
     given = setting(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
-    at = contact(station, x)
+    at = contact(engagement, x)
     torque = at.acceleration.c[0] * given.inertia_Nm + given.resists_Nm
     drives = np.copysign(1.0, torque)
     slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
@@ -66,18 +66,18 @@ def state(mechanism: Mechanism, station: Station, input_deg: Coefficient) -> Sta
 
 
 def greatest(mechanism: Mechanism, quantity: str) -> Greatest:
-    """The greatest size of a field of ``State`` over all stations."""
+    """The greatest size of a field of ``State`` over all engagements."""
     best = Greatest(0.0, 0.0)
-    for station in mechanism.stations:
-        found = _greatest(station, setting(mechanism))[quantity]
+    for engagement in mechanism.engagements:
+        found = _greatest(engagement, setting(mechanism))[quantity]
         if found.max > best.max:
-            best = Greatest(found.max, mechanism.shown_deg(station.mid_deg + found.at_deg))
+            best = Greatest(found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg))
     return best
 
 
 @lru_cache(maxsize=256)
-def _greatest(station: Station, given: Setting) -> dict[str, Greatest]:
-    """The greatest of each field of ``State``, at the station's own input angles."""
+def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
+    """The greatest of each field of ``State``, at the engagement's own input angles."""
     from geneva_cli.analysis.loads.peaks import maxima
 
     def rows(at: Contact, drives: Coefficient, slides: Coefficient) -> list[Row]:
@@ -95,9 +95,9 @@ def _greatest(station: Station, given: Setting) -> dict[str, Greatest]:
             out.append(Row(found.square, found.edge))
         return out
 
-    torque, force, driving, driven, slope, *square = maxima(station, given, rows)
+    torque, force, driving, driven, slope, *square = maxima(engagement, given, rows)
     pressure = Greatest(math.degrees(math.atan(math.sqrt(slope.max))), slope.at_deg)
-    if not is_straight(station) and not retraces(station):
+    if not is_straight(engagement) and not retraces(engagement):
         pressure = Greatest(90.0, 0.0)
     stress = Greatest(math.sqrt(square[0].max), square[0].at_deg) if square else Greatest(0.0, 0.0)
     return {
@@ -119,12 +119,12 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
         return math.inf
     load = mechanism.spec.load
     given = setting(mechanism)._replace(inertia_Nm=load.inertia_kgm2)  # at 1 rad/s
-    least = max(_slowness(station, given, limits) for station in mechanism.stations)
+    least = max(_slowness(engagement, given, limits) for engagement in mechanism.engagements)
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Speeds below it may be too low where inertia helps against the resistance, and this one too.
     tried = mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm
-    drive = mechanism.spec.drive._replace(n_rpm=tried)
-    changed = mechanism._replace(spec=mechanism.spec._replace(drive=drive))
+    drive = mechanism.spec.drive.but(n_rpm=tried)
+    changed = mechanism._replace(spec=mechanism.spec.but(drive=drive))
     kept = all(
         greatest(changed, quantity).max <= limit * KEPT
         for quantity, limit in zip(LIMITED, limits, strict=True)
@@ -135,7 +135,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 
 @lru_cache(maxsize=256)
 def _slowness(
-    station: Station, given: Setting, limits: tuple[float | None, float | None, float | None]
+    engagement: Engagement, given: Setting, limits: tuple[float | None, float | None, float | None]
 ) -> float:
     """The greatest of 1 / (highest speed that a place allows)²; infinite where it allows none.
 
@@ -169,7 +169,7 @@ def _slowness(
         return out
 
     still = given._replace(resists_Nm=0.0)
-    return max(found.max for found in maxima(station, still, rows))
+    return max(found.max for found in maxima(engagement, still, rows))
 
 
 KEPT = 1.0 + 1e-9  # a limit met at the fastest speed may be missed by rounding

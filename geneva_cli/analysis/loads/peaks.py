@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, is_straight
 from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, sliding
-from geneva_cli.machine.engagement import Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Coefficient, Jet
@@ -45,7 +45,7 @@ Rows: TypeAlias = Callable[[Contact, Coefficient, Coefficient], list[Row]]
 
 
 @lru_cache(maxsize=256)
-def stretches(station: Station, given: Setting) -> tuple[Stretch, ...]:
+def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     """The motion cut where its loads have kinks or jumps.
 
     Cuts are places of breaks; a stretch ends one double beside them. At the cusp of a curved slot
@@ -58,30 +58,30 @@ def stretches(station: Station, given: Setting) -> tuple[Stretch, ...]:
     def rubs(at: Contact, drives: Coefficient) -> Jet:
         return sliding(at, drives, given.radius)
 
-    cut = [Stretch(a, b, 1.0, 1.0) for a, b in _smooth(station)]
+    cut = [Stretch(a, b, 1.0, 1.0) for a, b in _smooth(engagement)]
     if given.inertia_Nm:
-        cut = _cut_at_zeros(station, cut, torque, "drives")
+        cut = _cut_at_zeros(engagement, cut, torque, "drives")
     if given.friction:
-        cut = _cut_at_zeros(station, cut, rubs, "slides")
+        cut = _cut_at_zeros(engagement, cut, rubs, "slides")
     return tuple(cut)
 
 
-def _smooth(station: Station) -> list[tuple[float, float]]:
-    breaks = station.breaks_deg
+def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
+    breaks = engagement.motion.breaks_deg
     out = []
     for a, b in zip(breaks, breaks[1:], strict=False):
         start = a if a == breaks[0] else math.nextafter(a, math.inf)
         end = b if b == breaks[-1] else math.nextafter(b, -math.inf)
-        if not is_straight(station):
-            start = NEAR * station.exit_deg if a == 0.0 else start
-            end = NEAR * station.entry_deg if b == 0.0 else end
+        if not is_straight(engagement):
+            start = NEAR * engagement.exit_deg if a == 0.0 else start
+            end = NEAR * engagement.entry_deg if b == 0.0 else end
         if start < end:
             out.append((start, end))
     return out
 
 
 def _cut_at_zeros(
-    station: Station,
+    engagement: Engagement,
     pieces: list[Stretch],
     of: Callable[[Contact, Coefficient], Jet],
     sign: str,
@@ -90,7 +90,7 @@ def _cut_at_zeros(
     drives = np.array([p.drives for p in pieces])
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
-        return _columns([of(contact(station, x, 1), drives[span])], x)
+        return _columns([of(contact(engagement, x, 1), drives[span])], x)
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
     changes = found.changes(0)
@@ -100,13 +100,13 @@ def _cut_at_zeros(
         for i in changes[found.span[changes] == number]:
 
             def here(x: float, side: float = piece.drives) -> Jet:
-                return of(contact(station, x, 1), side)
+                return of(contact(engagement, x, 1), side)
 
             places.append(_zero(here, float(found.x[i]), float(found.x[i + 1])))
         places.append(piece.end)
         for a, b in zip(places, places[1:], strict=False):
             if a < b:
-                middle = of(contact(station, 0.5 * (a + b)), piece.drives).c[0]
+                middle = of(contact(engagement, 0.5 * (a + b)), piece.drives).c[0]
                 cut = piece._replace(start=a, end=b)
                 out.append(cut._replace(**{sign: math.copysign(1.0, middle)}))
     return out
@@ -129,13 +129,13 @@ def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
     return value, slope
 
 
-def maxima(station: Station, given: Setting, rows: Rows) -> list[Greatest]:
+def maxima(engagement: Engagement, given: Setting, rows: Rows) -> list[Greatest]:
     """The greatest of each of ``rows`` over a motion; at least 0, at entry."""
-    pieces = stretches(station, given)
+    pieces = stretches(engagement, given)
     drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:])
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
-        asked = rows(contact(station, x, 1), drives[span], slides[span])
+        asked = rows(contact(engagement, x, 1), drives[span], slides[span])
         value, slope = _columns([row.value for row in asked], x)
         for i, row in enumerate(asked):
             if row.room is not None:
@@ -143,14 +143,14 @@ def maxima(station: Station, given: Setting, rows: Rows) -> list[Greatest]:
         return value, slope
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
-    ends = _at_mid_motion(station, given, pieces, rows)
+    ends = _at_mid_motion(engagement, given, pieces, rows)
     out = []
     for i in range(len(found.value)):
 
         def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row:
-            return rows(contact(station, x, order), piece.drives, piece.slides)[i]
+            return rows(contact(engagement, x, order), piece.drives, piece.slides)[i]
 
-        out.append(_greatest(found, i, pieces, at, ends, station))
+        out.append(_greatest(found, i, pieces, at, ends, engagement))
     return out
 
 
@@ -160,7 +160,7 @@ def _greatest(
     pieces: tuple[Stretch, ...],
     at: Callable[[Coefficient, Stretch, int], Row],
     middle: list[float],
-    station: Station,
+    engagement: Engagement,
 ) -> Greatest:
     value = found.value[row]
     lost = np.isnan(value)
@@ -181,29 +181,29 @@ def _greatest(
         places.append((x, at(x, piece, 0).value.c[0]))
     most = max(v for _, v in places)
     if not most > 0.0:
-        return Greatest(0.0, station.entry_deg)
+        return Greatest(0.0, engagement.entry_deg)
     first = min(x for x, v in places if v >= most * (1.0 - TIE))
-    return Greatest(most, _at_break(first, station))
+    return Greatest(most, _at_break(first, engagement))
 
 
 def _at_mid_motion(
-    station: Station, given: Setting, pieces: tuple[Stretch, ...], rows: Rows
+    engagement: Engagement, given: Setting, pieces: tuple[Stretch, ...], rows: Rows
 ) -> list[float]:
     """The quantities at mid-motion of a curved slot, which no stretch reaches; infinite or a limit.
 
     Straight slots are scanned through mid-motion: nothing is added there.
     """
     x = np.zeros(1)
-    at = contact(station, x)
+    at = contact(engagement, x)
     torque = at.acceleration * given.inertia_Nm + given.resists_Nm
     needed = float(torque.c[0][0])
-    beside = [p for p in pieces if NEAR * station.entry_deg in (p.end, -p.start)]
-    if is_straight(station):
+    beside = [p for p in pieces if NEAR * engagement.entry_deg in (p.end, -p.start)]
+    if is_straight(engagement):
         with np.errstate(all="ignore"):
             return [0.0 for _ in rows(at, 1.0, 1.0)]
     # The tangent points away from the axis on the way in and out; at a cusp they are one.
-    ways = (1.0,) if retraces(station) else (1.0, -1.0)
-    common = given.inertia_Nm * abs(station.motion(0.5 * station.entry_deg, 2).c[2])
+    ways = (1.0,) if retraces(engagement) else (1.0, -1.0)
+    common = given.inertia_Nm * abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
     loaded = abs(needed) > ZERO * (common + given.resists_Nm)
     out: list[float] = []
     for way in ways:
@@ -221,23 +221,23 @@ def _at_mid_motion(
             elif loaded:
                 values.append(math.inf)
             else:
-                values.append(max(_towards_mid_motion(station, p, rows, i) for p in beside))
+                values.append(max(_towards_mid_motion(engagement, p, rows, i) for p in beside))
         out = [max(pair) for pair in zip(out, values, strict=True)] if out else values
     return out
 
 
-def _towards_mid_motion(station: Station, piece: Stretch, rows: Rows, row: int) -> float:
+def _towards_mid_motion(engagement: Engagement, piece: Stretch, rows: Rows, row: int) -> float:
     """The limit of 0/0 there, from the stretch beside it."""
     x = piece.end if piece.end < 0.0 else piece.start
     h = math.radians(x)
-    c = rows(contact(station, x, 2), piece.drives, piece.slides)[row].value.c
+    c = rows(contact(engagement, x, 2), piece.drives, piece.slides)[row].value.c
     return float(c[0] - h * (c[1] - h * c[2]))
 
 
-def _at_break(x: float, station: Station) -> float:
+def _at_break(x: float, engagement: Engagement) -> float:
     """The place, or the break from which only rounding parts it."""
-    near = min(station.breaks_deg, key=lambda place: abs(place - x))
-    return near if abs(near - x) <= ZERO * station.motion_deg else x
+    near = min(engagement.motion.breaks_deg, key=lambda place: abs(place - x))
+    return near if abs(near - x) <= ZERO * engagement.motion_deg else x
 
 
 def _brink(

@@ -14,8 +14,9 @@ import numpy as np
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
 from geneva_cli.output import delimited
-from geneva_cli.spec.tables import Spec, Wheel
 
 if TYPE_CHECKING:
     from geneva_cli.table import Table
@@ -98,7 +99,7 @@ LIBRARIES = {"orjson": with_orjson, "polars": with_polars, "pyarrow": with_pyarr
 
 def subject(quick: bool) -> Subject:
     """Every writer at every number of rows."""
-    mechanism = build(Spec(Wheel(6)))
+    mechanism = build(Spec(External(6)))
     absent = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
     found = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
     tasks = []

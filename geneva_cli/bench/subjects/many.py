@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.bench.formulas import Design, acceleration, jerk
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.subjects.peaks import NUMERIC, vertex
+from geneva_cli.bench.numeric import NUMERIC, vertex
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks
 

@@ -12,8 +12,9 @@ import numpy as np
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits, motion
 from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.spec.tables import Spec, Wheel
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -91,9 +92,9 @@ def subject(quick: bool) -> Subject:
 
 
 def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
-    mechanism = build(Spec(Wheel(Z)))
-    station, l = mechanism.stations[0], mechanism.ratio
-    half = np.linspace(station.entry_deg, 0.0, count // 2 + 1)[: count // 2]
+    mechanism = build(Spec(External(Z)))
+    engagement, l = mechanism.engagements[0], mechanism.ratio
+    half = np.linspace(engagement.entry_deg, 0.0, count // 2 + 1)[: count // 2]
     mirrored = np.concatenate((half, -half[::-1]))
     skew = mirrored.copy()
     skew[1] = math.nextafter(skew[1], 0.0)  # no longer the mirror image of itself
@@ -104,10 +105,12 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
         Method(
             "jets, whole arrays",
             count,
-            lambda: [station.motion(skew, max(orders)).derivatives()[k] for k in orders],
+            lambda: [engagement.motion(skew, max(orders)).derivatives()[k] for k in orders],
         ),
-        Method("ours", count, lambda: station.derivatives(skew, orders), True),
-        Method("ours, mirrored", count, lambda: station.derivatives(mirrored, orders), True),
+        Method("ours", count, lambda: engagement.motion.derivatives(skew, orders), True),
+        Method(
+            "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
+        ),
     ]
     return Task(
         f"{what} at {count} angles",

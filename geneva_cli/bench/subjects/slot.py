@@ -11,9 +11,12 @@ import numpy as np
 from geneva_cli.bench import flank
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.curves import fit
+from geneva_cli.machine.laws.standard import Cycloidal
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
 from geneva_cli.parts.slot_profile import chord_errors, nodes, slot
-from geneva_cli.spec.tables import Motion, Size, Spec, Wheel
+from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -26,9 +29,9 @@ STARTS = 17  # the first guess of the methods that refine one
 
 def even(mechanism: Mechanism, tolerance: float) -> Array:
     """Even input angles, as many as it takes: the number goes with the error's square root."""
-    station, count = mechanism.stations[0], STARTS - 1
+    engagement, count = mechanism.engagements[0], STARTS - 1
     while True:
-        found = np.linspace(station.entry_deg, station.exit_deg, count + 1)
+        found = np.linspace(engagement.entry_deg, engagement.exit_deg, count + 1)
         worst = chord_errors(mechanism, found).max()
         if worst <= tolerance:
             return found
@@ -37,8 +40,8 @@ def even(mechanism: Mechanism, tolerance: float) -> Array:
 
 def bisection(mechanism: Mechanism, tolerance: float) -> Array:
     """Chords that miss by more are halved, until none does."""
-    station = mechanism.stations[0]
-    found = np.array([station.entry_deg, 0.0, station.exit_deg])
+    engagement = mechanism.engagements[0]
+    found = np.array([engagement.entry_deg, 0.0, engagement.exit_deg])
     while len(long := np.flatnonzero(chord_errors(mechanism, found) > tolerance)):
         found = np.insert(found, long + 1, 0.5 * (found[long] + found[long + 1]))
     return found
@@ -46,11 +49,11 @@ def bisection(mechanism: Mechanism, tolerance: float) -> Array:
 
 def greedy(mechanism: Mechanism, tolerance: float) -> Array:
     """The longest chords that stay within the tolerance, one by one: the fewest there can be."""
-    station = mechanism.stations[0]
-    found = [station.entry_deg]
-    guess = station.motion_deg / STARTS
-    while (a := found[-1]) < station.exit_deg:
-        far = 0.0 if a < 0.0 else station.exit_deg
+    engagement = mechanism.engagements[0]
+    found = [engagement.entry_deg]
+    guess = engagement.motion_deg / STARTS
+    while (a := found[-1]) < engagement.exit_deg:
+        far = 0.0 if a < 0.0 else engagement.exit_deg
 
         def good(b: float, a: float = a) -> bool:
             return bool(chord_errors(mechanism, np.array([a, b]))[0] <= tolerance)
@@ -135,9 +138,9 @@ PIECES = [
 def subject(quick: bool) -> Subject:
     """Every way at every tolerance, for a wheel of 8 slots and the cycloidal law."""
     size = Size(center_distance_mm=200.0, roller_radius_mm=9.0, slot_clearance_mm=0.25)
-    mechanism = build(Spec(Wheel(8), motion=Motion("cycloidal", ratio="matched"), size=size))
-    station = mechanism.stations[0]
-    angles = np.linspace(station.entry_deg, station.exit_deg, 1000)
+    mechanism = build(Spec(External(8), motion=Motion(Cycloidal(), ratio="matched"), size=size))
+    engagement = mechanism.engagements[0]
+    angles = np.linspace(engagement.entry_deg, engagement.exit_deg, 1000)
     tasks = [
         Task(
             f"slot of z = 8, cycloidal, matched R/L, L = 200 mm{shape}",

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import ClassVar
 
-from geneva_cli.machine.drives import Front
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
-from geneva_cli.spec.tables import Spec
+from geneva_cli.machine.drives.transmission import About, Transmission, same
 
 
-class Keys(NamedTuple):
-    """No keys of its own."""
+@dataclass(frozen=True, kw_only=True)
+class Crank(Transmission):
+    """The plain crank: crank angle and input angle are one."""
 
+    NAME: ClassVar[str] = "crank"
+    WORDS: ClassVar[str] = "a crank"
+    ALIKE: ClassVar[bool] = True
 
-def front(spec: Spec) -> Callable[[float], Front]:
-    """Crank angle and input angle are one."""
-    return lambda crank_deg: Front(crank_deg, _same)
+    @property
+    def direct(self) -> bool:
+        """The classic closed forms hold."""
+        return True
 
-
-def _same(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
-    return sine_versine(Jet.variable(tau, order))
+    def about(self, crank_deg: float) -> About:
+        """The same angle."""
+        return About(crank_deg, same)

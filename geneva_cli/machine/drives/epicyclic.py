@@ -8,89 +8,93 @@ this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b. The
 
 from __future__ import annotations
 
-from typing import Annotated, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import Plan
-from geneva_cli.machine.engagement import Anchor, SlotDriven
-from geneva_cli.machine.wheels import poses as gearing
-from geneva_cli.machine.wheels.classic import gap, half_motion_deg
+from geneva_cli.machine import path_and_slot
+from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.machine.drives.pin_path import PinPath
+from geneva_cli.machine.engagement import Anchor, Turning
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
-from geneva_cli.spec.rules import OneOf, Range
-from geneva_cli.spec.tables import Spec
+from geneva_cli.spec.rules import OneOf, Range, Words
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
 
 
-class Keys(NamedTuple):
-    """The keys that ``kind = "epicyclic"`` adds."""
+@dataclass(frozen=True, kw_only=True)
+class Epicyclic(PinPath):
+    """A planet carries the roller."""
 
+    NAME: ClassVar[str] = "epicyclic"
+    WORDS: ClassVar[str] = "a roller on a planet gear"
     planet_ratio: Annotated[
         float | str,
-        Range(-0.4, 0.4),
+        Words(Range(-0.4, 0.4), ("shockless",)),
         'planet crank rp / L, either sign; "shockless" for no jump at entry',
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 
+    def plan(self, spec: Spec) -> Plan:
+        """The one engagement, the planet's arm pointing outwards at mid-motion."""
+        wheel = spec.wheel
+        if wheel.z not in (3, 4, 6):
+            raise GenevaError(
+                f"z = {wheel.z}: the planet comes round once a turn only where 2z/(z-2) is whole; "
+                "z must be 3, 4 or 6",
+                ("wheel", "z"),
+            )
+        step = wheel.step
+        teeth = 2 * wheel.z // (wheel.z - 2)
+        c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
+        l, cos_b = step.sin_cos
+        rp = l / (c * c - 1.0) if isinstance(self.planet_ratio, str) else self.planet_ratio
+        _refuse_reach(l, rp, teeth, c)
+        R0 = l + rp
+        half = wheel.half_motion_deg(step)
 
-def plan(spec: Spec) -> Plan:
-    """The one station of a gear-Geneva, the planet's arm pointing outwards at mid-motion."""
-    keys, wheel = spec.kind, spec.wheel
-    assert isinstance(keys, Keys)
-    if wheel.z not in (3, 4, 6):
-        raise GenevaError(
-            f"z = {wheel.z}: the planet comes round once a turn only where 2z/(z-2) is whole; "
-            "z must be 3, 4 or 6",
-            ("wheel", "z"),
+        def both(slope: float, bend: float, planet: float) -> tuple[tuple[float, float], ...]:
+            return ((R0 * slope, R0 * bend), (planet * slope, planet * bend))
+
+        # At the ends the planet's arm points back along the carrier, at mid-motion outwards.
+        anchors = (
+            Anchor(-half, -step.b, cos_b, Arms(-1.0, 0.0, both(1.0, 1.0, -rp), c)),
+            Anchor(0.0, 0.0, gap(1.0, *step) - 2.0 * rp, Arms(0.0, 1.0, both(1.0, 1.0, rp), c)),
+            Anchor(half, step.b, cos_b, Arms(1.0, 0.0, both(1.0, -1.0, -rp), c)),
         )
-    step = gearing.Step(1, wheel.z)
-    teeth = 2 * wheel.z // (wheel.z - 2)
-    c = 1.0 + teeth if keys.fixed == "sun" else 1.0 - teeth
-    l, cos_b = step.sin_cos
-    rp = l / (c * c - 1.0) if keys.planet_ratio == "shockless" else float(keys.planet_ratio)
-    _refuse_reach(l, rp, teeth, c)
-    R0 = l + rp
-    half = half_motion_deg("external", *step)
-
-    def both(slope: float, bend: float, planet: float) -> tuple[tuple[float, float], ...]:
-        return ((R0 * slope, R0 * bend), (planet * slope, planet * bend))
-
-    # At the ends the planet's arm points back along the carrier, at mid-motion outwards.
-    anchors = (
-        _anchor(-half, -step.b, cos_b, -1.0, 0.0, both(1.0, 1.0, -rp), c),
-        _anchor(0.0, 0.0, gap("external", *step) - 2.0 * rp, 0.0, 1.0, both(1.0, 1.0, rp), c),
-        _anchor(half, step.b, cos_b, 1.0, 0.0, both(1.0, -1.0, -rp), c),
-    )
-    station = SlotDriven(0.0, step.b, anchors)
-    station.crank_sense = 1.0
-    # The roller sits on the planet, which turns c times as fast as the carrier.
-    station.body = lambda tau, order: Jet((tau * 0.0 - c, *[0.0] * order))
-    return Plan(station, R0 + rp, spec.size)
+        path = AnchoredPath(anchors)
+        motion = Followed(path, step.b)
+        # The roller sits on the planet, which turns c times as fast as the carrier.
+        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c))
+        return self.planned(engagement, R0 + rp, spec.given_distance_mm)
 
 
-def _anchor(
-    input_deg: float,
-    wheel: float,
-    along: float,
-    radial: float,
-    level: float,
-    arms: tuple[tuple[float, float], ...],
-    c: float,
-) -> Anchor:
-    """A pose of carrier and planet; ``radial`` is the sense of their speed along the ray."""
+class Arms(NamedTuple):
+    """Carrier and planet about a pose: their slopes and bends, the planet's rate c.
 
-    def displacement(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    ``radial`` is the sense of their speed along the ray, ``level`` 1 where it is across.
+    """
+
+    radial: float
+    level: float
+    arms: tuple[tuple[Coefficient, Coefficient], ...]
+    c: float
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """The pin's way since then, along the ray and across it."""
         u: Jet | None = None
         v: Jet | None = None
-        for (slope, bend), rate in zip(arms, (1.0, c), strict=True):
-            turn = Jet.variable(tau, order) * rate
-            sine, versine = sine_versine(turn)
+        for (slope, bend), rate in zip(self.arms, (1.0, self.c), strict=True):
+            sine, versine = sine_versine(Jet.variable(tau, order) * rate)
             # On the ray's own axes: at the ends the speed is along it, at mid-motion across.
-            du = sine * (slope * radial) + versine * (bend * level)
-            dv = sine * (slope * level) + versine * (bend * (1.0 - level))
+            du = sine * (slope * self.radial) + versine * (bend * self.level)
+            dv = sine * (slope * self.level) + versine * (bend * (1.0 - self.level))
             u, v = (du, dv) if u is None or v is None else (u + du, v + dv)
         assert u is not None and v is not None
         return u, v
-
-    return Anchor(input_deg, wheel, along, displacement)
 
 
 def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:

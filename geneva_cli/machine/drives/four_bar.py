@@ -7,21 +7,23 @@ not given but solved for.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from decimal import Decimal
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import Plan
-from geneva_cli.machine.linkage import exact_point, plan_on, refuse_proportions
+from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
 from geneva_cli.machine.wheel_for_path import Path, Way
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
-from geneva_cli.spec.tables import Spec
 
 
-class Keys(NamedTuple):
-    """The keys that ``kind = "four-bar"`` adds."""
+@dataclass(frozen=True, kw_only=True)
+class FourBar(Linkage):
+    """A point of a four-bar's coupler carries the roller."""
 
+    NAME: ClassVar[str] = "four-bar"
+    WORDS: ClassVar[str] = "a point of a four-bar linkage"
     crank_mm: Annotated[float, POSITIVE, "crank a"]
     ground_mm: Annotated[float, POSITIVE, "distance g of the fixed pivots"]
     coupler_mm: Annotated[float, POSITIVE, "coupler b, from crank pin A to rocker pin B"]
@@ -29,24 +31,34 @@ class Keys(NamedTuple):
     point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]
     point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
     branch: Annotated[str, OneOf(("+", "-")), "side of the crank's line the coupler is on"] = "+"
-    entry_deg: Annotated[
-        float | None, Range(-360.0, 360.0), "crank angle near entry, where several wheels fit"
-    ] = None
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_proportions(
+            crank_mm=self.crank_mm,
+            ground_mm=self.ground_mm,
+            coupler_mm=self.coupler_mm,
+            rocker_mm=self.rocker_mm,
+            point_mm=self.point_mm,
+        )
+        # Grashof: the crank turns all round.
+        others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
+        longest = max(others)
+        limit = min(*others, sum(others) - 2.0 * longest)
+        if self.crank_mm >= limit:
+            below = f"it must be below {limit:.6g}"
+            helps = below if limit > 0.0 else "change the other links first"
+            raise GenevaError(
+                f"crank_mm = {self.crank_mm:g}: the crank cannot turn all round (Grashof: it is "
+                "the shortest link, and with the longest shorter than the other two together); "
+                f"{helps}",
+                ("drive", "crank_mm"),
+            )
 
-def plan(spec: Spec) -> Plan:
-    """The one station of a four-bar Geneva, its wheel's centre solved for."""
-    keys = spec.kind
-    assert isinstance(keys, Keys)
-    refuse_proportions(
-        crank_mm=keys.crank_mm,
-        ground_mm=keys.ground_mm,
-        coupler_mm=keys.coupler_mm,
-        rocker_mm=keys.rocker_mm,
-        point_mm=keys.point_mm,
-    )
-    _refuse_linkage(keys)
-    return plan_on(spec, CouplerPath(keys), keys.entry_deg)
+    @property
+    def roller_path(self) -> CouplerPath:
+        """The path of its point."""
+        return CouplerPath(self)
 
 
 class _Links(NamedTuple):
@@ -67,7 +79,7 @@ class CouplerPath(Path):
     the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D).
     """
 
-    def __init__(self, keys: Keys) -> None:
+    def __init__(self, keys: FourBar) -> None:
         lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
         a, g, b, c = (Decimal(x) for x in lengths)
         p, q = exact_point(keys.point_mm, keys.point_deg)
@@ -106,30 +118,40 @@ class CouplerPath(Path):
         by_u, by_N = float(m / (2 * b)), float(self.side / (2 * b))
         P, Q = float(p), float(q)
 
-        def way(sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-            x, y = sine * -s - versine * t, sine * t - versine * s
-            D = x * -span
-            u = 1.0 / (D + 1.0 / inverse)
-            du = D * u * -inverse
-            N = D * (steep - D) / (sqrt((high - D) * (D + low)) + root)
-            k, n = du * by_u, (N * u + du * root) * by_N
-            kk, nn = k + real, n + imag
-            ex = y * nn - x * kk + k * x0 - n * y0
-            ey = n * x0 - x * nn - y * kk + k * y0
-            return x + ex * P - ey * Q, y + ey * P + ex * Q
-
-        return way
-
-
-def _refuse_linkage(keys: Keys) -> None:
-    """Raise GenevaError unless the crank turns all round (Grashof)."""
-    others = [keys.ground_mm, keys.coupler_mm, keys.rocker_mm]
-    longest = max(others)
-    limit = min(*others, sum(others) - 2.0 * longest)
-    if keys.crank_mm >= limit:
-        helps = f"it must be below {limit:.6g}" if limit > 0.0 else "change the other links first"
-        raise GenevaError(
-            f"crank_mm = {keys.crank_mm:g}: the crank cannot turn all round (Grashof: it is the "
-            f"shortest link, and with the longest shorter than the other two together); {helps}",
-            ("drive", "crank_mm"),
+        return CouplerWay(
+            s, t, high, low, steep, root, inverse, span, real, imag, by_u, by_N, x0, y0, P, Q
         )
+
+
+class CouplerWay(NamedTuple):
+    """What the coupler's point moves by, from the numbers of one crank angle."""
+
+    s: float
+    t: float
+    high: float
+    low: float
+    steep: float
+    root: float
+    inverse: float
+    span: float
+    real: float
+    imag: float
+    by_u: float
+    by_N: float
+    x0: float
+    y0: float
+    P: float
+    Q: float
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """The point's way, from sin d and 1 - cos d of the crank's angle d since."""
+        x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
+        D = x * -self.span
+        u = 1.0 / (D + 1.0 / self.inverse)
+        du = D * u * -self.inverse
+        N = D * (self.steep - D) / (sqrt((self.high - D) * (D + self.low)) + self.root)
+        k, n = du * self.by_u, (N * u + du * self.root) * self.by_N
+        kk, nn = k + self.real, n + self.imag
+        ex = y * nn - x * kk + k * self.x0 - n * self.y0
+        ey = n * self.x0 - x * nn - y * kk + k * self.y0
+        return x + ex * self.P - ey * self.Q, y + ey * self.P + ex * self.Q

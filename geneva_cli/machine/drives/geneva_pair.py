@@ -8,59 +8,62 @@ squared times tan b: none where both motions begin together (as with four slots 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Annotated, NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, NamedTuple
 
-from geneva_cli.machine.drives import Front
-from geneva_cli.machine.wheels import poses as gearing
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
 from geneva_cli.spec.rules import Z_MAX, Range
-from geneva_cli.spec.tables import Spec
 
 
-class Keys(NamedTuple):
-    """The keys that ``kind = "geneva-pair"`` adds."""
+@dataclass(frozen=True, kw_only=True)
+class GenevaPair(Transmission):
+    """An external wheel in front of the crank: one index in many turns of the input."""
 
+    NAME: ClassVar[str] = "geneva-pair"
+    WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
+    ONE_ROLLER: ClassVar[bool] = True
     first_z: Annotated[int, Range(3, Z_MAX), "slots of the first wheel, external"]
 
+    @property
+    def turns(self) -> int:
+        """Input turns in a turn of the second crank."""
+        return self.first_z
 
-def turns(keys: Keys) -> int:
-    """Input turns in a turn of the second crank."""
-    return keys.first_z
+    @property
+    def reach_deg(self) -> float:
+        """Farthest the second crank may be from mid-step while it moves its wheel."""
+        return 180.0 / self.first_z
 
-
-def reach_deg(keys: Keys) -> float:
-    """Farthest the second crank may be from mid-step while it moves its wheel."""
-    return 180.0 / keys.first_z
-
-
-def front(spec: Spec) -> Callable[[float], Front]:
-    """Front about an angle of the second crank within the first wheel's step, degrees."""
-    keys = spec.kind
-    assert isinstance(keys, Keys)
-    step = gearing.Step(1, keys.first_z)
-    ends = {180.0 / keys.first_z * side: side for side in (-1.0, 1.0)}
-
-    def about(crank_deg: float) -> Front:
-        poses = gearing.radial("external", step)
-        if crank_deg in ends:
-            pose = poses[0] if ends[crank_deg] < 0.0 else poses[2]
+    def about(self, crank_deg: float) -> About:
+        """About an angle of the second crank within the first wheel's step, degrees."""
+        step = poses.Step(1, self.first_z)
+        entry, middle, exit_ = poses.radial(1.0, step)
+        if abs(crank_deg) == self.reach_deg:
+            pose = entry if crank_deg < 0.0 else exit_
         else:
-            pose = _running(poses[1], _crank_at(step, crank_deg))
+            pose = _running(middle, _crank_at(step, crank_deg))
 
-        def advance(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
-            along, across = pose.displacement(*sine_versine(Jet.variable(tau, max(order, 1))))
-            along = along + pose.along
-            rate = atan2(across, along).derivative()
-            return sine_versine_of(rate, across.c[0], along.c[0], order)
-
-        return Front(pose.crank_deg, advance)
-
-    return about
+        return About(pose.crank_deg, FirstWheel(pose))
 
 
-def _crank_at(step: gearing.Step, wheel_deg: float) -> float:
+class FirstWheel(NamedTuple):
+    """The first wheel, which carries the second crank, about a pose of its own roller."""
+
+    pose: poses.Pose
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of its angle d since then, ``tau`` input radians later."""
+        sine, versine = sine_versine(Jet.variable(tau, max(order, 1)))
+        along, across = self.pose.displacement(sine, versine)
+        along = along + self.pose.along
+        rate = atan2(across, along).derivative()
+        return sine_versine_of(rate, across.c[0], along.c[0], order)
+
+
+def _crank_at(step: poses.Step, wheel_deg: float) -> float:
     """The first crank's angle a, radians, where its wheel is at psi: sin(a + psi) = sin psi / l.
 
     With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) nothing cancels in
@@ -74,7 +77,7 @@ def _crank_at(step: gearing.Step, wheel_deg: float) -> float:
     return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
 
 
-def _running(middle: gearing.Pose, a: float) -> gearing.Pose:
+def _running(middle: poses.Pose, a: float) -> poses.Pose:
     """The first crank's pin at an angle a (radians) from mid-motion, in its own ray's frame."""
     l, s, c = middle.bend[0], math.sin(a), math.cos(a)
     x, y = middle.along + 2.0 * l * math.sin(0.5 * a) ** 2, l * s
@@ -82,4 +85,4 @@ def _running(middle: gearing.Pose, a: float) -> gearing.Pose:
     u, v = x / rho, y / rho
     slope = (l * (s * u + c * v), l * (c * u - s * v))
     bend = (l * (c * u - s * v), -l * (s * u + c * v))
-    return gearing.Pose(math.degrees(a), math.atan2(y, x), rho, slope, bend)
+    return poses.Pose(math.degrees(a), math.atan2(y, x), rho, slope, bend)

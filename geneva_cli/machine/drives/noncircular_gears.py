@@ -9,65 +9,82 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable
+from dataclasses import dataclass
 from decimal import ROUND_FLOOR, Decimal, localcontext
 from functools import lru_cache
-from typing import Annotated, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import Front
-from geneva_cli.machine.whitworth import coulisse
+from geneva_cli.machine.drives import whitworth
+from geneva_cli.machine.drives.drive import Gears
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
 from geneva_cli.numerics.jet import Coefficient, Jet, library, sine_versine_of
-from geneva_cli.numerics.spline import ZERO, Exact, doubt, periodic, shifted
-from geneva_cli.spec.rules import POSITIVE, Range
-from geneva_cli.spec.tables import Spec
-from geneva_cli.specfile.points import Pairs, read_pairs
+from geneva_cli.numerics.spline import ZERO, Doubt, Exact, Pieces, doubt, periodic, shifted
+from geneva_cli.spec.rules import POSITIVE, Csv, Range
+from geneva_cli.spec.schema import Points
 
-# Of 18,001 points a second derivative is known to 1e-9, as of doubles.
-POINTS = Pairs("input_deg", "ratio", 0.0199, 1e3, 7)
 TURN = FIFTY.multiply(2, PI)
 MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
 
 
-class Keys(NamedTuple):
-    """The keys that ``kind = "noncircular-gears"`` adds."""
+@dataclass(frozen=True, kw_only=True)
+class NoncircularGears(Transmission):
+    """Gears of any ratio that closes over a turn."""
 
+    NAME: ClassVar[str] = "noncircular-gears"
+    WORDS: ClassVar[str] = "a crank behind noncircular gears"
+    GEARED: ClassVar[bool] = True
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "the side-crank's ratio, as gears"] = None
-    ratio_file: Annotated[str | None, None, "CSV of input_deg,ratio points over a turn"] = None
+    ratio: Annotated[
+        Points | None,
+        # of 18,001 points a second derivative is known to 1e-9, as of doubles
+        Csv("ratio_file", "input_deg", "ratio", 0.0199, 1e3, 7),
+        "CSV of input_deg,ratio points over a turn",
+    ] = None
     gear_distance_mm: Annotated[float, POSITIVE, "distance of the two gears' axes, C"] = 100.0
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.A is None) == (self.ratio is None):
+            raise GenevaError(
+                "noncircular gears need A (the side-crank's ratio) or ratio_file, and not both",
+                ("drive", "kind"),
+            )
+        if self.A is not None:
+            whitworth.refuse(self.A)
 
-def front(spec: Spec) -> Callable[[float], Front]:
-    """Front about a crank angle in degrees. Raises GenevaError for a ratio that no gears have."""
-    keys = spec.kind
-    assert isinstance(keys, Keys)
-    if (keys.A is None) == (keys.ratio_file is None):
-        raise GenevaError(
-            "noncircular gears need A (the side-crank's ratio) or ratio_file, and not both",
-            ("drive", "kind"),
-        )
-    if keys.A is not None:
-        return coulisse(keys.A)
-    return _from_file(_points(spec))
+    @property
+    def gears(self) -> Gears:
+        """The pair."""
+        return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
+    def about(self, crank_deg: float) -> About:
+        """About a crank angle in degrees. Raises GenevaError for a ratio that no gears have."""
+        if self.A is not None:
+            return whitworth.about(self.A, crank_deg)
+        assert self.ratio is not None  # one of the two is
+        return _through(_turned(self.ratio.pairs), crank_deg)
 
-def _points(spec: Spec) -> tuple[tuple[float, float], ...]:
-    path = spec.beside(getattr(spec.kind, "ratio_file", None) or "")
-    return tuple(read_pairs(path, POINTS, ("drive", "ratio_file")))
+    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+        """As of the side-crank whose ratio it is."""
+        return None if self.A is None else whitworth.known(self.A, wheel, place)
 
-
-def ratio_doubt(spec: Spec, input_deg: float) -> tuple[int, float]:
-    """Decimals of the ratio's points, and by what share of the ratio at an input angle their
-    rounding moves the ratio's second derivative, which is the crank's jerk."""
-    x, i = zip(*_points(spec), strict=True)
-    with localcontext(FIFTY):
-        found = doubt([of_degrees(v) for v in x], i, True, 2)
-    return found.decimals, found.move / i[bisect_right(x, input_deg % 360.0) - 1]
+    def doubt(self, input_deg: float) -> Doubt | None:
+        """What the rounding of the ratio's points leaves unknown of the crank's jerk."""
+        if self.ratio is None:
+            return None
+        x, i = zip(*self.ratio.pairs, strict=True)
+        with localcontext(FIFTY):
+            found = doubt([of_degrees(v) for v in x], i, True, 2)
+        return found._replace(move=found.move / i[bisect_right(x, input_deg % 360.0) - 1])
 
 
 @lru_cache(4)  # advice builds one machine many times
-def _from_file(points: tuple[tuple[float, float], ...]) -> Callable[[float], Front]:
+def _turned(points: tuple[tuple[float, float], ...]) -> Exact:
+    """The crank's angle over a turn, scaled to close. Raises GenevaError where no gears have it."""
     key = ("drive", "ratio_file")
     i = [p[1] for p in points]
     if points[0][0] != 0.0 or points[-1][0] != 360.0 or i[0] != i[-1]:
@@ -89,22 +106,28 @@ def _from_file(points: tuple[tuple[float, float], ...]) -> Callable[[float], Fro
             f"be 1; divide it by {float(mean):.9g}",
             key,
         )
+    return scaled
 
-    def about(crank_deg: float) -> Front:
-        with localcontext(FIFTY):
-            phi = _input(scaled, of_degrees(crank_deg))
-            since = _since(scaled, phi).rounded()
 
-        def advance(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
-            m = library(tau)
-            turns = m.floor(tau / math.tau + 0.5)
-            turn, *rate = since(tau - turns * math.tau, max(order, 1))
-            terms = [k * c for k, c in enumerate(rate, 1)]
-            return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
+class Since(NamedTuple):
+    """The crank's angle since a moment, by the input's since then."""
 
-        return Front(to_degrees(phi), advance)
+    since: Pieces
 
-    return about
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of the crank's angle d, ``tau`` input radians later."""
+        m = library(tau)
+        turns = m.floor(tau / math.tau + 0.5)
+        turn, *rate = self.since(tau - turns * math.tau, max(order, 1))
+        terms = [k * c for k, c in enumerate(rate, 1)]
+        return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
+
+
+def _through(crank: Exact, crank_deg: float) -> About:
+    with localcontext(FIFTY):
+        phi = _input(crank, of_degrees(crank_deg))
+        since = _since(crank, phi).rounded()
+    return About(to_degrees(phi), Since(since))
 
 
 def _input(crank: Exact, wanted: Decimal) -> Decimal:

@@ -6,24 +6,34 @@ of the Maltese cross mechanism with a side-crank drive".
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
-from geneva_cli.machine.drives import Front
-from geneva_cli.machine.whitworth import coulisse
+from geneva_cli.machine.drives import whitworth
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.spec.rules import Range
-from geneva_cli.spec.tables import Spec
 
 
-class Keys(NamedTuple):
-    """The keys that ``kind = "side-crank"`` adds."""
+@dataclass(frozen=True, kw_only=True)
+class SideCrank(Transmission):
+    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 quickens it."""
 
+    NAME: ClassVar[str] = "side-crank"
+    WORDS: ClassVar[str] = "a side-crank"
     A: Annotated[
         float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank length; > 0 is slower"
     ]
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        whitworth.refuse(self.A)
 
-def front(spec: Spec) -> Callable[[float], Front]:
-    """Front about a crank (coulisse) angle f in degrees."""
-    assert isinstance(spec.kind, Keys)
-    return coulisse(spec.kind.A)
+    def about(self, crank_deg: float) -> About:
+        """About a coulisse angle f in degrees."""
+        return whitworth.about(self.A, crank_deg)
+
+    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+        """The peak acceleration of plain wheels."""
+        return whitworth.known(self.A, wheel, place)

@@ -7,44 +7,44 @@ centre is not given but solved for.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from decimal import Decimal
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import Plan
-from geneva_cli.machine.linkage import exact_point, plan_on, refuse_proportions
+from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
 from geneva_cli.machine.wheel_for_path import Path, Way
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
-from geneva_cli.spec.tables import Spec
 
 
-class Keys(NamedTuple):
-    """The keys that ``kind = "slider-crank"`` adds."""
+@dataclass(frozen=True, kw_only=True)
+class SliderCrank(Linkage):
+    """A point of a connecting rod carries the roller."""
 
+    NAME: ClassVar[str] = "slider-crank"
+    WORDS: ClassVar[str] = "a point of a slider-crank"
     crank_mm: Annotated[float, POSITIVE, "crank a"]
     rod_mm: Annotated[float, POSITIVE, "connecting rod b, from crank pin A to slider B"]
     point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]
     point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
     height_mm: Annotated[float, LENGTH, "slider's line beside the crank's axis, h"] = 0.0
-    entry_deg: Annotated[
-        float | None, Range(-360.0, 360.0), "crank angle near entry, where several wheels fit"
-    ] = None
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        a, b, h = self.crank_mm, self.rod_mm, self.height_mm
+        refuse_proportions(crank_mm=a, rod_mm=b, point_mm=self.point_mm)
+        if a + abs(h) >= b:
+            raise GenevaError(
+                f"crank_mm = {a:g}: the crank cannot turn all round; crank and height together "
+                f"must be shorter than the rod, so the crank below {b - abs(h):.6g}",
+                ("drive", "crank_mm"),
+            )
 
-def plan(spec: Spec) -> Plan:
-    """The one station of a slider-crank Geneva, its wheel's centre solved for."""
-    keys = spec.kind
-    assert isinstance(keys, Keys)
-    a, b, h = keys.crank_mm, keys.rod_mm, keys.height_mm
-    refuse_proportions(crank_mm=a, rod_mm=b, point_mm=keys.point_mm)
-    if a + abs(h) >= b:
-        raise GenevaError(
-            f"crank_mm = {a:g}: the crank cannot turn all round; crank and height together must "
-            f"be shorter than the rod, so the crank below {b - abs(h):.6g}",
-            ("drive", "crank_mm"),
-        )
-    return plan_on(spec, RodPath(keys), keys.entry_deg)
+    @property
+    def roller_path(self) -> RodPath:
+        """The path of its point."""
+        return RodPath(self)
 
 
 class _Rod(NamedTuple):
@@ -60,7 +60,7 @@ class _Rod(NamedTuple):
 class RodPath(Path):
     """The path of a point of the connecting rod."""
 
-    def __init__(self, keys: Keys) -> None:
+    def __init__(self, keys: SliderCrank) -> None:
         a, b, h = (Decimal(x) for x in (keys.crank_mm, keys.rod_mm, keys.height_mm))
         p, q = exact_point(keys.point_mm, keys.point_deg)
         self.exact = _Rod(a, b, h, p, q)
@@ -85,11 +85,28 @@ class RodPath(Path):
         s, c, ey = float(sine), float(cosine), float(level)
         less, more, ex = float(1 - level), float(1 + level), float((1 - level * level).sqrt())
 
-        def way(sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-            x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
-            dy = y / -b
-            now = sqrt((less - dy) * (dy + more))
-            dx = dy * (dy + 2.0 * ey) / -(now + ex)
-            return x + dx * p - dy * q, y + dy * p + dx * q
+        return RodWay(s, c, ey, ex, less, more, a, b, p, q)
 
-        return way
+
+class RodWay(NamedTuple):
+    """What the rod's point moves by, from the numbers of one crank angle."""
+
+    s: float
+    c: float
+    ey: float
+    ex: float
+    less: float
+    more: float
+    a: float
+    b: float
+    p: float
+    q: float
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """The point's way, from sin d and 1 - cos d of the crank's angle d since."""
+        a, s, c = self.a, self.s, self.c
+        x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
+        dy = y / -self.b
+        now = sqrt((self.less - dy) * (dy + self.more))
+        dx = dy * (dy + 2.0 * self.ey) / -(now + self.ex)
+        return x + dx * self.p - dy * self.q, y + dy * self.p + dx * self.q

@@ -10,17 +10,15 @@ import math
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 
-SIGN = {"external": 1.0, "internal": -1.0, "spherical": 1.0}
 
-
-def half_motion_deg(gearing: str, p: int, q: int) -> float:
+def half_motion_deg(sign: float, p: int, q: int) -> float:
     """Crank angle from entry to the line of centres: 90° - b outside, 90° + b inside."""
-    return 90.0 * (q - 2 * int(SIGN[gearing]) * p) / q
+    return 90.0 * (q - 2 * int(sign) * p) / q
 
 
-def gap(gearing: str, p: int, q: int) -> float:
+def gap(sign: float, p: int, q: int) -> float:
     """Least distance of the pin from the wheel's centre in units of L: 1 - l, inside 1 + l."""
-    return 1.0 + sin_cos_pi(p, q)[0] if gearing == "internal" else one_minus_sin_pi(p, q)
+    return 1.0 + sin_cos_pi(p, q)[0] if sign < 0.0 else one_minus_sin_pi(p, q)
 
 
 def rollers_max(motion_deg: float) -> int:
@@ -28,13 +26,13 @@ def rollers_max(motion_deg: float) -> int:
     return math.ceil(360.0 / motion_deg) - 1
 
 
-def refuse_jam(rollers: int, motion_deg: float, gearing: str) -> None:
+def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
     """Raise GenevaError where so many rollers would leave no dwell."""
     most = rollers_max(motion_deg)
     if rollers > most:
         why = (
             "an internal wheel's crank carries one roller only"
-            if gearing == "internal" and motion_deg > 180.0
+            if inside and motion_deg > 180.0
             else f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
         )
         raise GenevaError(

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 BLOCK = 8192
 
 
-class Kernel(NamedTuple):
+class ClassicArrays(NamedTuple):
     """A classic wheel: sign +1 external, -1 internal; l = sin b; rest = 1 - l."""
 
     sign: float

@@ -22,7 +22,7 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.wheels.classic import SIGN, half_motion_deg
+from geneva_cli.machine.wheels.classic import half_motion_deg
 from geneva_cli.numerics.angles import DEGREE, one_minus_sin_pi, sin_cos_pi
 from geneva_cli.spec.rules import Z_MAX
 
@@ -136,15 +136,15 @@ def _slopes(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
     return g3 + 3.0 * g2 * f2 + g1 * f2_f, g4 + 5.0 * g3 * f2 + 4.0 * g2 * f2_f + g1 * f2_ff
 
 
-def acceleration_peak(z: int, gearing: str, A: float) -> tuple[float, float]:
+def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     """Peak |acceleration| of one design (invariant) and its signed input angle, degrees.
 
-    In plain Python: NumPy is not imported. Errors as of ``acceleration_peaks``.
+    ``sign`` is +1 outside, -1 inside. NumPy is not imported. Errors as of ``acceleration_peaks``.
     """
-    _refuse(3 <= z <= Z_MAX, gearing in ("external", "internal"), -1.0 < A < 1.0)
+    _refuse(3 <= z <= Z_MAX, sign in (1.0, -1.0), -1.0 < A < 1.0)
     l, cos_b = sin_cos_pi(1, z)
-    half = half_motion_deg(gearing, 1, z) * DEGREE
-    w = _wheel(SIGN[gearing], l, one_minus_sin_pi(1, z), cos_b, half, A)
+    half = half_motion_deg(sign, 1, z) * DEGREE
+    w = _wheel(sign, l, one_minus_sin_pi(1, z), cos_b, half, A)
     best = _end(math, w)
     step = half / SCAN
     s, c, before = 0.0, 1.0, 0.0

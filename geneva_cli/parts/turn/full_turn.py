@@ -175,9 +175,9 @@ def _drives(outlines: Outlines, x: Array) -> NDArray[np.bool_]:
     plane = outlines.plane
     half = 0.5 * plane.turn_deg
     columns = []
-    for station, behind in plane.rollers:
+    for engagement, behind in plane.rollers:
         away = (x - behind + half) % plane.turn_deg - half
-        columns.append((away >= station.entry_deg - NEAR) & (away <= station.exit_deg + NEAR))
+        columns.append((away >= engagement.entry_deg - NEAR) & (away <= engagement.exit_deg + NEAR))
     return np.column_stack(columns)
 
 

@@ -201,9 +201,9 @@ class Clash:
 
         Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
         """
-        station, behind = self.plane.rollers[number]
-        count = max(2, math.ceil(station.motion_deg / step_deg)) + 1
-        at = behind + np.linspace(station.entry_deg, station.exit_deg, count)
+        engagement, behind = self.plane.rollers[number]
+        count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
+        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
         turn, pose = self.plane.wheel(at), self.plane.crank(at)
         _, seen = self._on_crank(turn, pose, self.sizes.lock * (1.0 - TOUCH))
         return np.hypot(*seen.T), np.arctan2(seen[:, 1], seen[:, 0])

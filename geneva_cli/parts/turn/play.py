@@ -80,16 +80,16 @@ class Window(NamedTuple):
 
 def search_deg(outlines: Outlines) -> float:
     """A play as large as this is none: half a step on, the wheel's place is lost."""
-    return math.degrees(min(station.half_step for station, _ in outlines.plane.rollers))
+    return math.degrees(min(engagement.half_step for engagement, _ in outlines.plane.rollers))
 
 
 def windows(outlines: Outlines) -> Iterator[Window]:
     """The motions and dwells of a turn."""
     plane, rollers = outlines.plane, outlines.plane.rollers
-    for i, (station, behind) in enumerate(rollers):
+    for i, (engagement, behind) in enumerate(rollers):
         after, later = rollers[(i + 1) % len(rollers)]
         turns = plane.turn_deg if i + 1 == len(rollers) else 0.0
-        entry, exit_ = behind + station.entry_deg, behind + station.exit_deg
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
         following = later + turns + after.entry_deg
         yield Window(entry, exit_, i, False)
         if following - exit_ > NEAR:

@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Segment, about, joined
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import LawDriven
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.walls.joint import Place, joint, point, runs
@@ -42,7 +42,7 @@ class Piece(NamedTuple):
 
 
 def curved_walls(
-    plane: Plane, sizes: Sizes, station: LawDriven, tolerance: float, curves: str = "arcs"
+    plane: Plane, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
     """A curved slot from one corner of its mouth round the bottom to the other, counterclockwise
     about the wheel's axis; within ``tolerance`` mm of the true walls, and never inside them.
@@ -53,7 +53,7 @@ def curved_walls(
     """
     pieces: list[Segment] = []
     half = 0.5 * tolerance
-    for piece in chain(plane, sizes._replace(half_width=sizes.half_width + half), station):
+    for piece in chain(plane, sizes._replace(half_width=sizes.half_width + half), engagement):
         pieces += _segments(piece, half, curves)
     return Contour(LAYER, joined(pieces), closed=False)
 
@@ -73,9 +73,9 @@ def _segments(piece: Piece, tolerance: float, curves: str) -> list[Segment]:
     return [*fitted(back, -a, -b, tolerance)]
 
 
-def chain(plane: Plane, sizes: Sizes, station: LawDriven) -> list[Piece]:
+def chain(plane: Plane, sizes: Sizes, engagement: Engagement) -> list[Piece]:
     """The pieces of walls that bound a slot, from the mouth's lower corner to its upper one."""
-    around = walls(plane, sizes, station)
+    around = walls(plane, sizes, engagement)
     rim = _Rim(plane, sizes)
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.engagement import LawDriven
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import Pitch, retraces
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes, rest
@@ -41,13 +41,13 @@ class Wall(NamedTuple):
     radius: float = 0.0
 
 
-def walls(plane: Plane, sizes: Sizes, station: LawDriven) -> list[Wall]:
+def walls(plane: Plane, sizes: Sizes, engagement: Engagement) -> list[Wall]:
     """Every wall of the roller's way, with what of it is free."""
-    w, back = sizes.half_width, retraces(station)
+    w, back = sizes.half_width, retraces(engagement)
     t = nodes(plane.mechanism, FINE * plane.L)
     middle = int(np.searchsorted(t, 0.0))
-    circles = [_circle(plane, sizes, station, end) for end in (-1.0, 1.0)]
-    ways = [circles[0][1][::-1], _pitch(plane, station, t), circles[1][1]]
+    circles = [_circle(plane, sizes, engagement, end) for end in (-1.0, 1.0)]
+    ways = [circles[0][1][::-1], _pitch(plane, engagement, t), circles[1][1]]
     path = np.concatenate(ways)
     found: list[Wall] = []
     for centre, way in circles:
@@ -56,14 +56,14 @@ def walls(plane: Plane, sizes: Sizes, station: LawDriven) -> list[Wall]:
         for side in (-w, w):
             found.append(_arc(path, w, plane.L, centre, radius + side, np.sort(angles)))
     flanks = [
-        _flank(plane, station, path, part, side, back)
+        _flank(plane, engagement, path, part, side, back)
         for part in (t[: middle + 1], t[middle:])
         for side in (-w, w)
     ]
     if not back:
         return [*found, *flanks]
-    x, y = _pitch(plane, station, np.zeros(1))[0]
-    tangent = _tangent_in(station)
+    x, y = _pitch(plane, engagement, np.zeros(1))[0]
+    tangent = _tangent_in(engagement)
     ahead = math.atan2(tangent[1], tangent[0])
     turns = [_meets(flank, (float(x), float(y))) - ahead for flank in flanks]
     turns = [math.remainder(turn, math.tau) for turn in turns]
@@ -80,13 +80,13 @@ def _meets(flank: Wall, centre: tuple[float, float]) -> float:
 
 
 def _circle(
-    plane: Plane, sizes: Sizes, station: LawDriven, end: float
+    plane: Plane, sizes: Sizes, engagement: Engagement, end: float
 ) -> tuple[tuple[float, float], Array]:
     """The roller's way before entry (-1) or after exit (1): its centre, and places from the slot
     outwards until it has left the wheel."""
-    centre = rest(plane, station, end)
-    t = station.entry_deg if end < 0.0 else station.exit_deg
-    x, y = _pitch(plane, station, np.array([t]))[0]
+    centre = rest(plane, engagement, end)
+    t = engagement.entry_deg if end < 0.0 else engagement.exit_deg
+    x, y = _pitch(plane, engagement, np.array([t]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
     # To the middle of the dwell: from there on the way is that of the next slot.
     ahead = math.atan2(-plane.sign * centre[1], -plane.sign * centre[0])
@@ -121,13 +121,13 @@ def _arc(
 
 
 def beside(
-    plane: Plane, station: LawDriven, side: float, outward: bool
+    plane: Plane, engagement: Engagement, side: float, outward: bool
 ) -> Callable[[Array], tuple[Array, Array]]:
     """The curve ``side`` mm to the left of the roller's way in, or out: points and tangents."""
-    back = retraces(station)
+    back = retraces(engagement)
 
     def curve(t: Array) -> tuple[Array, Array]:
-        at = pitch_at(station, t, back)
+        at = pitch_at(engagement, t, back)
         # At mid-motion the limit is that of the way in.
         turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
         tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
@@ -138,12 +138,12 @@ def beside(
 
 
 def _flank(
-    plane: Plane, station: LawDriven, path: Array, t: Array, side: float, back: bool
+    plane: Plane, engagement: Engagement, path: Array, t: Array, side: float, back: bool
 ) -> Wall:
     """One side of the way in, or of the way out; ``side`` is the offset to the left."""
-    curve = beside(plane, station, side, outward=bool(t[-1] > 0.0))
+    curve = beside(plane, engagement, side, outward=bool(t[-1] > 0.0))
     if back:
-        t = _unfolded(curve, t, pitch_at(station, t, back), plane.L, side)
+        t = _unfolded(curve, t, pitch_at(engagement, t, back), plane.L, side)
     points = curve(t)[0]
     return Wall(curve, t, points, _free(points, path, abs(side), plane.L))
 
@@ -176,14 +176,14 @@ def _unfolded(
     return np.append(kept, b) if b < 0.0 else np.insert(kept, 0, b)
 
 
-def _pitch(plane: Plane, station: LawDriven, t: Array) -> Array:
-    x, y = station.pitch(t, 0)
+def _pitch(plane: Plane, engagement: Engagement, t: Array) -> Array:
+    x, y = engagement.slot(t, 0)
     return plane.L * np.column_stack((x.c[0], y.c[0]))
 
 
-def _tangent_in(station: LawDriven) -> tuple[float, float]:
+def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     """The roller's direction where it comes to a stop in the wheel at mid-motion."""
-    at = pitch_at(station, np.zeros(1), True)
+    at = pitch_at(engagement, np.zeros(1), True)
     return float(at.tangent_x[0]), float(at.tangent_y[0])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.machine.mechanism import build
-from geneva_cli.spec.tables import Spec
+from geneva_cli.machine.spec import Spec
 from geneva_cli.verdict.checks import checks
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm"}  # what a crank without a shaft through the wheel passes
@@ -25,7 +25,7 @@ def built(spec: Spec) -> Built:
     """
     failing = _failing(spec)
     if failing and failing <= SHAFT:
-        overhung = spec._replace(size=spec.size._replace(crank_bore_mm=0.0))
+        overhung = spec.with_("size.crank_bore_mm", 0.0)
         if not _failing(overhung):
             return Built(overhung, "")
     return Built(spec, f"`geneva check` fails: {', '.join(sorted(failing))}" if failing else "")

@@ -14,7 +14,8 @@ import math
 from collections.abc import Callable
 from typing import TypeAlias
 
-from geneva_cli.machine.wheels.classic import SIGN, gap, half_motion_deg
+from geneva_cli.machine.wheels.classic import gap, half_motion_deg
+from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 from geneva_cli.study.synthesis.closed import MOST
 
@@ -45,11 +46,12 @@ def elliptical_gears(e: float, s: float, c: float) -> tuple[float, float]:
     return f1, f1 * 2.0 * e * s / minus
 
 
-def peak_of(z: int, gearing: str, ratio: Ratio) -> Peak:
+def peak_of(wheel: Gearing, ratio: Ratio) -> Peak:
     """The greatest size of the acceleration (invariant) as a function of the drive's parameter."""
-    sign, (l, _) = SIGN[gearing], sin_cos_pi(1, z)
-    half = half_motion_deg(gearing, 1, z) * DEGREE
-    rest = gap("external", 1, z)
+    z, sign = wheel.z, wheel.SIGN
+    l, _ = sin_cos_pi(1, z)
+    half = half_motion_deg(sign, 1, z) * DEGREE
+    rest = gap(1.0, 1, z)
 
     def size(x: float, f: float) -> float:
         sine, cosine = math.sin(0.5 * f), math.cos(0.5 * f)

@@ -16,12 +16,11 @@ import numpy as np
 
 from geneva_cli.analysis.undercut import undercut
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import kinds
-from geneva_cli.machine.engagement import LawDriven, Station
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.assembly import Plane, plane
+from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.assembly import Plane, is_flat, plane
 from geneva_cli.parts.sizes import sizes
-from geneva_cli.spec.tables import Spec
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
 if TYPE_CHECKING:
@@ -62,17 +61,17 @@ class Parts(NamedTuple):
             return None
         if self.why:
             return f"no: {self.why}"
-        return "maybe" if self.spec.wheel.gearing == "internal" and self.spec.motion.law else "yes"
+        return "maybe" if self.spec.wheel.SIGN < 0.0 and self.spec.motion else "yes"
 
 
 def parts(mechanism: Mechanism) -> Parts:
     """The largest usual roller that does, up to L/20; a larger one where the slot needs it."""
     spec = mechanism.spec
-    if not kinds.is_flat(spec):
+    if not is_flat(spec):
         return Parts(spec, None)
     where = plane(mechanism)
     ways = _slot(where, where.kinds[0])
-    L, curved = where.L, isinstance(where.kinds[0], LawDriven)
+    L, curved = where.L, where.kinds[0].slot.curved
     least = 0.5 * float(np.hypot(*(ways - ways[::-1]).T).max()) if curved else 0.0
     wall = _between(ways, spec.wheel.z)
 
@@ -90,7 +89,7 @@ def parts(mechanism: Mechanism) -> Parts:
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
     """The spec with another roller; None for the usual one."""
-    return spec._replace(size=spec.size._replace(roller_radius_mm=radius_mm))
+    return spec.but(size=spec.size.but(roller_radius_mm=radius_mm))
 
 
 def _exact(x: float) -> float:
@@ -98,10 +97,10 @@ def _exact(x: float) -> float:
     return float(f"{x:.12g}")
 
 
-def _slot(where: Plane, station: Station) -> Array:
+def _slot(where: Plane, engagement: Engagement) -> Array:
     """Places of a slot's pitch curve, (n, 2), mm."""
-    at = np.linspace(station.entry_deg, station.exit_deg, 2 * LOOKS + 1)
-    x, y = station.pitch(at, 0)
+    at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2 * LOOKS + 1)
+    x, y = engagement.slot(at, 0)
     return where.L * np.column_stack((x.c[0], y.c[0]))
 
 

@@ -22,12 +22,16 @@ from geneva_cli.analysis.law_values import Characteristic, characteristic
 from geneva_cli.analysis.peaks import acceleration_peak, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives import elliptical_gears, side_crank
-from geneva_cli.machine.laws.standard import named
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.classic import half_motion_deg, rollers_max
+from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import omega
-from geneva_cli.spec.tables import Drive, Limits, Motion, Spec, Wheel
+from geneva_cli.spec.tables import Limits
 from geneva_cli.study.synthesis import closed
 from geneva_cli.study.synthesis import limit as limits
 from geneva_cli.study.synthesis.parts import parts
@@ -75,7 +79,7 @@ def synthesis(wish: Wish) -> list[tuple[Spec, Way]]:
 
     Raises GenevaError, saying what is within reach, where there is none.
     """
-    costs = {law: characteristic(named(law)) for law in wish.laws}
+    costs = {law: characteristic(registry.law(law)()) for law in wish.laws}
     reached: list[float] = []
     found = []
     for spec in _specs(wish, costs, reached):
@@ -85,7 +89,7 @@ def synthesis(wish: Wish) -> list[tuple[Spec, Way]]:
             continue
         fitted = parts(machine)
         asked = Limits(acceleration_max=wish.acceleration_max)
-        found.append((fitted.spec._replace(limits=asked), _way(machine, wish, costs, fitted.said)))
+        found.append((fitted.spec.but(limits=asked), _way(machine, wish, costs, fitted.said)))
     if not found:
         raise GenevaError(_out_of_reach(wish, reached))
     found.sort(key=lambda f: _rank(f[1]))
@@ -133,15 +137,16 @@ def _specs(wish: Wish, costs: dict[str, Characteristic], reached: list[float]) -
     """The specs to try; peaks that are as low as a drive brings them go to ``reached``."""
     for gearing in wish.gearings:
         for z in wish.z:
+            wheel = registry.gearing(gearing)(z)
             if wish.acceleration_max is not None:
-                yield from _below(wish, z, gearing, costs, reached)
+                yield from _below(wish, wheel, costs, reached)
             else:
-                yield from _lasting(wish, z, gearing)
+                yield from _lasting(wish, wheel)
 
 
-def _natural(z: int, gearing: str) -> float:
-    """The plain crank's motion angle, with shafts that meet at a right angle."""
-    return 180.0 if gearing == "spherical" else 2.0 * half_motion_deg(gearing, 1, z)
+def _natural(wheel: Gearing) -> float:
+    """The plain crank's motion angle."""
+    return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
 def _rollers(wish: Wish, natural: float) -> range:
@@ -166,9 +171,9 @@ def _more_rollers(wish: Wish, natural: float, curved: Callable[[int], Spec]) -> 
         yield spec
 
 
-def _lasting(wish: Wish, z: int, gearing: str) -> Iterator[Spec]:
+def _lasting(wish: Wish, wheel: Gearing) -> Iterator[Spec]:
     """The ways to a motion angle, in closed form."""
-    natural = _natural(z, gearing)
+    natural = _natural(wheel)
 
     def motion(m: int) -> float:
         wanted = wish.motion_for(m)
@@ -176,21 +181,21 @@ def _lasting(wish: Wish, z: int, gearing: str) -> Iterator[Spec]:
 
     for m in _rollers(wish, natural):
         if motion(m) == natural:
-            yield _plain(wish, z, gearing, m)
+            yield _plain(wish, wheel, m)
         elif m == 1:
             A = closed.side_crank(natural, motion(m))
             if A is not None:
-                yield _side_crank(wish, z, gearing, A)
+                yield _side_crank(wish, wheel, A)
             gears = closed.elliptical_gears(natural, motion(m))
             if gears is not None:
-                yield _gears(wish, z, gearing, *gears)
-    if gearing == "spherical":
-        yield from _inclined(wish, z)
+                yield _gears(wish, wheel, *gears)
+    if not wheel.FLAT:
+        yield from _inclined(wish, wheel)
         return
     for law in wish.laws:
 
         def curved(m: int, law: str = law) -> Spec:
-            return _curved(wish, z, gearing, m, natural, motion(m), law)
+            return _curved(wish, wheel, m, natural, motion(m), law)
 
         yield from map(curved, _rollers(wish, natural))
         yield from _more_rollers(wish, natural, curved)
@@ -200,50 +205,49 @@ def _fits(motion: float, natural: float) -> bool:
     return abs(motion - natural) <= EXACT * natural
 
 
-def _inclined(wish: Wish, z: int) -> Iterator[Spec]:
+def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Spec]:
     """Plain cranks on shafts that meet at another angle than a right one."""
-    least = _natural(z, "external")
+    least = 2.0 * half_motion_deg(1.0, 1, wheel.z)
     for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
         motion = wish.motion_for(m)
         if motion is None or _fits(motion, 180.0):
             continue
-        axes = closed.axes(z, motion)
+        axes = closed.axes(wheel.z, motion)
         if axes is not None:
-            spec = _plain(wish, z, "spherical", m)
-            yield spec._replace(wheel=spec.wheel._replace(axes_deg=axes))
+            yield _plain(wish, wheel, m).with_("wheel.axes_deg", axes)
 
 
 def _below(
-    wish: Wish, z: int, gearing: str, costs: dict[str, Characteristic], reached: list[float]
+    wish: Wish, wheel: Gearing, costs: dict[str, Characteristic], reached: list[float]
 ) -> Iterator[Spec]:
     """The ways to a peak acceleration: the plain crank, or the least change that brings it down."""
     assert wish.acceleration_max is not None
-    natural = _natural(z, gearing)
+    natural = _natural(wheel)
     every = _rollers(wish, natural)
-    plain = acceleration_peak(build(_plain(wish, z, gearing, 1)).stations[0]).max
+    plain = acceleration_peak(build(_plain(wish, wheel, 1)).engagements[0]).max
     if plain <= wish.acceleration_max:
-        yield from (_plain(wish, z, gearing, m) for m in every)
+        yield from (_plain(wish, wheel, m) for m in every)
         return
     if not wish.rollers or natural * wish.rollers < 360.0:
         reached.append(plain)
-    if gearing == "spherical":
+    if not wheel.FLAT:
         return
     limit = wish.acceleration_max * (1.0 - MARGIN)
     if 1 in every:
         for ratio, make in ((limits.side_crank, _side_crank), (limits.elliptical_gears, _eased)):
-            x, least = limits.least_parameter(limits.peak_of(z, gearing, ratio), limit)
+            x, least = limits.least_parameter(limits.peak_of(wheel, ratio), limit)
             reached.append(least)
             if x is not None:
-                yield make(wish, z, gearing, x)
+                yield make(wish, wheel, x)
     for law in wish.laws:
-        step = 2.0 * math.pi / z
+        step = 2.0 * math.pi / wheel.z
         motion = closed.law_motion_deg(step, costs[law].acceleration, limit)
-        inside, fast = gearing == "internal", costs[law].velocity * step
+        inside, fast = wheel.SIGN < 0.0, costs[law].velocity * step
         if inside and fast >= 0.5 * math.radians(motion) and motion < natural:
             motion = natural  # the limit's own motion is too quick for any R/L inside
 
         def curved(m: int, motion: float = motion, law: str = law) -> Spec:
-            return _curved(wish, z, gearing, m, natural, motion, law)
+            return _curved(wish, wheel, m, natural, motion, law)
 
         for m in every:
             whole = 2.0 * math.pi / m
@@ -253,54 +257,51 @@ def _below(
         yield from _more_rollers(wish, natural, curved)
 
 
-def _plain(wish: Wish, z: int, gearing: str, m: int) -> Spec:
-    return Spec(Wheel(z, gearing), Drive(n_rpm=wish.n_rpm(m), rollers=m))
+def _plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
+    return Spec(wheel, Crank(n_rpm=wish.n_rpm(m), rollers=m))
 
 
-def _side_crank(wish: Wish, z: int, gearing: str, A: float) -> Spec:
-    drive = Drive("side-crank", wish.n_rpm(1))
-    return Spec(Wheel(z, gearing), drive, side_crank.Keys(A))
+def _side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:
+    return Spec(wheel, SideCrank(A=A, n_rpm=wish.n_rpm(1)))
 
 
-def _gears(wish: Wish, z: int, gearing: str, eccentricity: float, phase: str) -> Spec:
-    drive = Drive("elliptical-gears", wish.n_rpm(1))
-    return Spec(Wheel(z, gearing), drive, elliptical_gears.Keys(eccentricity, phase))
+def _gears(wish: Wish, wheel: Gearing, eccentricity: float, phase: str) -> Spec:
+    n = wish.n_rpm(1)
+    return Spec(wheel, EllipticalGears(eccentricity=eccentricity, phase=phase, n_rpm=n))
 
 
-def _eased(wish: Wish, z: int, gearing: str, e: float) -> Spec:
-    return _gears(wish, z, gearing, *closed.phased(e))
+def _eased(wish: Wish, wheel: Gearing, e: float) -> Spec:
+    return _gears(wish, wheel, *closed.phased(e))
 
 
-def _curved(
-    wish: Wish, z: int, gearing: str, m: int, natural: float, motion: float, law: str
-) -> Spec:
+def _curved(wish: Wish, wheel: Gearing, m: int, natural: float, motion: float, law: str) -> Spec:
     """Curved slots, with the shortest alpha_0 that makes the motion."""
     alpha0, spare = natural - motion, ROUNDING * natural
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if wish.acceleration_max else alpha0 + spare
-    given = Motion(law, alpha0_deg=closed.shortest(alpha0 - spare, most), ratio="matched")
-    return _plain(wish, z, gearing, m)._replace(motion=given)
+    shortest = closed.shortest(alpha0 - spare, most)
+    given = Motion(registry.law(law)(), alpha0_deg=shortest, ratio="matched")
+    return _plain(wish, wheel, m).but(motion=given)
 
 
 def _way(
     machine: Mechanism, wish: Wish, costs: dict[str, Characteristic], parts: str | None
 ) -> Way:
-    spec, time = machine.spec, timings(machine)[0]
-    curved = spec.motion.law is not None
-    own: dict[str, Any] = spec.kind._asdict() if spec.kind else {}
-    invariants = (_law_costs if curved else _costs)(machine, costs)
+    spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
+    own = spec.wheel.own_sizes | vars(spec.drive)
+    invariants = _law_costs(machine, costs[motion.law.NAME]) if motion else _costs(machine)
     n = wish.n_rpm(spec.drive.rollers) if wish.cycle_s else None
     return Way(
         spec.wheel.z,
-        spec.wheel.gearing,
+        spec.wheel.NAME,
         spec.drive.rollers,
-        spec.drive.kind,
+        spec.drive.NAME,
         own.get("A"),
         own.get("eccentricity"),
         own.get("phase"),
-        spec.wheel.axes_deg if spec.wheel.gearing == "spherical" else None,
-        spec.motion.alpha0_deg if curved else None,
-        spec.motion.law,
+        own.get("axes_deg"),
+        motion.alpha0_deg if motion else None,
+        motion.law.NAME if motion else None,
         machine.ratio,
         time.motion_deg,
         time.dwell_deg,
@@ -316,7 +317,7 @@ def _way(
 Five: TypeAlias = tuple[float, float, float, float, float]
 
 
-def _costs(machine: Mechanism, costs: dict[str, Characteristic]) -> Five:
+def _costs(machine: Mechanism) -> Five:
     found = worst(machine)
     return (
         found.velocity.max,
@@ -327,16 +328,15 @@ def _costs(machine: Mechanism, costs: dict[str, Characteristic]) -> Five:
     )
 
 
-def _law_costs(machine: Mechanism, costs: dict[str, Characteristic]) -> Five:
+def _law_costs(machine: Mechanism, costs: Characteristic) -> Five:
     """A law's own greatest values, scaled to the step and to the motion angle."""
-    station = machine.stations[0]
-    law = machine.spec.motion.law or ""
-    step, rate = 2.0 * station.half_step, 1.0 / math.radians(station.motion_deg)
-    C_v, C_a, C_j, C_p = costs[law]
+    engagement = machine.engagements[0]
+    step, rate = 2.0 * engagement.half_step, 1.0 / math.radians(engagement.motion_deg)
+    C_v, C_a, C_j, C_p = costs
     return (
         C_v * step * rate,
         C_a * step * rate**2,
-        abs(station.motion(station.entry_deg).derivatives()[2]),
+        abs(engagement.motion(engagement.entry_deg).derivatives()[2]),
         C_j * step * rate**3,
         C_p * step**2 * rate**3,
     )
@@ -352,7 +352,9 @@ def _out_of_reach(wish: Wish, reached: list[float]) -> str:
             f"must be above {min(reached):.6g}, and more slots come lower"
         )
     if wanted is None:
-        most = max(rollers_max(_natural(z, g)) for z in wish.z for g in wish.gearings)
+        most = max(
+            rollers_max(_natural(registry.gearing(g)(z))) for z in wish.z for g in wish.gearings
+        )
         return f"--rollers {m}: they jam on every wheel asked for; at most {most}"
     if m * wanted >= 360.0:
         return (

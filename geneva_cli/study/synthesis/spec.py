@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.spec.tables import Spec
-from geneva_cli.specfile.reader import TABLES, fields, kind_keys
+from geneva_cli.machine.spec import Spec
+from geneva_cli.specfile.writer import written
 from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.search import Way
 from geneva_cli.study.synthesis.target import Wish
@@ -30,7 +28,7 @@ def chosen(wish: Wish, ways: list[tuple[Spec, Way]], number: int) -> tuple[Built
 
 def commented(wish: Wish, number: int, way: Way, found: Built) -> str:
     """The text of a spec that synthesis found."""
-    return "\n".join([*_heading(wish, number, way, found), *_tables(found.spec)]) + "\n"
+    return "\n".join([*_heading(wish, number, way, found), *written(found.spec)]) + "\n"
 
 
 def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
@@ -47,29 +45,3 @@ def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
     if found.trouble:
         lines.append(f"# Beware: {found.trouble}.")
     return lines
-
-
-def _tables(spec: Spec) -> list[str]:
-    """The tables, with the keys that are not at their defaults, and a few that one will change."""
-    shown = {("wheel", "gearing"), ("drive", "kind"), ("drive", "n_rpm"), ("drive", "rollers")}
-    lines = []
-    for name, table in TABLES.items():
-        values: dict[str, Any] = getattr(spec, name)._asdict()
-        keys = fields(table)
-        if name == "drive":
-            keys += fields(kind_keys(spec.drive.kind))
-            values |= spec.kind._asdict() if spec.kind else {}
-        block = [
-            (f"{field.key} = {_quoted(values[attribute])}", field.meaning)
-            for field in keys
-            for attribute in [field.key if field.key in values else f"{field.key}_"]
-            if values[attribute] != field.default or (name, field.key) in shown
-        ]
-        if block:
-            width = max(len(setting) for setting, _ in block)
-            lines += ["", f"[{name}]", *[f"{s.ljust(width)}  # {note}" for s, note in block]]
-    return lines
-
-
-def _quoted(value: Any) -> str:
-    return f'"{value}"' if isinstance(value, str) else repr(value)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.laws.standard import LAWS
+from geneva_cli.machine.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.study.survey import parse_z
 
