@@ -13,7 +13,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import FINITE, Range, Words
 from geneva_cli.spec.schema import Table, fields
-from geneva_cli.spec.tables import DISTANCE_MM, Limits, Load, Size
+from geneva_cli.spec.tables import DISTANCE_MM, Z_DRAWN, Limits, Load, Size
 
 LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  # limits on loads
 
@@ -102,6 +102,11 @@ class Spec:
         if part is None:
             raise GenevaError(f"{key}: this spec has no [{table}]", (table, name))
         return self.but(**{table: part.with_key(name, value)})
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether wheel and crank are flat outlines, of a wheel that can be cut."""
+        return self.wheel.FLAT and self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """The roller's radius r, by default L/20."""

@@ -18,7 +18,6 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.slot_and_motion import SolvedPath
-from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
@@ -111,11 +110,6 @@ class Plane(NamedTuple):
     def start_deg(self) -> float:
         """Input angle of the first engagement's entry, from which a whole turn is counted."""
         return self.rollers[0][0].entry_deg
-
-
-def is_flat(spec: Spec) -> bool:
-    """Whether wheel and crank of a machine are flat outlines, of a wheel that can be cut."""
-    return spec.wheel.FLAT and spec.drive.OUTLINED and spec.wheel.z <= Z_DRAWN
 
 
 def plane(mechanism: Mechanism) -> Plane:

@@ -7,7 +7,6 @@ import re
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.spec.rules import Csv
 
-POINTS_MAX = 100_000
 BYTES_MAX = 1 << 24
 
 
@@ -31,8 +30,6 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
         fault = rule.fault(points, len(points) - 1)
         if fault:
             raise GenevaError(f"{where}: {fault}")
-        if len(points) > POINTS_MAX:
-            raise GenevaError(f"{where}: more than {POINTS_MAX} points; thin them out")
     if len(points) < rule.points_min:
         raise GenevaError(f"{path}: {len(points)} points; at least {rule.points_min} are needed")
     return points

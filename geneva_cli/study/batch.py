@@ -11,13 +11,11 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.proof import Proof
 from geneva_cli.specfile.reader import read
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks import Check
-from geneva_cli.verdict.turn_cautions import turn_cautions
 
 NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
 
@@ -44,10 +42,15 @@ def verdict(path: str) -> Verdict:
         spec = text.spec()
         with text.located():
             mechanism = build(spec)
-            proof = Proof(mechanism)
-            told = (*cautions(mechanism), *turn_cautions(proof))
+            told, proof = cautions(mechanism), None
+            if spec.is_flat:  # what has no flat parts is judged without NumPy
+                from geneva_cli.parts.proof import Proof
+                from geneva_cli.verdict.turn_cautions import turn_cautions
+
+                proof = Proof(mechanism)
+                told += turn_cautions(proof)
             checks = tuple(judged(mechanism, proof))
-        return Verdict(spec.path, spec.files, checks, told)
+        return Verdict(spec.path, spec.files, checks, tuple(told))
     except GenevaError as error:
         return Verdict(path, error=str(error))
 

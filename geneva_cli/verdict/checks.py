@@ -12,7 +12,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.parts.assembly import is_flat
 from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT, turns_back
 
@@ -114,7 +113,7 @@ def _undercut(mechanism: Mechanism) -> Check:
 
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     """Walls, shafts and the full turn, where the machine has flat parts."""
-    if not is_flat(mechanism.spec):
+    if not mechanism.spec.is_flat:
         yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
         return
     from geneva_cli.parts.proof import Proof

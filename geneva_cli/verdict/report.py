@@ -12,7 +12,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.parts.assembly import is_flat
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load
@@ -233,7 +232,7 @@ def _sizes(mechanism: Mechanism) -> dict[str, Any]:
 def _parts(proof: Proof) -> dict[str, Any]:
     """Sizes that the parts are cut to, and what a whole turn of them shows."""
     values: dict[str, Any] = dict.fromkeys(_PARTS)
-    if not is_flat(proof.mechanism.spec):
+    if not proof.mechanism.spec.is_flat:
         return values
     try:
         found, turn = proof.found, proof.turn

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.assembly import is_flat
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.verdict.clearances import motion_play_max
@@ -11,7 +10,7 @@ from geneva_cli.verdict.clearances import motion_play_max
 
 def turn_cautions(proof: Proof) -> list[str]:
     """Cautions of the parts' whole turn; none where there is no such turn."""
-    if not is_flat(proof.mechanism.spec):
+    if not proof.mechanism.spec.is_flat:
         return []
     try:
         ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.found)

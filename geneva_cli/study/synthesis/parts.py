@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.assembly import Plane, is_flat, plane
+from geneva_cli.parts.assembly import Plane, plane
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
@@ -67,7 +67,7 @@ class Parts(NamedTuple):
 def parts(mechanism: Mechanism) -> Parts:
     """The largest usual roller that does, up to L/20; a larger one where the slot needs it."""
     spec = mechanism.spec
-    if not is_flat(spec):
+    if not spec.is_flat:
         return Parts(spec, None)
     where = plane(mechanism)
     ways = _slot(where, where.kinds[0])
