@@ -65,7 +65,7 @@ class Csv(NamedTuple):
     points_min: int
 
     def __str__(self) -> str:
-        return f"a CSV file of {self.x},{self.y}"
+        return 'such as "points.csv"'
 
     def fault(self, pairs: Sequence[tuple[float, float]], i: int) -> str:
         """What is wrong with the i-th pair, seen from the one before it; nothing if it is sound."""

@@ -45,6 +45,8 @@ def written(spec: Spec) -> list[str]:
     lines: list[str] = []
     for name, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
         values = _values(spec, name)
+        if not values:  # no motion is given: straight slots
+            continue
         block = [
             (f"{key.key} = {quoted(values[key.key])}", key.meaning)
             for key in keys

@@ -139,10 +139,11 @@ def test_a_law_of_too_many_points(rows, line):
 
 
 def test_ratios_of_too_many_points():
+    """As of laws: no more than 18,001 points of a turn can be told apart."""
     put("ratio.csv", "".join(f"{i / 500!r},1\n" for i in range(180_001)))
     gears = '[drive]\nkind = "noncircular-gears"\nratio_file = "ratio.csv"\n'
     put("spec.toml", WHEEL + gears)
-    refused(["peaks", "spec.toml"], "ratio.csv:100001: ", "more than 100000 points", "thin them")
+    refused(["peaks", "spec.toml"], "ratio.csv:2: ", "by 0.0199 or more", "thin them out")
 
 
 def test_too_many_rollers_and_slots():
