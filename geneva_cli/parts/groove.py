@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
+LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
+HALVINGS = 50
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
@@ -101,6 +103,23 @@ def _eased(
     turn = (-6.0 * slope * u * (1.0 - u) + m * (1.0 - u) * (1.0 - 3.0 * u)) / length
     level = R + length * (0.5 * slope + m / 12.0)
     return R + length * run, sense * rate, turn, level
+
+
+def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
+    """The greatest pressure angle of the groove all round, degrees, and its input angle.
+
+    tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
+    """
+    grid = groove.motion.entry_deg + 360.0 * np.arange(LOOKS + 1) / LOOKS
+    R, slope, _ = _distances(groove, grid)
+    i = int(np.argmax(np.abs(slope) / R))
+    low, high = grid[max(i - 1, 0)], grid[min(i + 1, LOOKS)]
+    sense = math.copysign(1.0, slope[i])
+    for _ in range(HALVINGS):  # beside a corner of the groove the greatest is at it
+        middle = 0.5 * (low + high)
+        R, slope, bend = (float(c[0]) for c in _distances(groove, np.array([middle])))
+        low, high = (middle, high) if sense * (R * bend - slope * slope) > 0.0 else (low, middle)
+    return math.degrees(math.atan(abs(slope) / R)), float(middle)
 
 
 def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:

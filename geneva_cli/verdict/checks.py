@@ -11,6 +11,7 @@ from geneva_cli.analysis.peaks import Peaks, worst
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.slot_and_motion import SolvedPath
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT, turns_back
@@ -18,6 +19,10 @@ from geneva_cli.verdict.cautions import SHOWN_UNDERCUT, turns_back
 if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
     from geneva_cli.verdict.clearances import Clearance
+
+
+# Steeper, a roller is wedged in its groove rather than led by it; as where it enters a slot.
+GROOVE_MAX_DEG = 60.0
 
 
 class Check(NamedTuple):
@@ -80,6 +85,9 @@ def _motion(mechanism: Mechanism) -> Asked:
     engagement = mechanism.engagements[0]
     if mechanism.law is not None:
         asked["velocity_min"] = lambda: _forwards(mechanism)
+    groove = engagement.groove
+    if groove is not None:
+        asked["groove_pressure_deg"] = lambda: _groove(mechanism, groove)
     if engagement.slot.curved:
         if mechanism.spec.limits.pressure_angle_max_deg is None:
             asked["pressure_angle_deg"] = partial(_pressure, mechanism, 90.0)
@@ -101,6 +109,16 @@ def _convexity(gears: Gears, name: str) -> Check:
 def _forwards(mechanism: Mechanism) -> Check:
     value, at_deg = turns_back(mechanism) or (0.0, None)
     return _held("velocity_min", value, "at least", 0.0, at_deg)
+
+
+def _groove(mechanism: Mechanism, groove: SolvedPath) -> Check:
+    """The roller must be able to follow its groove, in the dwell too."""
+    from geneva_cli.parts.groove import greatest_pressure
+
+    value, at_deg = greatest_pressure(groove)
+    given = mechanism.spec.limits.pressure_angle_max_deg
+    limit = GROOVE_MAX_DEG if given is None else given
+    return _held("groove_pressure_deg", value, "at most", limit, mechanism.shown_deg(at_deg))
 
 
 def _undercut(mechanism: Mechanism) -> Check:
