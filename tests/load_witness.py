@@ -178,7 +178,7 @@ def machine(spec, near=None):
     elif kind == "cam":
         chain = groove(g, pin)
     else:
-        A = Front(spec.drive, spec.kind).A
+        A = Front(spec.drive).A
         chain = coulisse(g, A) if A else crank(g)
     if chain.body is None:
         chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) / (pin(mp.mpf(0)) - 1)))

@@ -33,7 +33,9 @@ def Drive(kind="crank", n_rpm=60.0, rollers=1, roller_angles_deg=None):
 def Keys(kind, *values, **named):
     """The keys that a kind of drive adds, in their order or by name."""
     common = {f.attribute for f in fields(registry.drive("crank"))}
-    own = [f.attribute for f in fields(registry.drive(kind)) if f.attribute not in common]
+    cls = registry.drive(kind)
+    own = [f.attribute for f in fields(cls) if f.attribute not in common]
+    own.sort(key=lambda name: name not in cls.__annotations__)  # a base's come last
     return dict(zip(own, values, strict=False)) | named
 
 

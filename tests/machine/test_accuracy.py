@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 from witness import QUANTITIES, Geneva, mp, near, to_degrees, to_radians
 
-from geneva_cli.machine.engagement import END_DEG
+from geneva_cli.machine.path_and_slot import END_DEG
 
 Z = range(3, 25)
 NAMES = ("position", "velocity", "acceleration", "jerk")
@@ -73,8 +73,8 @@ def test_error_within_8_ulp_of_the_peak(engagement, gearing, A):
         x = angles(s, w)
         got = {
             "jets": s.motion(x, 3).derivatives(),
-            "mirrored": s.derivatives(x),
-            "not mirrored": s.derivatives(x[:-1]),
+            "mirrored": s.motion.derivatives(x),
+            "not mirrored": s.motion.derivatives(x[:-1]),
         }
         half = [w.derivatives(v) for v in x[:100]]
         # the witness is odd: Q(-x) is Q(x)'s mirror image; even derivatives change sign
@@ -138,7 +138,7 @@ def test_both_ends_and_the_middle_are_exact(engagement, gearing, A):
         for wheel, velocity, acceleration, _ in (
             list(numbers),
             s.motion(x).derivatives(),
-            s.derivatives(x),
+            s.motion.derivatives(x),
         ):
             assert list(wheel) == [-b, 0.0, b]
             assert [velocity[0], velocity[2]] == [0.0, 0.0]
@@ -161,7 +161,7 @@ def test_just_after_entry_the_velocity_keeps_its_digits(engagement, z):
             [v[0] for v in s.motion(np.array([x]), 1).derivatives()],
         ]
         if math.degrees(tau) < END_DEG:  # further in, whole arrays are exact to the peak only
-            ways.append([v[0] for v in s.derivatives(np.array([-x]), (0, 1))])
+            ways.append([v[0] for v in s.motion.derivatives(np.array([-x]), (0, 1))])
         for wheel, velocity in ways:
             # Relative: 4 units of the velocity itself, as small as it is; 4 * 2.2e-16.
             assert velocity == near(float(exact[1]), 8.9e-16)

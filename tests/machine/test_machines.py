@@ -10,22 +10,21 @@ reaches, over the pin's least distance from the wheel's axis, counts as a condit
 
 import math
 from functools import cache
-from importlib import import_module
 from itertools import pairwise
 
 import machine_witness
 import numpy as np
 import pytest
 from witness import mp, to_degrees, to_radians
-from words import Wheel
+from words import Spec, load
 
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
-from geneva_cli.machine import drives
-from geneva_cli.machine.engagement import SphereDriven
-from geneva_cli.specfile.reader import fields, load
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.transmission import Transmission
+from geneva_cli.machine.mechanism import build
 
 NAMES = ("position", "velocity", "acceleration", "jerk")
 SIDE = 'kind = "side-crank", A = '
@@ -119,14 +118,14 @@ def machine(tmp_path_factory):
     def make(case):
         path = folder / "spec.toml"
         path.write_text(CASES.get(case, case), encoding="utf-8")
-        return load(str(path))
+        return load(path)
 
     return make
 
 
 @pytest.fixture(scope="module")
 def witness(machine):
-    """A function from a case's name to its witnesses, one a engagement."""
+    """A function from a case's name to its witnesses, one an engagement."""
 
     @cache
     def make(case):
@@ -151,7 +150,7 @@ def angles(engagement):
 
 @pytest.fixture(scope="module")
 def exact(machine, witness):
-    """A function from a case and a engagement to the angles with the witness's derivatives 0..4."""
+    """A function from a case and an engagement to angles with the witness's derivatives 0..4."""
 
     @cache
     def make(case, i):
@@ -173,7 +172,7 @@ def bars(engagement, x, reference, k, units, case=""):
     slope = np.abs(reference[k + 1]).astype(float)
     condition = np.abs(np.radians(x)) * slope / peak
     if case in ON_PATH:
-        condition = np.maximum(condition, 1.0 / min(a.along for a in engagement.anchors))
+        condition = np.maximum(condition, 1.0 / min(a.along for a in engagement.path.anchors))
     return units * math.ulp(peak) * np.maximum(1.0, condition) + slope * slack(engagement)
 
 
@@ -183,16 +182,14 @@ every = pytest.mark.parametrize("case", CASES)
 def test_every_kind_and_every_gearing_has_an_entry(machine):
     specs = [machine(case).spec for case in CASES]
     # a gear sector's motion is in pieces: test_gear_sector.py has its witness
-    assert {s.drive.NAME for s in specs} | {"gear-sector"} == set(drives.KINDS)
-    gearings = next(f.rule for f in fields(Wheel) if f.key == "gearing")
-    assert {s.wheel.NAME for s in specs} == set(gearings)
-    for kind in drives.KINDS:  # and each front drive before each gearing and each kind of slot
+    assert {s.drive.NAME for s in specs} | {"gear-sector"} == set(registry.DRIVES)
+    assert {s.wheel.NAME for s in specs} == set(registry.GEARINGS)
+    for kind in registry.DRIVES:  # and each transmission before each gearing and each kind of slot
         # a pair's first wheel turns its crank through less than half a turn, and back at once
-        module = import_module(f"geneva_cli.machine.drives.{drives.KINDS[kind]}")
-        if hasattr(module, "front") and kind != "geneva-pair":
+        if issubclass(registry.drive(kind), Transmission) and kind != "geneva-pair":
             mine = [s for s in specs if kind == s.drive.NAME]
-            assert {s.wheel.NAME for s in mine} == set(gearings), kind
-            assert any(s.wheel.offset_mm for s in mine), kind
+            assert {s.wheel.NAME for s in mine} == set(registry.GEARINGS), kind
+            assert any(s.wheel.as_dict().get("offset_mm") for s in mine), kind
             assert any(s.drive.rollers > 1 for s in mine), kind
 
 
@@ -210,7 +207,7 @@ def test_stations_and_their_places(machine, witness, case):
         assert m.index_deg(i) == pytest.approx(float(to_degrees(2 * w.b)), rel=2e-16)
         # A second roller's motion is symmetric too, but its two ends are rounded apart.
         mirrored = abs(w.entry + w.exit) < mp.mpf(10) ** -30
-        assert mirrored if s.symmetric else i or not mirrored or case in ON_PATH
+        assert mirrored if s.motion.symmetric else i or not mirrored or case in ON_PATH
 
 
 @every
@@ -220,7 +217,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
         for wheel, velocity in (
             tuple(zip(*[s.motion(v).derivatives()[:2] for v in x.tolist()], strict=True)),
             s.motion(x).derivatives()[:2],
-            s.derivatives(x, (0, 1)),
+            s.motion.derivatives(x, (0, 1)),
         ):
             assert list(velocity) == [0.0, 0.0]
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
@@ -231,7 +228,10 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     over = []
     for i, s in enumerate(machine(case).engagements):
         x, reference = exact(case, i)
-        for how, got in (("jets", s.motion(x, 3).derivatives()), ("arrays", s.derivatives(x))):
+        for how, got in (
+            ("jets", s.motion(x, 3).derivatives()),
+            ("arrays", s.motion.derivatives(x)),
+        ):
             for k, name in enumerate(NAMES):
                 bar = bars(s, x, reference, k, 16.0, case)
                 values = [mp.mpf(float(v)) for v in got[k]]
@@ -270,7 +270,7 @@ def test_numbers_and_arrays_agree(machine, exact, case):
 @every
 def test_a_symmetric_motion_is_mirrored(machine, exact, case):
     for i, s in enumerate(machine(case).engagements):
-        if not s.symmetric:
+        if not s.motion.symmetric:
             continue
         x, reference = exact(case, i)
         ahead, back = s.motion(x, 3).derivatives(), s.motion(-x, 3).derivatives()
@@ -298,7 +298,7 @@ def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
                 continue  # 0/0 in the law of sines
             true = w.path(to_radians(x[j]))
             assert abs(complex(px[j], py[j]) - complex(true)) <= bar
-        if isinstance(s, SphereDriven):
+        if not machine(case).spec.wheel.FLAT:
             assert np.max(np.abs(across)) <= 1e-14
             polar = [float(w.polar(to_radians(t))) for t in x]
             assert np.max(np.abs(u - polar)) <= 1e-14
@@ -323,7 +323,7 @@ def test_lever_and_speed_in_the_slot(machine, witness, case):
             if s.slot.curved:
                 assert found is None
                 continue
-            lever, speed = (float(v) for v in w.slot.axis(to_radians(x)))
+            lever, speed = (float(v) for v in w.axis(to_radians(x)))
             assert [j.c[0] for j in found] == [
                 pytest.approx(lever, rel=1e-13),
                 pytest.approx(speed, rel=1e-13),
@@ -349,7 +349,7 @@ def test_loads_keep_the_energy(machine, case):
             if s.slot.axis(x):
                 lever = s.slot.axis(x)[0].c[0]
                 assert math.tan(math.radians(found.pressure_deg)) == pytest.approx(
-                    abs(s.offset) / lever, rel=1e-12
+                    abs(s.slot.offset) / lever, rel=1e-12
                 )
                 assert found.pin_force_N * lever * L == pytest.approx(abs(torque), rel=1e-12)
 
@@ -363,15 +363,18 @@ def test_peaks_against_a_dense_grid(machine, case):
         peak = getattr(found, quantity)
         grids = []
         for s in m.engagements:
-            parts = [np.linspace(a, b, 4001) for a, b in pairwise(s.breaks_deg)]
+            parts = [np.linspace(a, b, 4001) for a, b in pairwise(s.motion.breaks_deg)]
             values = s.motion(np.concatenate(parts), 5).derivatives()
             grids.append(np.max(np.abs(pick(values)[0])))
         # a grid this fine misses a smooth peak by less than 1e-5 of it, and never exceeds it
         assert max(grids) * (1.0 - 1e-12) <= peak.max <= max(grids) * (1.0 + 1e-5), quantity
+        # shown between -180 and 180 from the machine's mid-motion: whole turns do not count
+        turn = 360.0 * m.spec.drive.turns
+        places = [(s, math.remainder(peak.at_deg - s.mid_deg, turn)) for s in m.engagements]
         there = [
-            abs(pick(s.motion(peak.at_deg - s.mid_deg, 5).derivatives())[0])
-            for s in m.engagements
-            if s.entry_deg - 1e-9 <= peak.at_deg - s.mid_deg <= s.exit_deg + 1e-9
+            abs(pick(s.motion(x, 5).derivatives())[0])
+            for s, x in places
+            if s.entry_deg - 1e-9 <= x <= s.exit_deg + 1e-9
         ]
         assert peak.max == pytest.approx(max(there), rel=1e-9), quantity
     ends = [(s.motion(s.entry_deg), s.motion(s.exit_deg)) for s in m.engagements]
@@ -604,17 +607,14 @@ def test_a_front_drive_scales_the_jump_by_its_ratio_there(machine, witness):
         m = machine(case)
         if m.spec.drive.NAME in ("crank", "epicyclic", "cam") or case in ON_PATH or m.law:
             continue
-        keys = "" if not m.spec.wheel.offset_mm else f", offset_mm = {m.spec.wheel.offset_mm}"
-        gearing = f', gearing = "{m.spec.wheel.NAME}"'
-        axes = f", axes_deg = {m.spec.wheel.axes_deg}" if "spherical" in gearing else ""
+        wheel = m.spec.wheel
         for s, w in zip(m.engagements, witness(case), strict=True):
-            z = round(math.pi / float(w.b)) if not m.spec.wheel.steps_deg else None
-            if z is None:
+            if wheel.steps:
                 jump = math.tan(float(w.b))
             else:
-                plain = machine(text(f"z = {z}{gearing}{axes}{keys}")).engagements[0]
+                plain = build(Spec(wheel)).engagements[0]
                 jump = plain.motion(plain.entry_deg).derivatives()[2]
-            front = machine_witness.Front(m.spec.drive, m.spec.kind)
+            front = machine_witness.Front(m.spec.drive)
             f1 = float(front.closed(w.mid + w.entry)[0])
             found = s.motion(s.entry_deg).derivatives()[2]
             assert found == pytest.approx(jump * f1**2, rel=1e-12, abs=1e-15), case
@@ -633,15 +633,15 @@ def test_cam_groove(machine, witness):
             both = mp.sin(phi + g * psi)
             R = mp.sin(psi) / both
             R1 = (psi1 * mp.sin(phi) - mp.sin(psi) * mp.cos(phi + g * psi)) / both**2
-            rho, found = s.distances(x, 3)
+            rho, found = s.groove.distances(x, 3)
             # psi is known to 1e-16 of a step and divided by a small angle: digits of R'' go first
             assert found.c[0] == pytest.approx(float(R), rel=1e-13)
             assert found.c[1] == pytest.approx(float(R1), rel=1e-9, abs=1e-10)
             assert rho.c[0] == pytest.approx(float(mp.sin(phi) / both), rel=1e-13)
-            gx, gy = s.groove(x, 1)
+            gx, gy = s.groove.groove(x, 1)
             assert math.hypot(gx.c[0], gy.c[0]) == pytest.approx(float(R), rel=1e-13)
         end = math.radians(s.exit_deg)
-        _, last = s.distances(s.exit_deg, 1)
+        _, last = s.groove.distances(s.exit_deg, 1)
         assert last.c[0] == pytest.approx(math.sin(s.half_step) / math.sin(end + g * s.half_step))
         angle = 1.0 / math.tan(end + g * s.half_step)
         assert last.c[1] / last.c[0] == pytest.approx(-angle, abs=1e-12)

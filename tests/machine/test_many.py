@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from witness import Geneva
+from witness import SIGN, Geneva
 
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import GenevaError
@@ -33,7 +33,8 @@ def test_none_is_missed(engagement, part):
     z, internal, A = designs(5000, 1)
     size, at_deg = acceleration_peaks(z, internal, A)
     for i in range(part, len(z), 10):
-        found = peak(engagement(int(z[i]), GEARINGS[int(internal[i])], float(A[i])), "acceleration")
+        passage = engagement(int(z[i]), GEARINGS[int(internal[i])], float(A[i]))
+        found = peak(passage.motion, "acceleration")
         where = (int(z[i]), GEARINGS[int(internal[i])], float(A[i]))
         # the other one's own error comes on top: jets run up to 31 units near |A| = 1
         assert size[i] == pytest.approx(found.max, rel=2 * EXACT), where
@@ -54,7 +55,7 @@ def test_a_finer_scan_finds_no_more(monkeypatch):
 @pytest.mark.parametrize("z", [3, 4, 11, 24, 1000])
 def test_against_50_digits(z, gearing, A):
     exact, at_deg = Geneva(z, gearing, A).peak("acceleration")
-    size, place = acceleration_peak(z, gearing, A)
+    size, place = acceleration_peak(z, SIGN[gearing], A)
     assert abs(float(size / exact - 1)) <= EXACT
     assert place == pytest.approx(float(at_deg), abs=1e-8)
     many, places = acceleration_peaks(z, gearing == "internal", A)
@@ -100,6 +101,10 @@ def test_out_of_range(z, internal, A, word):
 
 
 def test_one_out_of_range():
-    for z, gearing, A in ((2, "external", 0.0), (6, "spherical", 0.0), (6, "external", -1.0)):
-        with pytest.raises(GenevaError):
-            acceleration_peak(z, gearing, A)
+    for z, sign, A, word in (
+        (2, 1.0, 0.0, "z must"),
+        (6, 0.0, 0.0, "gearing"),
+        (6, 1.0, -1.0, "A must"),
+    ):
+        with pytest.raises(GenevaError, match=word):
+            acceleration_peak(z, sign, A)

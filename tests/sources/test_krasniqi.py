@@ -16,7 +16,7 @@ import pytest
 from witness import SineLaw, krasniqi, mp, near
 
 from geneva_cli.analysis.timing import timings
-from geneva_cli.machine.laws.standard import sine_group
+from geneva_cli.machine.laws.standard import SineGroup
 from geneva_cli.machine.pitch_curve import pitch, pitch_at_retrace, retraces
 from geneva_cli.numerics.jet import Jet
 
@@ -46,7 +46,7 @@ def series_18(u, shape, fifth=5, factor=4 * mp.pi / 3):
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_closed_form_is_the_series(shape):
-    law = sine_group(shape)
+    law = SineGroup(lambda_=shape)
     for u in U:
         position, _, acceleration, _ = law(u).derivatives()
         # 2e-16 and 8e-15: half a unit of 1, and 4 units of the acceleration, 11 to 21 here
@@ -62,7 +62,7 @@ def test_17_and_18_agree(shape):
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_velocity_to_snap_vanish_at_both_ends(shape):
-    law = sine_group(shape)
+    law = SineGroup(lambda_=shape)
     for u in (0.0, 1.0):
         assert law(u, 4).derivatives()[1:] == (0.0, 0.0, 0.0, 0.0)
 
@@ -85,7 +85,7 @@ def test_misprint_18_factor():
     wrong = SineLaw((1, [(4 * mp.pi**2 / 3 * a, w, p) for a, w, p in terms]))
     assert abs(right.whole - 1) < 1e-45
     assert abs(wrong.whole - mp.pi) < 1e-45
-    assert sine_group(0.0)(1.0, 0).c[0] == 1.0
+    assert SineGroup()(1.0, 0).c[0] == 1.0
 
 
 def test_unit_rise_of_the_corrected_series():
@@ -96,7 +96,7 @@ def test_unit_rise_of_the_corrected_series():
 @pytest.mark.parametrize("shape", [0.0, 0.05, 0.1, 0.125])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_monotone_up_to_an_eighth(shape, sign):
-    velocity = sine_group(sign * shape)(np.linspace(0.0, 1.0, 20001), 1).c[1]
+    velocity = SineGroup(lambda_=sign * shape)(np.linspace(0.0, 1.0, 20001), 1).c[1]
     assert np.min(velocity) >= 0.0
 
 
@@ -241,6 +241,6 @@ def test_a_soft_slot_starts_along_the_crank_circle(engagement, law):
 def test_the_law_keeps_a_jet_of_its_argument():
     """Order 0 to 5, as the commands ask for them."""
     for order in range(6):
-        jet = sine_group(0.1)(0.3, order)
+        jet = SineGroup(lambda_=0.1)(0.3, order)
         assert isinstance(jet, Jet)
         assert jet.order == order

@@ -9,8 +9,10 @@ import math
 
 import pytest
 from witness import Geneva, near
+from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.analysis.peaks import peaks
+from geneva_cli.machine.mechanism import build
 
 # z, A, motion angle (deg), peak velocity, peak acceleration and its angle, peak power and its
 # angle, acceleration at entry
@@ -186,21 +188,17 @@ def test_closed_forms(machine, z, A):
 def test_as_A_nears_1_the_crank_turns_at_half_speed(machine, z):
     """A -> 1: velocity/2, acceleration/4, power/8, twice the motion angle."""
     A = 1.0 - 1e-9
-    plain_station, plain = all_of(machine, z, 0.0)
+    plain_engagement, plain = all_of(machine, z, 0.0)
     engagement, slow = all_of(machine, z, A)
     # 1e-4: with phi = 2 f but for an angle of some sqrt(1 - A)
-    assert engagement.motion_deg == near(2.0 * plain_station.motion_deg, 1e-4)
+    assert engagement.motion_deg == near(2.0 * plain_engagement.motion_deg, 1e-4)
     assert plain.velocity.max / slow.velocity.max == near(2.0, 1e-4)
     assert plain.acceleration.max / slow.acceleration.max == near(4.0, 1e-4)
     assert plain.power.max / slow.power.max == near(8.0, 1e-4)
 
 
 def test_A_0_is_the_plain_crank(machine):
-    from geneva_cli.machine.drives.side_crank import Keys
-    from geneva_cli.machine.mechanism import build
-    from geneva_cli.spec.tables import Drive, Spec, Wheel
-
-    m = build(Spec(Wheel(6), Drive("side-crank"), Keys(0.0)))
+    m = build(Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.0)))
     s, plain = m.engagements[0], machine(6).engagements[0]
     assert s.entry_deg == plain.entry_deg
     for deg in (-60.0, -31.0, -1.0, 0.0, 17.0, 60.0):
