@@ -84,8 +84,10 @@ ROWS = [
 OWN = {
     "--help": "app errors streams",
     "--version": "app errors streams",
-    "table --z 6": "app errors streams commands commands.table commands.options output "
-    "output.finite output.text table survey classic timing rules units",
+    # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
+    "table --z 6": "app errors streams table commands commands.options commands.table output "
+    "output.finite output.text study study.survey analysis analysis.timing machine machine.wheels "
+    "machine.wheels.classic numerics numerics.angles spec spec.rules",
 }
 
 

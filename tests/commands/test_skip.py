@@ -8,6 +8,7 @@
 | a table's row, A = 0               | none: closed forms                               |
 """
 
+import importlib.util
 import math
 import os
 import subprocess
@@ -18,8 +19,9 @@ import pytest
 
 from geneva_cli.analysis import peaks as peaks_module
 from geneva_cli.analysis.motion import motion_table
-from geneva_cli.machine.engagement import LawDriven, SlotDriven
-from geneva_cli.machine.wheels.classic_arrays import Kernel
+from geneva_cli.machine import registry
+from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
 
 N = 2001
 
@@ -41,17 +43,28 @@ class Counter:
 
 
 @pytest.fixture
-def kernel(monkeypatch):
-    return Counter(monkeypatch, Kernel, "_block", lambda orders, *rest: tuple(orders))
+def arrays(monkeypatch):
+    """The closed forms of classic wheels over arrays."""
+    return Counter(monkeypatch, ClassicArrays, "_block", lambda orders, *rest: tuple(orders))
+
+
+def kinds(cls):
+    yield cls
+    for other in cls.__subclasses__():
+        yield from kinds(other)
 
 
 @pytest.fixture
 def jets(monkeypatch):
-    """Every class of engagement that has a motion of its own."""
+    """Every class of motion that is worked out in a way of its own."""
+    for name in registry.DRIVES:
+        registry.drive(name)
+    for name in registry.GEARINGS:
+        registry.gearing(name)
     return [
-        Counter(monkeypatch, cls, "motion", lambda order=3: order)
-        for cls in {c for k in (SlotDriven, LawDriven) for c in k.__mro__ if "motion" in vars(c)}
-        if not getattr(cls.motion, "__isabstractmethod__", False)
+        Counter(monkeypatch, cls, "__call__", lambda order=3: order)
+        for cls in set(kinds(Motion))
+        if "__call__" in vars(cls) and not getattr(cls.__call__, "__isabstractmethod__", False)
     ]
 
 
@@ -64,18 +77,18 @@ def evenly(engagement):
     return np.concatenate([half[:-1], -half[::-1]])
 
 
-def test_plain_crank_evaluates_half(engagement, kernel, jets):
+def test_plain_crank_evaluates_half(engagement, arrays, jets):
     s = engagement(6)
     x = evenly(s)
-    s.derivatives(x)
-    assert (kernel.positions, counted(jets)) == (N // 2 + 1, 0)
+    s.motion.derivatives(x)
+    assert (arrays.positions, counted(jets)) == (N // 2 + 1, 0)
 
 
-def test_plain_crank_at_unsymmetric_angles_evaluates_all(engagement, kernel, jets):
+def test_plain_crank_at_unsymmetric_angles_evaluates_all(engagement, arrays, jets):
     s = engagement(6)
     x = evenly(s)[:-1]
-    s.derivatives(x)
-    assert (kernel.positions, counted(jets)) == (N - 1, 0)
+    s.motion.derivatives(x)
+    assert (arrays.positions, counted(jets)) == (N - 1, 0)
 
 
 @pytest.mark.parametrize(
@@ -88,25 +101,25 @@ def test_plain_crank_at_unsymmetric_angles_evaluates_all(engagement, kernel, jet
     ],
     ids=["side-crank", "cycloidal", "sine-group", "tilted-sine-group"],
 )
-def test_jets_evaluate_half_where_the_motion_is_symmetric(engagement, kernel, jets, keys, halved):
+def test_jets_evaluate_half_where_the_motion_is_symmetric(engagement, arrays, jets, keys, halved):
     s = engagement(6, **keys)
-    s.derivatives(evenly(s))
+    s.motion.derivatives(evenly(s))
     assert counted(jets) == (N // 2 + 1 if halved else N)
-    assert kernel.positions == 0
+    assert arrays.positions == 0
 
 
-def test_motion_does_not_evaluate_the_dwell(machine, kernel, jets):
+def test_motion_does_not_evaluate_the_dwell(machine, arrays, jets):
     m = machine(6)
     motion_table(m, 3601)
     inside = 1201  # 120 of 360 degrees, both ends
-    assert kernel.positions in (inside, inside // 2 + 1)
+    assert arrays.positions in (inside, inside // 2 + 1)
 
 
-def test_only_the_orders_that_are_asked_for(engagement, kernel, jets):
+def test_only_the_orders_that_are_asked_for(engagement, arrays, jets):
     s = engagement(6)
-    out = s.derivatives(evenly(s), (1, 2))
+    out = s.motion.derivatives(evenly(s), (1, 2))
     assert len(out) == 2
-    assert kernel.orders == {(1, 2)}
+    assert arrays.orders == {(1, 2)}
     assert {o for c in jets for o in c.orders} <= {2}
 
 
@@ -119,7 +132,7 @@ def test_a_jet_carries_no_more_than_it_must(engagement):
 @pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk", "power"])
 def test_a_symmetric_peak_is_looked_for_in_one_half(engagement, jets, quantity):
     s = engagement(6, A=0.6)
-    peaks_module.peak(s, quantity)
+    peaks_module.peak(s.motion, quantity)
     assert 0 < counted(jets) < 300
     assert all(c.below_zero for c in jets)
     assert {o for c in jets for o in c.orders} == {peaks_module._ORDER[quantity]}
@@ -147,15 +160,36 @@ def loaded(*arguments):
     return {m.removeprefix("geneva_cli.") for m in found.stderr.split() if "geneva_cli." in m}
 
 
-MOTION = {"mechanism", "station", "jet", "gearing", "peaks", "roots", "laws", "kernel", "motion"}
+ARRAYS = "machine.wheels.classic_arrays"
+MOTION = {
+    "machine.mechanism",
+    "machine.engagement",
+    "numerics.jet",
+    "machine.wheels.gearing",
+    "analysis.peaks",
+    "numerics.roots",
+    "machine.laws",
+    ARRAYS,
+    "analysis.motion",
+}
+
+BEYOND = {  # a plain spec's peaks
+    ARRAYS,
+    "parts.slot_profile",
+    "analysis.loads.loads",
+    "verdict.checks",
+    "analysis.motion",
+}
 
 
 def test_a_plain_table_loads_nothing_of_motions():
     assert not loaded("table", "--z", "3..12") & MOTION
 
 
-def test_a_tables_side_crank_loads_neither_laws_tables_nor_kernels():
-    assert not loaded("table", "--z", "6", "--A", "0.5") & {"kernel", "motion", "law_table"}
+def test_a_tables_side_crank_loads_neither_laws_tables_nor_arrays():
+    modules = loaded("table", "--z", "6", "--A", "0.5")
+    assert "machine.drives.side_crank" in modules
+    assert not modules & {ARRAYS, "analysis.motion", "machine.laws.table"}
 
 
 def test_a_plain_spec_loads_no_other_drive(tmp_path):
@@ -163,8 +197,16 @@ def test_a_plain_spec_loads_no_other_drive(tmp_path):
     with open(spec, "w") as file:
         file.write("[wheel]\nz = 6\n")
     modules = loaded("peaks", spec)
-    assert "peaks" in modules
-    assert not modules & {"kernel", "profile", "law_table", "loads", "checks", "motion"}
+    assert {"analysis.peaks", "machine.drives.crank"} <= modules
+    kinds = registry.GEARINGS | registry.DRIVES | registry.LAWS
+    others = {f"machine.{path.partition(':')[0]}" for path in kinds.values()}
+    assert modules & others == {"machine.wheels.external", "machine.drives.crank"}
+    assert not modules & BEYOND
+
+
+def test_every_module_that_must_not_be_loaded_is_one():
+    for module in MOTION | BEYOND:
+        assert importlib.util.find_spec(f"geneva_cli.{module}"), module
 
 
 def test_a_count_would_be_noticed(engagement, jets):
