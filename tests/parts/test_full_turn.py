@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 import repo
 import shapely
-from geneva_cli.machine.kinds import is_flat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import affinity
@@ -24,6 +23,7 @@ from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts import proof
+from geneva_cli.parts.assembly import is_flat
 from geneva_cli.parts.crank import reliefs
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
@@ -47,7 +47,7 @@ def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
     roller = disc(size.roller - less)
     cranks = [polygon(contour, flat).buffer(-less) for contour in found.crank]
     for i in range(count):
-        pins = [plane.path(k, at[i : i + 1])[0] for k in range(len(plane.rollers))]
+        pins = [plane.pin(k, at[i : i + 1])[0] for k in range(len(plane.rollers))]
         parts = [affinity.translate(roller, *pin) for pin in pins]
         parts += [affinity.translate(turned(crank, poses[i]), plane.L) for crank in cranks]
         if any(wheel.intersects(turned(part, -turns[i])) for part in parts):
@@ -97,7 +97,7 @@ def test_curved_slots_turn(case: dict) -> None:
     assert not list(overlaps(found))
 
 
-DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 FLAT = [path for path in DESIGNS if is_flat(load(str(path)).spec)]
 
 
@@ -153,7 +153,7 @@ def test_play_against_polygons(case: dict) -> None:
     for i in np.flatnonzero(play.resting)[::5]:
         at = play.input_deg[i : i + 1]
         parts = [affinity.translate(turned(crank, float(plane.crank(at)[0])), L)]
-        parts += [affinity.translate(roller, *plane.path(0, at)[0])]
+        parts += [affinity.translate(roller, *plane.pin(0, at)[0])]
         for way, edge in ((-1.0, play.back[i]), (1.0, play.on[i])):
             for lead, meets in (
                 (max(0.999 * edge - 3e-4, 0.0), False),

@@ -4,17 +4,18 @@ import math
 
 import numpy as np
 import pytest
-from words import Drive, Keys, Motion, Spec, Wheel
+from words import Drive, Keys, Motion, Spec, Wheel, points
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.gear_curves import convexity, gears_table
 from geneva_cli.parts.groove import _distances, groove_table
 
 
-def gears(A=None, file=None, path=""):
-    keys = Keys("noncircular-gears", A, file, 120.0)
-    return build(Spec(Wheel(6), Drive("noncircular-gears"), keys, path=path))
+def gears(A=None, ratio=None):
+    keys = Keys("noncircular-gears", A, ratio, 120.0)
+    return build(Spec(Wheel(6), Drive("noncircular-gears"), keys))
 
 
 def columns(table):
@@ -23,8 +24,8 @@ def columns(table):
 
 def test_the_side_cranks_gears_are_convex_at_06_and_not_at_08():
     """Published analysis of the law as gears."""
-    assert min(convexity(gears(0.6))) > 0.0
-    assert min(convexity(gears(0.8))) < 0.0
+    assert min(convexity(gears(0.6).spec.drive.gears)) > 0.0
+    assert min(convexity(gears(0.8).spec.drive.gears)) < 0.0
 
 
 def test_they_move_the_wheel_as_the_side_crank_does():
@@ -51,7 +52,7 @@ def test_elliptical_gears_are_ellipses():
     at = columns(gears_table(mechanism, 101))
     expected = 100.0 * 0.5 * (1.0 - 0.09) / (1.0 + 0.3 * np.cos(np.radians(at["input_deg"])))
     assert at["driver_radius_mm"] == pytest.approx(expected, rel=1e-14)
-    assert min(convexity(mechanism)) > 0.0
+    assert min(convexity(mechanism.spec.drive.gears)) > 0.0
 
 
 def ratio_file(tmp_path, change=lambda ratio: ratio):
@@ -60,13 +61,14 @@ def ratio_file(tmp_path, change=lambda ratio: ratio):
         phi = math.radians(k % 360)
         ratio = 0.91 / (1.09 + 0.6 * math.cos(phi))
         lines.append(f"{k},{change(ratio)!r}")
-    (tmp_path / "ratio.csv").write_text("\n".join(lines))
-    return str(tmp_path / "spec.toml")
+    path = tmp_path / "ratio.csv"
+    path.write_text("\n".join(lines))
+    return points(path, registry.drive("noncircular-gears"), "ratio")
 
 
 def test_a_ratio_from_a_file(tmp_path):
     """The elliptical gears' ratio at 181 points; a quintic spline of 2 degrees is good to 1e-10."""
-    ours = gears(file="ratio.csv", path=ratio_file(tmp_path)).engagements[0]
+    ours = gears(ratio=ratio_file(tmp_path)).engagements[0]
     keys = Keys("elliptical-gears", 0.3)
     theirs = build(Spec(Wheel(6), Drive("elliptical-gears"), keys)).engagements[0]
     assert ours.entry_deg == pytest.approx(theirs.entry_deg, abs=1e-9)
@@ -82,7 +84,7 @@ def test_a_ratio_from_a_file(tmp_path):
 )
 def test_a_ratio_that_no_gears_have(tmp_path, change, said):
     with pytest.raises(GenevaError, match=said):
-        gears(file="ratio.csv", path=ratio_file(tmp_path, change))
+        gears(ratio=ratio_file(tmp_path, change))
 
 
 def test_the_groove_against_the_law_of_sines():
@@ -111,8 +113,8 @@ def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
     spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
     engagement = build(spec).engagements[0]
     x = engagement.exit_deg + np.linspace(-1.0, 361.0 - engagement.motion_deg, 20001)
-    R, slope, bend = _distances(engagement, x)
-    end = float(engagement.distances(engagement.exit_deg, 0)[1].c[0])
+    R, slope, bend = _distances(engagement.groove, x)
+    end = float(engagement.groove.distances(engagement.exit_deg, 0)[1].c[0])
     assert np.abs(R - end).max() < 0.15 * end
     # Differences against the mean of both sides: their error is h times a bounded derivative.
     h = np.radians(x[1] - x[0])

@@ -16,13 +16,14 @@ import pytest
 import shapely
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
-from words import LAWS, Drive, Motion, Spec, Wheel, named
+from words import LAWS, Drive, Motion, Spec, Wheel
 
 from geneva_cli.curves.measure import area, length, vertices
 from geneva_cli.curves.measure import turned as turn
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion as Given
 from geneva_cli.parts.assembly import plane
 from geneva_cli.parts.outlines import CURVED, Outlines, outlines
 from geneva_cli.parts.sizes import sizes
@@ -47,14 +48,15 @@ def made(
     kind: str = "crank",
     offset: float = 0.0,
     steps: tuple[float, ...] | None = None,
-    motion: Motion | None = None,
+    motion: Given | None = None,
     **size: float | str,
 ) -> Outlines:
     """Outlines of a machine at L = 100 mm."""
-    wheel = Wheel(z, gearing, offset_mm=offset, steps_deg=steps)
-    given = motion or (Motion(law, ratio="matched") if law and kind == "crank" else Motion(law))
+    own = {"offset_mm": offset} if offset else {"steps_deg": steps} if steps else {}
+    given = motion or Motion(law, ratio="matched" if kind == "crank" else None)
     rollers = len(steps) if steps else rollers
-    spec = Spec(wheel, Drive(kind, rollers=rollers), motion=given, size=Size(L, **size))
+    wheel, drive = Wheel(z, gearing, **own), Drive(kind, rollers=rollers)
+    spec = Spec(wheel, drive, motion=given, size=Size(L, **size))
     return outlines(build(spec))
 
 
@@ -93,7 +95,7 @@ class Slot(NamedTuple):
 
 
 def slots_of(
-    z: int, gearing: str, r: float, bottom: float, offset: float, steps: tuple[float, ...] | None
+    z: int, gearing: str, r: float, bottom: float, offset: float, steps: tuple[float, ...]
 ) -> tuple[list[Slot], list[float]]:
     """All slots of a wheel and the directions of the crank's axis while it rests, by theory."""
     if steps:
@@ -187,13 +189,13 @@ STRAIGHT = [
 
 
 def theory(found: Outlines) -> tuple[list[Slot], list[float]]:
-    spec = found.plane.mechanism.spec
-    wheel, size = spec.wheel, spec.size
-    r = spec.roller_radius_mm
+    mechanism = found.plane.mechanism
+    wheel, size, r = mechanism.spec.wheel, mechanism.spec.size, mechanism.roller_radius_mm
     bottom = size.slot_bottom_clearance_mm
     if bottom is None:
         bottom = max(size.slot_clearance_mm, r / 20.0)
-    return slots_of(wheel.z, wheel.NAME, r, bottom, wheel.offset_mm, wheel.steps_deg)
+    offset = wheel.as_dict().get("offset_mm", 0.0)
+    return slots_of(wheel.z, wheel.NAME, r, bottom, offset, wheel.steps)
 
 
 def name(case: dict) -> str:
@@ -291,7 +293,7 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
     size, z, sign = found.sizes, case["z"], found.plane.sign
     spec = found.plane.mechanism.spec
     with mpmath.workdps(30):
-        b, r = mpmath.pi / z, mpmath.mpf(spec.roller_radius_mm)
+        b, r = mpmath.pi / z, mpmath.mpf(found.plane.mechanism.roller_radius_mm)
         R, rim = L * mpmath.sin(b), mpmath.sqrt((L * mpmath.cos(b)) ** 2 + r**2)
         w = r + mpmath.mpf(spec.size.slot_clearance_mm)
         recess = mpmath.mpf(size.lock) + mpmath.mpf(spec.size.lock_clearance_mm)
@@ -468,7 +470,7 @@ def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
     assert lock.radius == pytest.approx(found.sizes.lock, rel=1e-12)
     assert math.degrees(lock.sweep) <= 180.0 - 360.0 / z + 1e-9
     middle = np.add(lock.start, lock.end)
-    roller = found.plane.path(0, np.zeros(1))[0] - [L, 0.0]
+    roller = found.plane.pin(0, np.zeros(1))[0] - [L, 0.0]
     cosine = float(middle @ roller) / math.hypot(*middle) / math.hypot(*roller)
     assert cosine == pytest.approx(-1.0, abs=1e-12)
 
@@ -485,7 +487,7 @@ def passed(found: Outlines) -> Polygon:
     natural = 180.0 - sign * 360.0 / z
     motion = math.radians(natural - spec.motion.alpha0_deg)
     R, step = L * mechanism.ratio, math.tau / z
-    law = named(spec.motion.law, spec.motion.lambda_)
+    law = spec.motion.law
     # as densely at mid-motion as the roller stops there: its way is sharp
     x = np.linspace(-1.0, 1.0, 4001)
     u = 0.5 + 0.25 * x * (1.0 + x * x)

@@ -134,7 +134,7 @@ def free(found: Outlines, at_deg: float, lead_deg: float) -> bool:
         for crank in found.crank
     ]
     for number in range(len(plane.rollers)):
-        parts.append(affinity.translate(roller, *plane.path(number, at)[0]))
+        parts.append(affinity.translate(roller, *plane.pin(number, at)[0]))
     shapely.prepare(wheel)
     turn = float(plane.wheel(at)[0]) + math.radians(lead_deg)
     return not any(wheel.intersects(turned(part, -turn)) for part in parts)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 import repo
 from typer.testing import CliRunner
+from words import load
 
 from geneva_cli.app import app
 
@@ -113,7 +114,6 @@ def test_what_is_not_proved_shows_in_every_format(format: str) -> None:
     "name", ["elliptical-gears", "epicyclic-soft-z6", "gear-sector", "four-bar-z4", "geneva-pair"]
 )
 def test_the_words_are_english(name: str) -> None:
-    from geneva_cli.specfile.reader import load
     from geneva_cli.verdict.report import words
 
     said = words(load(str(DESIGNS / f"{name}.toml")))
