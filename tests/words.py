@@ -5,6 +5,7 @@ import os
 from typing import NamedTuple
 
 from geneva_cli import design
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine import spec as given
 from geneva_cli.spec.schema import Points, fields
@@ -26,7 +27,7 @@ def Drive(kind="crank", n_rpm=60.0, rollers=1, roller_angles_deg=None):
     common = {"n_rpm": n_rpm, "rollers": rollers, "roller_angles_deg": roller_angles_deg}
     try:
         return registry.drive(kind)(**common)
-    except TypeError:
+    except (TypeError, GenevaError):
         return _Common(kind, common)
 
 

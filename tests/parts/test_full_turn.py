@@ -23,7 +23,6 @@ from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts import proof
-from geneva_cli.parts.assembly import is_flat
 from geneva_cli.parts.crank import reliefs
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
@@ -98,7 +97,7 @@ def test_curved_slots_turn(case: dict) -> None:
 
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
-FLAT = [path for path in DESIGNS if is_flat(load(str(path)).spec)]
+FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 
 
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)

@@ -255,7 +255,7 @@ def test_assembly_of_every_design(name):
 
     rollers = machine.spec.drive.rollers
     angles = machine.spec.drive.roller_angles_deg
-    count = len(angles) if angles else rollers * len(machine.spec.wheel.steps_deg or [0])
+    count = len(angles) if angles else rollers * len(machine.spec.wheel.steps or [0])
     centres = {tuple(round(x, 6) for x in centre) for centre, _ in circles(shapes, "ROLLER")}
     assert len(centres) == count
     # Input angle 0 is where a roller crosses the line of centres (a linkage's mid-motion is no such
@@ -478,8 +478,8 @@ def test_arcs_are_half_as_many_as_chords(name):
 @pytest.mark.parametrize("name", CURVED)
 def test_walls_are_where_the_roller_passes(name):
     """Against the roller itself, moved along its pitch curve by shapely."""
-    spec = load(str(DESIGNS[name])).spec
-    w = spec.roller_radius_mm + spec.size.slot_clearance_mm
+    machine = load(str(DESIGNS[name]))
+    w = machine.roller_radius_mm + machine.spec.size.slot_clearance_mm
     way = [(row["x_mm"], row["y_mm"]) for row in table_of(name, "slot", "--tolerance", "1e-5")]
     swept = LineString(way).buffer(w, quad_segs=512)
     edge = LineString(swept.exterior.coords)  # an island falls out
