@@ -10,7 +10,7 @@ from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
-from geneva_cli.spec.schema import REQUIRED, Field, Points, Table, fields
+from geneva_cli.spec.schema import Field, Points, Table, fields
 from geneva_cli.spec.tables import Limits, Load, Size
 
 # The words that name a kind, each in its table.
@@ -50,8 +50,7 @@ def written(spec: Spec) -> list[str]:
         block = [
             (f"{key.key} = {quoted(values[key.key])}", key.meaning)
             for key in keys
-            if values.get(key.key) != (None if key.default is REQUIRED else key.default)
-            or (name, key.key) in SHOWN
+            if key.key in values and (values[key.key] != key.default or (name, key.key) in SHOWN)
         ]
         if block:
             width = max(len(setting) for setting, _ in block)

@@ -15,7 +15,7 @@ from geneva_cli.spec.tables import Load, Size
 
 DESIGNS = repo.DESIGNS
 LOAD = Load(0.02, 3.0, friction=0.1)
-LARGE = LOAD._replace(friction=0.2)
+LARGE = LOAD.but(friction=0.2)
 
 
 def curved(z, law, alpha0=0.0, ratio=None, gearing="external"):
@@ -107,7 +107,7 @@ def test_friction_on_the_sphere(x):
 
 @pytest.mark.parametrize("name", ["curved, matched", "curved", "offset", "internal"])
 def test_many_angles_at_once_are_the_same(name):
-    mechanism = build(MACHINES[name]._replace(size=Size(face_width_mm=10.0)))
+    mechanism = build(MACHINES[name].but(size=Size(face_width_mm=10.0)))
     engagement = mechanism.engagements[0]
     x = np.linspace(engagement.entry_deg, engagement.exit_deg, 21)
     assert 0.0 in x or engagement.entry_deg != -engagement.exit_deg

@@ -188,7 +188,7 @@ def test_of_two_equal_peaks_the_earlier(machine):
                 assert getattr(found, name).at_deg <= 0.0
 
 
-def test_worst_station_of_a_side_crank_with_two_rollers(machine):
+def test_worst_engagement_of_a_side_crank_with_two_rollers(machine):
     m = machine(4, A=0.6, rollers=2)
     each = [peaks(s) for s in m.engagements]
     found = worst(m)

@@ -376,6 +376,8 @@ def test_block_tridiagonal_systems(count):
 
 
 def test_it_does_not_load_scipy():
-    said = "import sys, geneva_cli.fit; print([m for m in sys.modules if m.startswith('scipy')])"
+    said = (
+        "import sys, geneva_cli.curves.fit;print([m for m in sys.modules if m.startswith('scipy')])"
+    )
     run = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"

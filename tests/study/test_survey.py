@@ -39,7 +39,7 @@ def test_closed_forms_agree_with_the_machinery(machine, gearing):
         assert got["rollers_max"] == m.rollers_max
         for name, value in timings(m)[0]._asdict().items():
             assert got[name] == near(value, SAME), (z, name)
-        velocity, acceleration = peak(s, "velocity"), peak(s, "acceleration")
+        velocity, acceleration = peak(s.motion, "velocity"), peak(s.motion, "acceleration")
         assert got["velocity_max"] == near(velocity.max, SAME), z
         assert got["acceleration_max"] == near(acceleration.max, SAME), z
         # a root of the jerk, where the acceleration is flat: 1e-8 degrees is what it can hide

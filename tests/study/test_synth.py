@@ -15,6 +15,7 @@ from geneva_cli.analysis.peaks import acceleration_peak, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.study.synthesis import closed
 from geneva_cli.study.synthesis import limit as limits
@@ -203,7 +204,7 @@ def test_the_quick_peak_is_the_built_machine_s(z, gearing, x):
     )
     for spec, ratio in ((side, limits.side_crank), (gears, limits.elliptical_gears)):
         wanted = acceleration_peak(build(spec).engagements[0]).max
-        assert limits.peak_of(z, gearing, ratio)(x) == pytest.approx(wanted, rel=1e-11)
+        assert limits.peak_of(Wheel(z, gearing), ratio)(x) == pytest.approx(wanted, rel=1e-11)
 
 
 @pytest.mark.parametrize("gearing", GEARINGS)
@@ -212,7 +213,7 @@ def test_the_quick_peak_is_the_built_machine_s(z, gearing, x):
 @pytest.mark.parametrize("share", [0.9, 0.6, 0.35])
 def test_no_smaller_parameter_does(z, gearing, ratio, share):
     """Against a fine grid: nothing nearer to the plain crank is below the limit."""
-    peak = limits.peak_of(z, gearing, ratio)
+    peak = limits.peak_of(Wheel(z, gearing), ratio)
     limit = share * peak(0.0)
     found, lowest = limits.least_parameter(peak, limit)
     grid = [i / 400 for i in range(-399, 400)]
@@ -396,7 +397,7 @@ def test_write(tmp_path):
     rows = json.loads(run(*words, "--format", "json").stdout)["rows"]
     (row,) = [r for r in rows if r["A"]]
     assert run(*words, "--write", str(row["no"]), "-o", str(file)).exit_code == 0
-    assert load(str(file)).spec.kind == _keys("side-crank", row["A"])
+    assert load(str(file)).spec.drive == SideCrank(A=row["A"])
     assert run(*words, "--write", str(row["no"])).stdout == file.read_text(encoding="utf-8")
     text = file.read_text(encoding="utf-8")
     assert "# number of slots" in text

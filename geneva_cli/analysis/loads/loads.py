@@ -67,9 +67,13 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) 
 
 def greatest(mechanism: Mechanism, quantity: str) -> Greatest:
     """The greatest size of a field of ``State`` over all engagements."""
+    return _over_all(mechanism, setting(mechanism), quantity)
+
+
+def _over_all(mechanism: Mechanism, given: Setting, quantity: str) -> Greatest:
     best = Greatest(0.0, 0.0)
     for engagement in mechanism.engagements:
-        found = _greatest(engagement, setting(mechanism))[quantity]
+        found = _greatest(engagement, given)[quantity]
         if found.max > best.max:
             best = Greatest(found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg))
     return best
@@ -122,11 +126,10 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     least = max(_slowness(engagement, given, limits) for engagement in mechanism.engagements)
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Speeds below it may be too low where inertia helps against the resistance, and this one too.
-    tried = mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm
-    drive = mechanism.spec.drive.but(n_rpm=tried)
-    changed = mechanism._replace(spec=mechanism.spec.but(drive=drive))
+    w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
+    tried = given._replace(inertia_Nm=load.inertia_kgm2 * w * w)
     kept = all(
-        greatest(changed, quantity).max <= limit * KEPT
+        _over_all(mechanism, tried, quantity).max <= limit * KEPT
         for quantity, limit in zip(LIMITED, limits, strict=True)
         if limit
     )
