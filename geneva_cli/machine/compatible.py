@@ -49,10 +49,14 @@ CLASHES = (
         "one too many",
     ),
     Clash(
+        lambda s: s.motion is not None and s.wheel.steps,
+        ("wheel", "steps_deg"),
+        "steps_deg shapes straight slots; with a law the slots are solved for (remove one)",
+    ),
+    Clash(
         lambda s: s.motion is not None and not s.wheel.radial,
         ("wheel", "offset_mm"),
-        "offset_mm and steps_deg shape straight slots; with a law the slots are solved for (remove "
-        "one)",
+        "offset_mm shapes straight slots; with a law the slots are solved for (remove one)",
     ),
     Clash(
         lambda s: s.motion is not None and not s.wheel.FLAT,
@@ -77,7 +81,7 @@ CLASHES = (
     Clash(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
         ("drive", "rollers"),
-        "rollers = {rollers}, but there are {several} steps or angles for them; leave rollers out",
+        "rollers = {rollers}, but there are {several} {places} for them; leave rollers out",
     ),
     Clash(
         lambda s: s.motion is not None and s.drive.roller_angles_deg,
@@ -103,5 +107,6 @@ def refuse(spec: Spec) -> None:
                 gearings=" or ".join(spec.drive.GEARINGS),
                 rollers=spec.drive.rollers,
                 several=_several(spec),
+                places="steps" if spec.wheel.steps else "angles",
             )
             raise GenevaError(text, clash.key)

@@ -40,9 +40,9 @@ def test_against_50_digits(z, sector, ratio):
     """16 units in the last place of each peak, and what b's own last place moves (its slope in b
     is below 8 peaks): b is a root found in doubles, and every value hangs on it."""
     s = machine(z, sector, ratio).engagements[0]
-    b = mp.mpf(s.inner.half_step)
+    b = mp.mpf(s.through.half_step)
     slot, D = slots(b), to_radians(sector)
-    a_t, u = to_radians(s.handover_deg), mp.mpf(s.u)
+    a_t, u = to_radians(s.motion.handover_deg), mp.mpf(s.motion.u)
     x = np.linspace(s.entry_deg, s.exit_deg, 101)
     got = s.motion(x).derivatives()
     rows = []
@@ -68,28 +68,30 @@ def test_a_step(z, sector, ratio):
     first, last = (s.motion(x).derivatives() for x in (s.entry_deg, s.exit_deg))
     assert last[0] - first[0] == pytest.approx(2.0 * math.pi / z, abs=1e-14)
     assert (first[1], last[1]) == (0.0, 0.0)
-    before, after = (s.motion(x, 1).c[1] for x in (-s.half_sector, -s.half_sector + 1e-9))
+    before, after = (
+        s.motion(x, 1).c[1] for x in (-s.motion.half_sector, -s.motion.half_sector + 1e-9)
+    )
     assert before == pytest.approx(after, abs=1e-14)  # a_t is an arc cosine: 10 ulp of the speed
     assert s.motion_deg == pytest.approx(
-        2.0 * (s.inner.exit_deg - s.handover_deg) + sector, rel=1e-15
+        2.0 * (s.through.exit_deg - s.motion.handover_deg) + sector, rel=1e-15
     )
 
 
 def test_no_jump_at_l_over_1_minus_l():
     """u = l/(1-l): a_t = 0, and the wheel of six slots' first half is Geneva's own."""
     s = machine(3, 60.0).engagements[0]
-    assert s.u == pytest.approx(1.0, abs=1e-14)  # b = 30 degrees: 60 + 1 * 60 = 120
-    assert s.motion(-s.half_sector, 2).derivatives()[2] == pytest.approx(0.0, abs=1e-14)
+    assert s.motion.u == pytest.approx(1.0, abs=1e-14)  # b = 30 degrees: 60 + 1 * 60 = 120
+    assert s.motion(-s.motion.half_sector, 2).derivatives()[2] == pytest.approx(0.0, abs=1e-14)
     witness = Geneva(6).derivatives(-20.0)
-    ours = s.motion(-20.0 - s.half_sector).derivatives()
+    ours = s.motion(-20.0 - s.motion.half_sector).derivatives()
     assert ours[1] == pytest.approx(float(witness[1]), abs=1e-14)
 
 
 def test_the_jump_is_the_slots_acceleration_there():
     s = machine(3, 200.0, 0.5).engagements[0]
-    slot = slots(mp.mpf(s.inner.half_step))
-    jump = s.motion(-s.half_sector, 2).derivatives()[2]
-    assert jump == pytest.approx(float(abs(slot(to_radians(s.handover_deg))[2])), abs=1e-13)
+    slot = slots(mp.mpf(s.through.half_step))
+    jump = s.motion(-s.motion.half_sector, 2).derivatives()[2]
+    assert jump == pytest.approx(float(abs(slot(to_radians(s.motion.handover_deg))[2])), abs=1e-13)
     assert s.motion(0.0, 2).c[2] == 0.0
     assert peaks(s).acceleration.max >= jump
     assert to_degrees(mp.mpf(1)) > 57

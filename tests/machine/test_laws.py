@@ -10,15 +10,17 @@ import numpy as np
 import pytest
 from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
-from words import Motion, Spec, Wheel
+from words import LAWS, Spec, Wheel, named, points
 
 from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.analysis.peaks import peaks
-from geneva_cli.machine.laws import standard as laws
-from geneva_cli.machine.mechanism import build, law_of
+from geneva_cli.machine.laws.standard import SineGroup
+from geneva_cli.machine.laws.table import TableLaw
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion
 
 CASES = [
-    *[(name, 0.0) for name in laws.LAWS],
+    *[(name, 0.0) for name in LAWS],
     *[("sine-group", s) for s in (0.125, -0.125, 0.05, -0.1)],
 ]
 GRID = np.linspace(0.0, 1.0, 513)  # exact numbers, and so is 1 - u
@@ -38,17 +40,17 @@ CONSTANTS = {
 
 @pytest.fixture(params=CASES, ids=lambda case: f"{case[0]}{case[1] or ''}")
 def law(request):
-    return laws.named(*request.param)
+    return named(*request.param)
 
 
 @pytest.fixture(params=CASES, ids=lambda case: f"{case[0]}{case[1] or ''}")
 def pair(request):
     name, shape = request.param
-    return laws.named(name, shape), krasniqi(shape) if shape else WITNESS[name]
+    return named(name, shape), krasniqi(shape) if shape else WITNESS[name]
 
 
 def test_every_law_has_a_witness_and_constants():
-    assert set(laws.LAWS) == set(WITNESS) == set(CONSTANTS)
+    assert set(LAWS) == set(WITNESS) == set(CONSTANTS)
 
 
 def test_rest_at_both_ends_exactly(law):
@@ -65,9 +67,9 @@ def test_monotone(law):
     assert np.min(np.diff(s)) >= -2.3e-16
 
 
-@pytest.mark.parametrize("name", laws.LAWS)
+@pytest.mark.parametrize("name", LAWS)
 def test_second_half_mirrors_the_first(name):
-    law = laws.LAWS[name]()
+    law = named(name)
     there, back = law(GRID, 4).derivatives(), law(1.0 - GRID, 4).derivatives()
     # 2.3e-16: one unit of 1
     assert np.max(np.abs(there[0] + back[0] - 1.0)) <= 2.3e-16
@@ -79,7 +81,7 @@ def test_second_half_mirrors_the_first(name):
 
 def test_tilted_sine_group_mirrors_the_opposite_tilt():
     for shape in (0.05, 0.125, 0.25):
-        one, other = laws.sine_group(shape), laws.sine_group(-shape)
+        one, other = SineGroup(lambda_=shape), SineGroup(lambda_=-shape)
         for u in GRID.tolist():
             # 2.3e-16: one unit of 1
             assert one(u, 0).c[0] + other(1.0 - u, 0).c[0] == pytest.approx(1.0, abs=2.3e-16)
@@ -87,7 +89,7 @@ def test_tilted_sine_group_mirrors_the_opposite_tilt():
 
 def test_derivatives_against_the_definition(pair):
     law, witness = pair
-    joints = set(law.breaks)
+    joints = set(law.BREAKS)
     u = [t for t in [*GRID[::4].tolist(), 1e-9, 1e-3, 1 / 3, 0.9, 1 - 1e-6] if t not in joints]
     got = [law(t, 4).derivatives() for t in u]
     exact = [witness(t, 4) for t in u]
@@ -116,12 +118,12 @@ def test_derivatives_are_continuous_but_for_the_breaks_named(law):
     for c in law(u, 4).derivatives():
         jumps = np.flatnonzero(np.abs(np.diff(c)) > 0.05 * np.max(np.abs(c)))
         found |= {float(u[i]) for i in jumps}
-    assert sorted(found) == pytest.approx(sorted(law.breaks), abs=1 / 4000)
+    assert sorted(found) == pytest.approx(sorted(law.BREAKS), abs=1 / 4000)
 
 
 @pytest.mark.parametrize("name", CONSTANTS)
 def test_constants(machine, name):
-    found = characteristic(laws.LAWS[name]())
+    found = characteristic(named(name))
     m = machine(6, law=name)
     s = m.engagements[0]
     of_machine = peaks(s)
@@ -149,7 +151,8 @@ def test_constants_to_the_digits_of_the_books():
 def table_spec(folder, u, s, name="points.csv"):
     lines = [f"{a!r},{b!r}" for a, b in zip(u, s, strict=True)]
     (folder / name).write_text("u,s\n" + "\n".join(lines) + "\n")
-    return Spec(Wheel(6), motion=Motion("table", file=name), path=str(folder / "spec.toml"))
+    law = TableLaw(points(folder / name, TableLaw, "points"))
+    return Spec(Wheel(6), motion=Motion(law), path=str(folder / "spec.toml"))
 
 
 @pytest.fixture
@@ -161,7 +164,7 @@ def sampled(tmp_path):
 
 
 def test_table_reproduces_what_was_sampled(sampled):
-    law = law_of(sampled)
+    law = sampled.motion.law
     u = np.linspace(0.0, 1.0, 1001)
     got = law(u, 3).derivatives()
     exact = np.array([[float(v) for v in WITNESS["4-5-6-7"](t, 3)] for t in u.tolist()]).T
@@ -181,7 +184,7 @@ def test_table_peaks(sampled):
 
 
 def test_table_rests_at_both_ends(sampled):
-    law = law_of(sampled)
+    law = sampled.motion.law
     for u, s in ((0.0, 0.0), (1.0, 1.0)):
         position, velocity, acceleration = law(u, 2).derivatives()
         assert position == s
@@ -192,7 +195,7 @@ def test_table_rests_at_both_ends(sampled):
 
 
 def test_table_has_no_jump_up_to_the_fourth_derivative(sampled):
-    law = law_of(sampled)
+    law = sampled.motion.law
     for knot in [k / 100 for k in range(3, 98)]:  # the first and last knots are no breaks at all
         before = law(math.nextafter(knot, 0.0), 5).derivatives()
         after = law(math.nextafter(knot, 1.0), 5).derivatives()
@@ -205,7 +208,7 @@ def test_table_has_no_jump_up_to_the_fourth_derivative(sampled):
 def test_table_passes_through_every_point(tmp_path):
     u = [0.0, 0.11, 0.23, 0.42, 0.5, 0.71, 0.9, 1.0]
     s = [0.0, 0.01, 0.08, 0.35, 0.52, 0.83, 0.99, 1.0]
-    law = law_of(table_spec(tmp_path, u, s))
+    law = table_spec(tmp_path, u, s).motion.law
     for a, b in zip(u, s, strict=True):
         assert law(a, 0).c[0] == pytest.approx(b, abs=1e-14)  # the linear system's rounding
     assert law(np.array(u), 0).c[0] == pytest.approx(s, abs=1e-14)

@@ -13,7 +13,7 @@ import pytest
 from words import load
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import drives
+from geneva_cli.machine import registry
 
 WHEEL = "[wheel]\nz = 6\n"
 BALL = WHEEL + 'gearing = "spherical"\n'
@@ -74,8 +74,8 @@ OFFSET = [
     case("offset-at-the-limit", WHEEL + "offset_mm = @", "75", 3, "below 75"),
     case("offset-negative", WHEEL + "offset_mm = @", "-75", 3, "offset_mm = -75", "below 75"),
     case("offset-nan", WHEEL + "offset_mm = @", "nan", 3, "offset_mm = nan"),
-    case("offset-internal", INSIDE + "offset_mm = @", "5", 4, "internal", "offset_mm = 0"),
-    case("offset-spherical", BALL + "offset_mm = @", "5", 4, "spherical", "offset_mm = 0"),
+    case("offset-internal", INSIDE + "offset_mm = @", "5", 4, "internal", 'gearing = "external"'),
+    case("offset-spherical", BALL + "offset_mm = @", "5", 4, "spherical", 'gearing = "external"'),
     case("offset-law", WHEEL + "offset_mm = @\n" + LAW, "5", 3, "law", "remove"),
     case("offset-steps", WHEEL + STEPS + "offset_mm = @\n", "5", 4, "steps_deg", "one of them"),
 ]
@@ -123,7 +123,9 @@ SPHERICAL = [
     case("axes-180", BALL + "axes_deg = @", "180", 4, "axes_deg = 180", "below 180"),
     case("axes-negative", BALL + "axes_deg = @", "-30", 4, "above 0"),
     case("axes-nan", BALL + "axes_deg = @", "nan", 4, "axes_deg = nan"),
-    case("axes-of-a-flat-wheel", WHEEL + "axes_deg = @", "80", 3, '"spherical"', "parallel"),
+    case(
+        "axes-of-a-flat-wheel", WHEEL + "axes_deg = @", "80", 3, 'gearing = "spherical"', "external"
+    ),
     case("axes-of-an-internal-one", INSIDE + "axes_deg = @", "80", 4, '"spherical"'),
     case("two-rollers", BALL + "[drive]\nrollers = @", "2", 5, "180", "at most 1"),
     case("three", BALL + "axes_deg = 60\n[drive]\nrollers = @", "3", 6, "147.796", "at most 2"),
@@ -205,7 +207,13 @@ NONCIRCULAR = [
     case("neither", WHEEL + drive("@"), "noncircular-gears", 4, "A", "ratio_file"),
     case("A", WHEEL + drive("noncircular-gears", "A = @"), "1", 5, "A = 1", "below 1"),
     case("no-file", WHEEL + drive("noncircular-gears", "ratio_file = @"), '"gone.csv"', 5, "gone"),
-    case("both", WHEEL + drive("@", 'A = 0.2\nratio_file = "x"'), "noncircular-gears", 4, "both"),
+    case(
+        "both",
+        WHEEL + drive("@", 'A = 0.2\nratio_file = "ratio.csv"'),
+        "noncircular-gears",
+        4,
+        "both",
+    ),
 ]
 
 SECTORS = [
@@ -262,13 +270,15 @@ NAMED = [
     # rounded to six digits: a little more is surely enough
     (BALL + "axes_deg = 70\n" + ANGLES + "@", "[0, 90]", TAKE, lambda v: f"[0, {float(v) + 1e-3}]"),
     ("[wheel]\nz = @\n" + PLANET, "5", r"(\d+) or 6", str),
-    (INSIDE + "offset_mm = @", "5", r"set offset_mm = (\S+)", str),
+    (WHEEL + "gearing = @\noffset_mm = 5", '"internal"', r'belongs to gearing = ("\w+")', str),
 ]
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    rows = "".join(f"{x},1\n" for x in range(0, 361, 30))
+    (tmp_path / "ratio.csv").write_text(rows, encoding="utf-8")
 
 
 def built(spec, value):
@@ -340,5 +350,5 @@ def test_a_pair_whose_first_wheel_still_rests_is_refused(offset):
 
 def test_every_kind_has_its_refusals():
     cases = [p.values[0].spec.replace("@", p.values[0].wrong) for g in GROUPS.values() for p in g]
-    for kind in set(drives.KINDS) - {"crank", "side-crank"}:  # these: test_errors.py
+    for kind in set(registry.DRIVES) - {"crank", "side-crank"}:  # these: test_errors.py
         assert any(f'"{kind}"' in c for c in cases), kind

@@ -60,18 +60,20 @@ def test_splines_are_scipys(count):
 WORK = """
 import hashlib, io, sys
 import numpy as np
-from geneva_cli.spec import load
-from geneva_cli.motion import motion_table
-from geneva_cli.outline import slot_walls
-from geneva_cli.plane import plane
-from geneva_cli.sizes import sizes
-from geneva_cli import fit
-from geneva_cli.groove import groove_curve
+from geneva_cli import design
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.curves import fit
+from geneva_cli.parts.assembly import plane
+from geneva_cli.parts.groove import groove_curve
+from geneva_cli.parts.outlines import slot_walls
+from geneva_cli.parts.sizes import sizes
+def load(path):
+    return design.load(path).mechanism
 def tell(what):
     print(hashlib.sha256(repr(what).encode()).hexdigest())
 cam = load("designs/cam-geneva.toml").engagements[0]
 for side in (1.0, 0.0):
-    curve = groove_curve(cam, 441.89, 20.0 * side)
+    curve = groove_curve(cam.groove, 441.89, 20.0 * side)
     for a, b in ((cam.entry_deg, cam.exit_deg), (cam.exit_deg, cam.entry_deg + 360.0)):
         tell(fit.KINDS["arcs"](curve, a, b, 0.001))
 curved = load("designs/modified-sine-matched.toml")
