@@ -72,7 +72,7 @@ def test_forces_against_bodies_cut_free(name, four_bar):
 @pytest.mark.parametrize("x", [-70.0, -15.0, 33.0])
 def test_friction_on_the_sphere(x):
     """The same in space: a conical roller that meets the slot's wall at right angles to its way."""
-    spec = Spec(Wheel(6, "spherical", 70.0), size=Size(80.0, 6.0), load=LARGE)
+    spec = Spec(Wheel(6, "spherical", axes_deg=70.0), size=Size(80.0, 6.0), load=LARGE)
     mechanism = build(spec)
     S = to_radians(70.0)
     th = mp.asin(mp.sin(S) * mp.sin(mp.pi / 6))
