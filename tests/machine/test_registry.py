@@ -29,7 +29,7 @@ kind = pytest.mark.parametrize(
 
 @kind
 def test_a_kind_is_named_as_it_is_registered(registered, name):
-    assert registered(name).NAME == name
+    assert name == registered(name).NAME
 
 
 @kind
