@@ -36,7 +36,7 @@ stress: .venv/dev
 fuzz: .venv/dev
 	@mkdir -p build
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
-	$(BIN)/python tests/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev

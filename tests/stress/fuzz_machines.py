@@ -2,11 +2,10 @@
 
 import math
 
-from geneva_cli.machine import drives
-from geneva_cli.machine.laws.standard import NAMES as LAWS
-from geneva_cli.machine.rollers import LOADED
-from geneva_cli.spec import tables as keys
-from geneva_cli.specfile.reader import fields
+from geneva_cli.machine.registry import DRIVES, LAWS
+from geneva_cli.machine.spec import LOADED
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Size
 
 LOADS = {"inertia_kgm2": 0.05, "torque_Nm": 3.0, "friction": 0.1}
 LIMITS = {
@@ -142,7 +141,7 @@ def own_keys(rng, kind):
 
 def motion(rng, kind, gearing):
     """The lines of ``[motion]``."""
-    law = rng.choice(LAWS)
+    law = rng.choice(list(LAWS))
     lines = [f'law = "{law}"']
     if law == "sine-group" and rng.random() < 0.9:
         lines.append(f"lambda = {rng.choice([0.1, -0.125, 0.08333, rng.uniform(-0.3, 0.3)])!r}")
@@ -159,9 +158,7 @@ def motion(rng, kind, gearing):
 def machine_text(rng):
     """A machine that a designer might write, or nearly."""
     # linkages take a hundred times as long to read as others
-    kind = rng.choice(
-        ["crank"] * 14 + [k for k in drives.KINDS for _ in range(1 + (k not in LINKAGES))]
-    )
+    kind = rng.choice(["crank"] * 14 + [k for k in DRIVES for _ in range(1 + (k not in LINKAGES))])
     z, gearing, lines = wheel(rng, kind)
     L = rng.choice([100.0, 100.0, near(rng, 100.0, 1.0)])
     R = L * math.sin(math.pi / z)
@@ -188,7 +185,7 @@ def machine_text(rng):
     if rng.random() < 0.9:
         text.append(f"roller_radius_mm = {r!r}")
     often = rng.choice([0.0, 0.05, 0.3, 0.8])
-    for field in fields(keys.Size):
+    for field in fields(Size):
         if field.key not in TAKEN and rng.random() < often:
             value = usual(rng, field.key, z, L, r, gearing == "external")
             if field.key != "relief" and rng.random() < 0.03:

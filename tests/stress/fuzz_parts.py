@@ -1,4 +1,4 @@
-"""Random machines with their parts: `python tests/fuzz_parts.py --runs 20000 --jobs 2`.
+"""Random machines with their parts: `python tests/stress/fuzz_parts.py --runs 20000 --jobs 2`.
 
 Every gearing, drive and law, several rollers, offset slots, unequal steps, and all the keys of
 ``[size]``, ``[load]`` and ``[limits]``, mostly near what a designer would write, now and then far
@@ -13,7 +13,6 @@ import warnings
 from fuzz_machines import machine_text
 from fuzz_spec import consistent, read, sound
 from fuzzing import campaign, in_time
-from geneva_cli.machine.kinds import is_flat
 
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
@@ -59,7 +58,7 @@ def one(text):
         for part in PARTS:
             for samples in (None, 33, 50) if is_table(found, part, False) else ():
                 tried(part_table, found, part, tolerance, samples)
-        if not is_flat(found.spec):
+        if not found.spec.is_flat:
             return "without parts"
         try:
             drawn = outlines(found)

@@ -1,4 +1,4 @@
-"""Random specs, and what must hold of each: `python tests/fuzz_spec.py --runs 1000000`.
+"""Random specs, and what must hold of each: `python tests/stress/fuzz_spec.py --runs 1000000`.
 
 Text goes through the program's own reader, as from standard input: it either makes a machine, whose
 motion is then computed, or is refused in one printable line that begins with its place. Four kinds
@@ -12,6 +12,7 @@ import math
 import re
 import sys
 import warnings
+from functools import cache
 from types import SimpleNamespace
 from typing import get_origin
 
@@ -19,13 +20,15 @@ import numpy as np
 from fuzz_machines import in_range, machine_text
 from fuzzing import campaign, in_time
 
+from geneva_cli import design
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import drives
-from geneva_cli.machine.laws.standard import NAMES as LAWS
-from geneva_cli.spec.rules import OneOf, Range
-from geneva_cli.specfile.reader import TABLES, fields, kind_keys, load
+from geneva_cli.machine import registry
+from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
+from geneva_cli.spec.rules import OneOf, Words
+from geneva_cli.spec.schema import REQUIRED, fields
+from geneva_cli.specfile.writer import keys_of
 from geneva_cli.table import flat
 
 SECONDS = 10  # for one spec; one takes some milliseconds
@@ -48,17 +51,28 @@ def value(rng, field, wild):
         return "[" + ", ".join(map(repr, numbers)) + "]"
     if int in types or (float in types and not (str in types and rng.random() < 0.3)):
         whole = int in types
-        rule = rule if isinstance(rule, Range) else Range(0.0, 1.0)
+        rule = rule.range if isinstance(rule, Words) else rule
         return repr(in_range(rng, rule, whole))
     if isinstance(rule, OneOf):
         return f'"{rng.choice(rule)}"'
     words = {
-        "law": LAWS,
-        "kind": tuple(drives.KINDS),
+        "law": tuple(LAWS),
+        "kind": tuple(DRIVES),
         "file": ("law.csv", "gone.csv", ""),
         "ratio_file": ("ratio.csv", "gone.csv"),
     }
     return f'"{rng.choice(words.get(field.key, ("matched", "shockless", "slow")))}"'
+
+
+@cache
+def known_keys(kind):
+    """Every key of a spec with this drive, table by table; of all wheels and all laws."""
+    wheels = [registry.gearing(name) for name in GEARINGS]
+    laws = [field for name in LAWS for field in fields(registry.law(name))]
+    tables = keys_of(wheels[0], registry.drive(kind), laws)
+    named = {field.key for field in tables["wheel"]}
+    foreign = {f.key: f for wheel in wheels for f in fields(wheel) if f.key not in named}
+    return tables | {"wheel": [*tables["wheel"], *foreign.values()]}
 
 
 def spec_text(rng, wild=0.02):
@@ -66,13 +80,12 @@ def spec_text(rng, wild=0.02):
     lines = []
     if rng.random() < 0.1:
         lines.append(f'title = "{rng.choice(["a wheel", "=1+1", "x" * 300])}"')
-    kind = rng.choice(list(drives.KINDS))
-    for table, cls in TABLES.items():
+    kind = rng.choice(list(DRIVES))
+    for table, own in known_keys(kind).items():
         if table not in ("wheel", "drive") and rng.random() < 0.6:
             continue
         lines.append(f"[{table}]")
-        own = [*fields(cls), *(fields(kind_keys(kind)) if table == "drive" else [])]
-        often = rng.choice([0.1, 0.3, 0.8])
+        share = rng.choice([0.1, 0.3, 0.8]) * (0.2 if table == "wheel" else 1.0)
         for field in own:
             if field.key == "kind":
                 if kind != "crank" and rng.random() < 0.95:
@@ -80,8 +93,8 @@ def spec_text(rng, wild=0.02):
             elif field.key == "z" and rng.random() < 0.8:
                 lines.append(f"z = {rng.choice([3, 4, 5, 6, 8, 12, 24])}")
             elif (table, field.key) == ("motion", "law") and rng.random() < 0.9:
-                lines.append(f'law = "{rng.choice(LAWS)}"')
-            elif field.default is ... or rng.random() < often * (0.2 if table == "wheel" else 1.0):
+                lines.append(f'law = "{rng.choice(list(LAWS))}"')
+            elif (field.default is REQUIRED and table != "motion") or rng.random() < share:
                 lines.append(f"{field.key} = {value(rng, field, wild)}")
     return "\n".join(lines) + "\n"
 
@@ -133,7 +146,7 @@ def read(data):
     """
     stdin, sys.stdin = sys.stdin, SimpleNamespace(buffer=io.BytesIO(data))
     try:
-        return load("-")
+        return design.load("-").mechanism
     except GenevaError as error:
         said = str(error)
         place = PLACE.match(said)

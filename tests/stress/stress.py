@@ -1,4 +1,4 @@
-"""Numerical stress against mpmath: `python tests/stress.py [--sample]`, part of `make stress`.
+"""Numerical stress against mpmath: `tests/stress/stress.py [--sample]`, part of `make stress`.
 
 Every machine (the kinds of drive and the laws come from the program's registries) at the edge of
 what a spec may hold. One row a machine and quantity, with the place where the program is worst:
@@ -10,8 +10,8 @@ what a spec may hold. One row a machine and quantity, with the place where the p
   (A, say) and, in the outer quarter of the motion, |dq/dx| ulp(entry angle). For a curved slot the
   entry angle counts everywhere: the law is laid over the motion from it. The angle of a peak moves
   by d(slope) / |second derivative| for d(slope) one unit of the slope's own peak, and by what one
-  unit of p and of the station's mid-motion moves it. A slot also turns by one unit of the wheel's
-  greatest angle.
+  unit of p and of the engagement's mid-motion moves it. A slot also turns by one unit of the
+  wheel's greatest angle.
 - ``share``: error / max(1, condition), at most 16; else the exit status is 1.
 - ``textbook``: the error there of the usual formulas in doubles, D = 1 - 2 l cos a + l² and so on
   with l = math.sin(math.pi / z), at its own worst place, and its share.
@@ -25,7 +25,6 @@ Nothing may warn, raise a floating-point flag, hold a NaN or change NumPy's sett
 
 import argparse
 import bisect
-import importlib
 import math
 import random
 import sys
@@ -43,17 +42,19 @@ from spline_witness import derivatives
 from test_machines import CASES, ON_PATH
 from witness import LAWS as LAW_WITNESSES
 from witness import PolynomialLaw, SineLaw, krasniqi, mp
-from words import LAWS, Drive, Motion, Spec, Wheel
+from words import LAWS, Motion, Spec, Wheel, law, load, points
 
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import drives
+from geneva_cli.machine import registry
+from geneva_cli.machine import spec as given
+from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.wheels.classic_arrays import Kernel
+from geneva_cli.machine.registry import DRIVES, GEARINGS
+from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
 from geneva_cli.parts.slot_profile import nodes, slot
-from geneva_cli.spec import tables as keys
+from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
-from geneva_cli.specfile.reader import fields, load
 
 LIMIT = 16.0
 DIGITS = 120  # A within 1e-12 of 1 costs a fourth derivative four times 12 of them, and more
@@ -124,8 +125,8 @@ class Plain:
         return f
 
     @staticmethod
-    def keys(module, _):
-        return module.Keys()
+    def keys(_):
+        return {}
 
     @staticmethod
     def textbook(_, phi):
@@ -151,8 +152,8 @@ class SideCrank:
         return f + mp.asin(values[0] * mp.sin(f))
 
     @staticmethod
-    def keys(module, values):
-        return module.Keys(*values)
+    def keys(values):
+        return {"A": values[0]}
 
     @staticmethod
     def textbook(values, phi):
@@ -185,8 +186,8 @@ class Ellipses:
         return 2 * mp.arg(mp.mpc((1 - e) * mp.cos(f / 2), (1 + e) * mp.sin(f / 2)))
 
     @staticmethod
-    def keys(module, values):
-        return module.Keys(abs(values[0]), "slow" if values[0] >= 0 else "quick")
+    def keys(values):
+        return {"eccentricity": abs(values[0]), "phase": "slow" if values[0] >= 0 else "quick"}
 
     @staticmethod
     def textbook(values, phi):
@@ -203,10 +204,6 @@ class GearedSideCrank(SideCrank):
 
     few = ((0.6,),)
     values = ((0.3,), (-0.6,), (0.97,), (-1.0 + 1e-9,))
-
-    @staticmethod
-    def keys(module, values):
-        return module.Keys(A=values[0])
 
 
 class Pair:
@@ -230,8 +227,8 @@ class Pair:
         return mp.asin(mp.sin(f) / mp.sin(mp.pi / values[0])).real - f
 
     @staticmethod
-    def keys(module, values):
-        return module.Keys(*values)
+    def keys(values):
+        return {"first_z": values[0]}
 
     @staticmethod
     def textbook(values, phi):
@@ -279,12 +276,9 @@ class RatioFile:
                 break
         return phi
 
-    def keys(self, module, values):
-        self.file = tempfile.NamedTemporaryFile("w", suffix=".csv")  # noqa: SIM115
-        for row in zip(self.deg, (*values, values[0]), strict=True):
-            self.file.write("{!r},{!r}\n".format(*row))
-        self.file.flush()
-        return module.Keys(ratio_file=self.file.name)
+    def keys(self, values):
+        rows = zip(self.deg, (*values, values[0]), strict=True)
+        return {"ratio": from_file(rows, registry.drive(self.kind), "ratio")}
 
     def textbook(self, _, phi):
         ratio = self.spline.by_scipy()
@@ -420,6 +414,15 @@ OTHERS = {
 }
 
 
+def from_file(rows, cls, attribute):
+    """Points as the reader hands them over, from a file of them."""
+    with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+        for row in rows:
+            file.write("{!r},{!r}\n".format(*row))
+        file.flush()
+        return points(file.name, cls, attribute)
+
+
 def exactly(values):
     """Doubles as they are; whole numbers, which have no last place, stay whole."""
     return tuple(v if isinstance(v, int) else mp.mpf(v) for v in values)
@@ -435,20 +438,17 @@ def variations(values, h):
 
 def spec_of(z, gearing, kind, values, rollers=1, motion=None, L=100.0):
     front = FRONTS[kind]
-    kind = getattr(front, "kind", kind)
-    module = importlib.import_module(f"geneva_cli.machine.drives.{drives.KINDS[kind]}")
-    own = front.keys(module, values)
+    drive = registry.drive(getattr(front, "kind", kind))
     return Spec(
-        wheel=Wheel(z=z, gearing=gearing),
-        drive=Drive(kind=kind, rollers=rollers),
-        kind=own,
-        motion=motion or Motion(),
+        Wheel(z, gearing),
+        drive(rollers=rollers, **front.keys(values)),
+        motion=motion,
         size=Size(center_distance_mm=L),
     )
 
 
 class Straight:
-    """Straight radial slots; ``at`` takes the input angle since the station's mid-motion."""
+    """Straight radial slots; ``at`` takes the input angle since the engagement's mid-motion."""
 
     def __init__(self, z, gearing, kind, values, behind=0):
         self.g, self.front = SIGN[gearing], FRONTS[kind]
@@ -694,7 +694,7 @@ def compare_peaks(table, machine, got, exact, half, where, more=None):
 
 
 def drive_cases():
-    for kind in drives.KINDS:
+    for kind in DRIVES:
         if kind in FRONTS:
             for values in FRONTS[kind].few:
                 yield kind, values
@@ -942,19 +942,16 @@ def point_cases(sample):
                 yield u, [0.0, *[round(smooth(v), digits) for v in u[1:-1]], 1.0]
 
 
-def points(table, sample):
+def law_files(table, sample):
     """Curved slots of a law from a file."""
     for u, s in point_cases(sample):
         series = Points(u, s)
-        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
-            for row in zip(u, s, strict=True):
-                file.write("{!r},{!r}\n".format(*row))
-            file.flush()
-            motion = Motion(law="table", file=file.name, alpha0_deg=-10.0)
-            mechanism = strictly(build, spec_of(6, "external", "crank", (), 1, motion))
-            where = f"{len(u)} points, the second {u[1]!r},{s[1]!r}"
-            args = (series, series.peaks(), (), Plain, "external", 6, None, where)
-            laid_out(table, "curved, table", mechanism, *args)
+        read_points = from_file(zip(u, s, strict=True), registry.law("table"), "points")
+        motion = given.Motion(law("table", read_points), alpha0_deg=-10.0)
+        mechanism = strictly(build, spec_of(6, "external", "crank", (), 1, motion))
+        where = f"{len(u)} points, the second {u[1]!r},{s[1]!r}"
+        args = (series, series.peaks(), (), Plain, "external", 6, None, where)
+        laid_out(table, "curved, table", mechanism, *args)
 
 
 def law_cases(sample):
@@ -1137,11 +1134,11 @@ def read(text):
 
 def varied_specs(spec):
     """The spec with each of its numbers that shape the motion one unit up, a number at a time."""
-    for part in ("wheel", "kind", "motion"):
-        for key, v in (getattr(spec, part) or keys.Motion())._asdict().items():
-            if isinstance(v, float) and v:
-                up = getattr(spec, part)._replace(**{key: math.nextafter(v, math.inf)})
-                yield spec.but(**{part: up})
+    common = {field.key for field in fields(Drive)}
+    for part in ("wheel", "drive", "motion"):
+        for key, v in spec.table(part).items():
+            if isinstance(v, float) and v and key not in common:
+                yield spec.with_(f"{part}.{key}", math.nextafter(v, math.inf))
 
 
 def other_one(table, name, text, mechanism, sample):
@@ -1190,7 +1187,7 @@ def other_one(table, name, text, mechanism, sample):
         compare(table, name, engagement, x, exact, peak, condition, place)
 
 
-def kernel(table, sample):
+def arrays(table, sample):
     """The closed form as l nears 1, where the textbook's denominator is all rounding."""
     for k in range(1, 16):
         for gearing, g in SIGN.items():
@@ -1205,7 +1202,7 @@ def kernel(table, sample):
             C = [g * mp.mpf(l) * mp.expj(-g * radians(v)) for v in x]
             turn = -1j * g
             exact = [angle_rates((1 - c, *[-c * turn**n for n in range(1, 6)])) for c in C]
-            got = strictly(Kernel(float(g), l, rest).derivatives, x, (0, 1, 2, 3))
+            got = strictly(ClassicArrays(float(g), l, rest).derivatives, x, (0, 1, 2, 3))
             book = textbook_wheel(g, l, np.radians(x))
             place = [f"l=1-1e-{k} at {v:.17g}" for v in x]
             for n, name in enumerate(NAMES):
@@ -1216,7 +1213,7 @@ def kernel(table, sample):
                 step = np.radians([math.ulp(v) for v in x])
                 # at the line of centres the slope is 0, and the bend is what moves it
                 c = np.maximum(slope, bend * step / 2.0) * step / u
-                row = (f"kernel, {gearing}, l to 1", name)
+                row = (f"classic arrays, {gearing}, l to 1", name)
                 table.add(row, ulps(got[n], values, u), c, place, ulps(book[n], values, u))
 
 
@@ -1262,16 +1259,15 @@ def missing():
     """What the registries hold and nobody has written a witness for."""
     # a gear sector is a straight slot and a straight line: test_gear_sector.py has its witness
     known = {*FRONTS, *OTHERS, *SIGN, "gear-sector"}
-    out = [f'drive kind "{kind}"' for kind in drives.KINDS if kind not in known]
-    gearings = next(f.rule for f in fields(Wheel) if f.key == "gearing")
-    out += [f'gearing "{g}"' for g in gearings if g not in known]
+    out = [f'drive kind "{kind}"' for kind in DRIVES if kind not in known]
+    out += [f'gearing "{g}"' for g in GEARINGS if g not in known]
     return out + [f'law "{name}"' for name in LAWS if name not in LAW_WITNESSES]
 
 
 def parts(sample):
     """What the table is made of: each part's name, and a function that fills the table with it."""
     out = {}
-    for kind in drives.KINDS:
+    for kind in DRIVES:
         if kind in FRONTS:
             fits = getattr(FRONTS[kind], "fits", lambda *_: True)
             for gearing in [g for g in SIGN if any(fits(v, g, 3) for v in FRONTS[kind].few)]:
@@ -1284,9 +1280,9 @@ def parts(sample):
         out[which] = partial(curved, rng=rng, name=name, shape=shape)
     for name in OTHERS:
         out[name] = partial(others, name=name)
-    out["curved, table"] = points
+    out["curved, table"] = law_files
     out["ratio file"] = ratio_files
-    out["kernel"] = kernel
+    out["classic arrays"] = arrays
     for name in LAWS:
         out[f"chords, {name}"] = partial(chords, rng=random.Random(name), name=name)
     return out
@@ -1311,7 +1307,7 @@ def run(sample):
         print(f"# {name}: {time.perf_counter() - start:.0f} s, {table.count} values so far",
               file=sys.stderr)  # fmt: skip
     for what in missing():
-        table.fault(f"{what}: no witness; write one in tests/stress.py")
+        table.fault(f"{what}: no witness; write one in tests/stress/stress.py")
     return table
 
 

@@ -50,8 +50,8 @@ def test_every_kind_has_a_witness():
 def test_the_table_can_tell():
     """Of the textbook's formulas it says how far they are off as l nears 1."""
     table = Table()
-    fill(table, PARTS["kernel"], sample=True)
-    row = ("kernel, external, l to 1", "acceleration")
+    fill(table, PARTS["classic arrays"], sample=True)
+    row = ("classic arrays, external, l to 1", "acceleration")
     assert table.textbook[row].error > 1e12
     table.add(row, [LIMIT + 1.0, math.nan], 1.0, "here")
     assert row in table.over
