@@ -42,7 +42,7 @@ class Convexity(NamedTuple):
     driven: float
 
 
-def gears_table(mechanism: Mechanism, samples: int | None = None) -> Table:
+def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Both pitch curves, each in its own gear's frame, x along the line of centres at input 0.
 
     The driver is given as it is cut, so its angle runs against the input; likewise the driven.

@@ -117,12 +117,13 @@ def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     sense = math.copysign(1.0, slope[i])
     for _ in range(HALVINGS):  # beside a corner of the groove the greatest is at it
         middle = 0.5 * (low + high)
-        R, slope, bend = (float(c[0]) for c in _distances(groove, np.array([middle])))
-        low, high = (middle, high) if sense * (R * bend - slope * slope) > 0.0 else (low, middle)
-    return math.degrees(math.atan(abs(slope) / R)), float(middle)
+        here = _distances(groove, np.array([middle]))
+        r, dr, ddr = (float(c[0]) for c in here)
+        low, high = (middle, high) if sense * (r * ddr - dr * dr) > 0.0 else (low, middle)
+    return math.degrees(math.atan(abs(dr) / r)), float(middle)
 
 
-def groove_table(mechanism: Mechanism, samples: int | None = None) -> Table:
+def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """The groove over the motion, evenly in the input angle, the crank's axis being the origin.
 
     x points away from the wheel's axis; left and right are the flanks as the roller travels. The

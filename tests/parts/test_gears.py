@@ -11,6 +11,10 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.gear_curves import convexity, gears_table
 from geneva_cli.parts.groove import _distances, groove_table
+from geneva_cli.spec.tables import Limits
+from geneva_cli.verdict.checks import checks
+
+TOL = 0.001
 
 
 def gears(A=None, ratio=None):
@@ -35,7 +39,7 @@ def test_they_move_the_wheel_as_the_side_crank_does():
 
 
 def test_pitch_curves_roll_on_each_other():
-    at = columns(gears_table(gears(0.6), 2001))
+    at = columns(gears_table(gears(0.6), TOL, 2001))
     assert at["driver_radius_mm"] + at["driven_radius_mm"] == pytest.approx(120.0, rel=1e-15)
     arcs = []
     for name in ("driver", "driven"):
@@ -49,7 +53,7 @@ def test_elliptical_gears_are_ellipses():
     """Equal ellipses about their foci: r = C (1-e²)/2 / (1 -+ e cos), and always convex."""
     keys = Keys("elliptical-gears", 0.3)
     mechanism = build(Spec(Wheel(6), Drive("elliptical-gears"), keys))
-    at = columns(gears_table(mechanism, 101))
+    at = columns(gears_table(mechanism, TOL, 101))
     expected = 100.0 * 0.5 * (1.0 - 0.09) / (1.0 + 0.3 * np.cos(np.radians(at["input_deg"])))
     assert at["driver_radius_mm"] == pytest.approx(expected, rel=1e-14)
     assert min(convexity(mechanism.spec.drive.gears)) > 0.0
@@ -90,7 +94,7 @@ def test_a_ratio_that_no_gears_have(tmp_path, change, said):
 def test_the_groove_against_the_law_of_sines():
     """R = L sin psi / sin(phi + psi), from the law's closed form."""
     spec = Spec(Wheel(6), Drive("cam"), Keys("cam"), Motion("cycloidal"))
-    at = columns(groove_table(build(spec), 25))
+    at = columns(groove_table(build(spec), TOL, 25))
     phi = np.radians(at["input_deg"])
     u = at["input_deg"] / 120.0 + 0.5
     psi = math.pi / 3.0 * (u - np.sin(2.0 * math.pi * u) / (2.0 * math.pi) - 0.5)
@@ -104,7 +108,7 @@ def test_the_groove_against_the_law_of_sines():
 @pytest.mark.parametrize("table", [gears_table, groove_table])
 def test_a_plain_crank_has_neither(table):
     with pytest.raises(GenevaError, match="has none"):
-        table(build(Spec(Wheel(6))))
+        table(build(Spec(Wheel(6))), TOL, None)
 
 
 @pytest.mark.parametrize(("z", "alpha0"), [(6, 0.0), (4, -20.0), (8, 10.0)])
@@ -121,3 +125,28 @@ def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
     assert np.abs(np.diff(R) / h - 0.5 * (slope[1:] + slope[:-1])).max() < 1e-4
     assert np.abs(np.diff(slope) / h - 0.5 * (bend[1:] + bend[:-1])).max() < 1e-2
     assert np.abs(np.diff(bend)).max() < 100.0 * h
+
+
+@pytest.mark.parametrize(("z", "law", "alpha0"), [(6, "cycloidal", 0.0), (4, "3-4-5", -20.0)])
+def test_the_grooves_greatest_pressure_angle(z, law, alpha0):
+    """All round, dwell too, against differences of the logarithm of the roller's distance.
+
+    Central differences over 1e-4 deg are good to 1e-9 rad here, and a grid of 1/100 deg misses a
+    smooth greatest by less than that.
+    """
+    motion = Motion(law, alpha0_deg=alpha0)
+    mechanism = build(Spec(Wheel(z), Drive("cam"), Keys("cam"), motion))
+    groove = mechanism.engagements[0].groove
+    x = groove.motion.entry_deg + np.arange(0.0, 360.0, 0.01)
+    h = 1e-4
+    ahead, behind = (np.log(_distances(groove, x + side * h)[0]) for side in (0.5, -0.5))
+    angle = np.degrees(np.arctan(np.abs(ahead - behind) / np.radians(h)))
+    row = next(c for c in checks(mechanism, parts=False) if c.name == "groove_pressure_deg")
+    assert row.value == pytest.approx(angle.max(), abs=1e-6)
+    turned = x[angle > angle.max() - 1e-6] - row.at_deg
+    assert min(abs(np.remainder(turned + 180.0, 360.0) - 180.0)) < 0.1
+    assert row.passes
+    limits = Limits(pressure_angle_max_deg=0.5 * row.value)
+    held = build(Spec(Wheel(z), Drive("cam"), Keys("cam"), motion, limits=limits))
+    names = {c.name: c.passes for c in checks(held, parts=False)}
+    assert names["groove_pressure_deg"] is False

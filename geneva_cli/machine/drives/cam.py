@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.drive import Needs, Plan
+from geneva_cli.machine.drives.drive import Example, Needs, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Engagement, Turning
 from geneva_cli.machine.law_motion import LawMotion
@@ -29,6 +29,13 @@ class Cam(PinPath):
 
     NAME: ClassVar[str] = "cam"
     WORDS: ClassVar[str] = "a crank whose roller runs in a cam"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a cam-Geneva: straight slots, and a law that a fixed cam makes",
+        {
+            "wheel": {"z": 6},
+            "motion": {"law": "cycloidal"},
+        },
+    )
     GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal")
     LAW: ClassVar[Needs] = Needs.LAW
     ONE_ROLLER: ClassVar[bool] = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.machine.engagement import Displacement, Engagement
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
@@ -43,6 +43,13 @@ class Gears(NamedTuple):
     advance: Displacement
 
 
+class Example(NamedTuple):
+    """A machine to start from: what it is, and the keys that it sets, table by table."""
+
+    about: str
+    tables: dict[str, dict[str, Any]]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Drive(Table):
     """A kind of drive. Its fields are the keys of ``[drive]``."""
@@ -51,6 +58,8 @@ class Drive(Table):
     NAME: ClassVar[str]
     # what drives the wheel, in a sentence
     WORDS: ClassVar[str]
+    # a spec to start from, its kind left out
+    EXAMPLE: ClassVar[Example]
     GEARINGS: ClassVar[tuple[str, ...]]  # the wheels that it drives
     LAW: ClassVar[Needs]
     # how many rollers: any number, placed as one likes, or one; several only with like motions

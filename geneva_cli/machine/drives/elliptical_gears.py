@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.drive import Gears
+from geneva_cli.machine.drives.drive import Example, Gears
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.jet import Coefficient, Jet, library, sine_versine_of
@@ -30,6 +30,13 @@ class EllipticalGears(Transmission):
 
     NAME: ClassVar[str] = "elliptical-gears"
     WORDS: ClassVar[str] = "a crank behind elliptical gears"
+    EXAMPLE: ClassVar[Example] = Example(
+        "equal elliptical gears in front: a slower, softer index",
+        {
+            "wheel": {"z": 6},
+            "drive": {"eccentricity": 0.3},
+        },
+    )
     GEARED: ClassVar[bool] = True
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "which index is at mid-motion"] = "slow"

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import path_and_slot
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
@@ -31,6 +31,14 @@ class Epicyclic(PinPath):
 
     NAME: ClassVar[str] = "epicyclic"
     WORDS: ClassVar[str] = "a roller on a planet gear"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a gear-Geneva: the roller on a planet enters without a jump",
+        {
+            "wheel": {"z": 4},
+            "drive": {"planet_ratio": "shockless", "fixed": "sun"},
+            "size": {"roller_radius_mm": 4.0},
+        },
+    )
     planet_ratio: Annotated[
         float | str,
         Words(Range(-0.4, 0.4), ("shockless",)),

@@ -12,6 +12,7 @@ from decimal import Decimal
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Example
 from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
 from geneva_cli.machine.wheel_for_path import Path, Way
 from geneva_cli.numerics.jet import Jet, sqrt
@@ -24,6 +25,22 @@ class FourBar(Linkage):
 
     NAME: ClassVar[str] = "four-bar"
     WORDS: ClassVar[str] = "a point of a four-bar linkage"
+    EXAMPLE: ClassVar[Example] = Example(
+        "the roller on a four-bar's coupler",
+        {
+            "wheel": {"z": 4, "held_by": "detent"},
+            "drive": {
+                "crank_mm": 40.0,
+                "ground_mm": 90.0,
+                "coupler_mm": 100.0,
+                "rocker_mm": 100.0,
+                "point_mm": 161.51903573811165,
+                "point_deg": -36.13836508095113,
+                "entry_deg": 123.3,
+            },
+            "size": {"roller_radius_mm": 2.0},
+        },
+    )
     crank_mm: Annotated[float, POSITIVE, "crank a"]
     ground_mm: Annotated[float, POSITIVE, "distance g of the fixed pivots"]
     coupler_mm: Annotated[float, POSITIVE, "coupler b, from crank pin A to rocker pin B"]

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import Carried, same
 from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
@@ -34,6 +34,13 @@ class GearSector(PinPath):
 
     NAME: ClassVar[str] = "gear-sector"
     WORDS: ClassVar[str] = "a crank with gear sectors"
+    EXAMPLE: ClassVar[Example] = Example(
+        "slot, gears at a constant ratio, slot",
+        {
+            "wheel": {"z": 3},
+            "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"},
+        },
+    )
     OUTLINED: ClassVar[bool] = False
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle that the gears drive, D"]
     gear_ratio: Annotated[

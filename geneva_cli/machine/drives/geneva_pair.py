@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
+from geneva_cli.machine.drives.drive import Example
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import sin_cos_pi
@@ -24,6 +25,13 @@ class GenevaPair(Transmission):
 
     NAME: ClassVar[str] = "geneva-pair"
     WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
+    EXAMPLE: ClassVar[Example] = Example(
+        "two wheels in series: one index in many turns",
+        {
+            "wheel": {"z": 4},
+            "drive": {"first_z": 4},
+        },
+    )
     ONE_ROLLER: ClassVar[bool] = True
     first_z: Annotated[int, Range(3, Z_MAX), "slots of the first wheel, external"]
 

@@ -16,7 +16,7 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Gears
+from geneva_cli.machine.drives.drive import Example, Gears
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import PeakKnown
 from geneva_cli.machine.wheels.gearing import Gearing, Place
@@ -36,6 +36,13 @@ class NoncircularGears(Transmission):
 
     NAME: ClassVar[str] = "noncircular-gears"
     WORDS: ClassVar[str] = "a crank behind noncircular gears"
+    EXAMPLE: ClassVar[Example] = Example(
+        "noncircular gears in front, with the ratio of a side-crank",
+        {
+            "wheel": {"z": 6},
+            "drive": {"A": 0.6},
+        },
+    )
     GEARED: ClassVar[bool] = True
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "the side-crank's ratio, as gears"] = None
     ratio: Annotated[

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
+from geneva_cli.machine.drives.drive import Example
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import PeakKnown
 from geneva_cli.machine.wheels.gearing import Gearing, Place
@@ -22,6 +23,13 @@ class SideCrank(Transmission):
 
     NAME: ClassVar[str] = "side-crank"
     WORDS: ClassVar[str] = "a side-crank"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a side-crank drive: a slower, softer index",
+        {
+            "wheel": {"z": 6},
+            "drive": {"A": 0.6},
+        },
+    )
     A: Annotated[
         float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank length; > 0 is slower"
     ]

@@ -12,6 +12,7 @@ from decimal import Decimal
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Example
 from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
 from geneva_cli.machine.wheel_for_path import Path, Way
 from geneva_cli.numerics.jet import Jet, sqrt
@@ -24,6 +25,14 @@ class SliderCrank(Linkage):
 
     NAME: ClassVar[str] = "slider-crank"
     WORDS: ClassVar[str] = "a point of a slider-crank"
+    EXAMPLE: ClassVar[Example] = Example(
+        "the roller on a slider-crank's rod",
+        {
+            "wheel": {"z": 8, "held_by": "detent"},
+            "drive": {"crank_mm": 40.0, "rod_mm": 100.0, "point_mm": 80.0, "point_deg": 90.0},
+            "size": {"roller_radius_mm": 6.0},
+        },
+    )
     crank_mm: Annotated[float, POSITIVE, "crank a"]
     rod_mm: Annotated[float, POSITIVE, "connecting rod b, from crank pin A to slider B"]
     point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]

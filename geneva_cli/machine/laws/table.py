@@ -31,9 +31,7 @@ class TableLaw(Law):
     # The points of s are rounded by 1e-16, which moves a third derivative by some 1e-16 / step³: at
     # this step, 10,001 points in all, by 1e-4 of a usual law's; ten times closer the jerk is
     # nothing else, with a peak at every point. Past ten times its rise a law is a mistake.
-    points: Annotated[
-        Points, Csv("file", "u", "s", 0.9e-4, 10.0, 6), "CSV of u,s points for the law `table`"
-    ]
+    points: Annotated[Points, Csv("file", "u", "s", 0.9e-4, 10.0, 6), "points of the law `table`"]
 
     def __post_init__(self) -> None:
         super().__post_init__()
