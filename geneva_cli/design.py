@@ -204,10 +204,12 @@ class Design:
         return self.proof.found
 
     def drawn(self, tolerance_mm: float) -> Proof:
-        """The parts as they are written for a tolerance, and their full turn."""
+        """The parts as they are written for a tolerance in mm above 0, and their full turn."""
         from geneva_cli.parts.outlines import outlines
         from geneva_cli.parts.proof import Proof
 
+        if not tolerance_mm > 0.0:
+            raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
         made = self._located(lambda: outlines(self.mechanism, tolerance_mm))
         return Proof(self.mechanism, made)
 

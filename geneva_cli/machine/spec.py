@@ -6,13 +6,13 @@ import dataclasses
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Self
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import FINITE, Range, Words
-from geneva_cli.spec.schema import Table, fields
+from geneva_cli.spec.schema import Table, fields, unknown
 from geneva_cli.spec.tables import DISTANCE_MM, Z_DRAWN, Limits, Load, Size
 
 LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  # limits on loads
@@ -30,6 +30,26 @@ class Motion(Table):
         Words(Range(0.0, 1.0, "()"), ("matched",)),
         'R/L of curved slots, or "matched"',
     ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _refuse_other(self, "law", Law, "Cycloidal()")
+
+    def with_key(self, key: str, value: Any) -> Self:
+        """The same with one key of the motion or of its law changed; None: its default."""
+        law, own = ([f.key for f in fields(type(part))] for part in (self.law, self))
+        if key in law:
+            return self.but(law=self.law.with_key(key, value))
+        if key not in own:
+            raise unknown(key, self.TABLE, (*law, *own))
+        return super().with_key(key, value)
+
+
+def _refuse_other(of: Any, name: str, kind: type, example: str) -> None:
+    """A Python user may give the word of a file, or a class, for the object that it stands for."""
+    given = getattr(of, name)
+    if not isinstance(given, kind):
+        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(given))}")
 
 
 @dataclass(frozen=True)
@@ -50,6 +70,13 @@ class Spec:
     files: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        _refuse_other(self, "wheel", Gearing, "External(6)")
+        _refuse_other(self, "drive", Drive, "Crank(n_rpm=60)")
+        if self.motion is not None:
+            _refuse_other(self, "motion", Motion, "Motion(Cycloidal())")
+        _refuse_other(self, "size", Size, "Size(center_distance_mm=100)")
+        _refuse_other(self, "load", Load, "Load(torque_Nm=5)")
+        _refuse_other(self, "limits", Limits, "Limits(velocity_max=1)")
         if self.limits.contact_stress_max_MPa is not None and self.size.face_width_mm is None:
             raise GenevaError(
                 "contact_stress_max_MPa needs the length of the line of contact: set face_width_mm "
@@ -97,10 +124,10 @@ class Spec:
             "load": self.load,
             "limits": self.limits,
         }.get(table)
-        if isinstance(part, Motion) and name in {f.key for f in fields(type(part.law))}:
-            return self.but(motion=part.but(law=part.law.with_key(name, value)))
         if part is None:
             raise GenevaError(f"{key}: this spec has no [{table}]", (table, name))
+        if part is self.motion:
+            return self.but(motion=self.motion.with_key(name, value))
         return self.but(**{table: part.with_key(name, value)})
 
     @property

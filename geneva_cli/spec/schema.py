@@ -78,13 +78,12 @@ class Table:
         """The same with one key, as it is written in the file, changed; None: its default."""
         known = {field.key: field for field in fields(type(self))}
         if key not in known:
-            raise GenevaError(
-                f"unknown key {key} in [{self.TABLE}]{nearest(key, known)}; known: "
-                f"{', '.join(known)}",
-                (self.TABLE, key),
-            )
+            raise unknown(key, self.TABLE, tuple(known))
         field = known[key]
-        return self.but(**{field.attribute: field.default if value is None else value})
+        if value is None:
+            require(type(self), [k for k in known if k != key])
+            value = field.default
+        return self.but(**{field.attribute: value})
 
     def but(self, **changes: Any) -> Self:
         """The same with some of its fields changed, checked like any other."""
@@ -180,6 +179,14 @@ def _pairs(place: tuple[str, str], field: Field, value: Any) -> tuple[tuple[floa
         raise GenevaError(
             f"{field.key}: points are pairs of numbers {field.rule.x},{field.rule.y}", place
         ) from None
+
+
+def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
+    """What is said of a key that a table does not have."""
+    return GenevaError(
+        f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {', '.join(known)}",
+        (table, key),
+    )
 
 
 def require(table: type[Table], given: Sequence[str], why: str = "") -> None:

@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError, clean, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.spec.rules import Csv
-from geneva_cli.spec.schema import REQUIRED, Points, Table, fields, require, shown
+from geneva_cli.spec.schema import REQUIRED, Points, Table, fields, require, shown, unknown
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.specfile.lines import line_of
 from geneva_cli.specfile.points import read_pairs
@@ -196,7 +196,7 @@ def _refuse_lawless(given: dict[str, Any]) -> None:
                 ("motion", key),
             )
         if key not in known:
-            raise _unknown(key, "motion", ("law", *known))
+            raise unknown(key, "motion", ("law", *known))
 
 
 def _refuse_foreign(
@@ -230,17 +230,10 @@ def _values(
     out = {}
     for key, value in given.items():
         if key not in known:
-            raise _unknown(key, cls.TABLE, (*also, *known))
+            raise unknown(key, cls.TABLE, (*also, *known))
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)
         out[field.attribute] = files.points(value, rule, (cls.TABLE, key)) if named else value
     require(cls, tuple(given), why)
     return out
-
-
-def _unknown(key: str, table: str, known: tuple[str, ...]) -> GenevaError:
-    return GenevaError(
-        f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {', '.join(known)}",
-        (table, key),
-    )
