@@ -1,7 +1,6 @@
 """Specs that ``geneva new`` writes: valid, complete, and true to the keys."""
 
 from pathlib import Path
-from typing import Any
 
 import pytest
 import tomli
@@ -18,11 +17,16 @@ LAWS = [registry.law(name) for name in registry.LAWS]
 WORDS = {"wheel": "gearing", "drive": "kind", "motion": "law"}  # the keys that name a kind
 
 
-def kinds(wheel: dict[str, Any], drive: dict[str, Any]) -> list[type[Table]]:
+def words(kind: str) -> tuple[str, str]:
+    """The gearing and the drive that a template sets."""
+    tree = tomli.loads(template(kind))
+    return tree["wheel"].get("gearing", "external"), tree["drive"].get("kind", "crank")
+
+
+def tables(kind: str) -> list[type[Table]]:
     """The classes whose fields are the keys of a template, all laws among them."""
-    gearing = registry.gearing(wheel.get("gearing", "external"))
-    kind = registry.drive(drive.get("kind", "crank"))
-    return [gearing, kind, *LAWS, Motion, Size, Load, Limits]
+    gearing, drive = words(kind)
+    return [registry.gearing(gearing), registry.drive(drive), *LAWS, Motion, Size, Load, Limits]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -35,10 +39,9 @@ def test_a_new_spec_loads_and_passes(kind: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_key_is_there(kind: str) -> None:
     text = template(kind)
-    given = KINDS[kind][1]
     keys = set(WORDS.items())
-    for table in kinds(given["wheel"], given.get("drive", {})):
-        keys |= {(table.TABLE, field.key) for field in fields(table) if field.key != "law"}
+    for table in tables(kind):
+        keys |= {(table.TABLE, field.key) for field in fields(table)}
     assert {name for name, _ in keys} == {"wheel", "drive", "motion", "size", "load", "limits"}
     for name, key in keys:
         _, _, table = text.partition(f"\n[{name}]\n")
@@ -48,8 +51,9 @@ def test_every_key_is_there(kind: str) -> None:
 
 def test_every_kind_of_drive_has_a_template() -> None:
     """So that every key of `[drive]` is in one of them, beside the others of its kind."""
-    begun = {given.get("drive", {}).get("kind", "crank") for _, given in KINDS.values()}
-    assert begun == set(registry.DRIVES)
+    begun = [words(kind) for kind in KINDS]
+    assert {drive for _, drive in begun} == set(registry.DRIVES)
+    assert {gearing for gearing, _ in begun} == set(registry.GEARINGS)
 
 
 def test_the_defaults_shown_are_the_defaults() -> None:
@@ -60,7 +64,7 @@ def test_the_defaults_shown_are_the_defaults() -> None:
     ]
     tree = tomli.loads("\n".join(shown))
     seen = set()
-    for table in kinds({}, {}):
+    for table in tables("external"):
         for field in fields(table):
             if field.key in tree[table.TABLE] and field.default is not REQUIRED:
                 assert tree[table.TABLE][field.key] == field.default
