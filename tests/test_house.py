@@ -178,6 +178,15 @@ def test_commands_and_subjects_do_not_know_each_other(room_of):
         assert not (ours(source(member)) & members) - {member}, member
 
 
+def test_commands_ask_a_design():
+    """A command knows a machine only as the object that a Python user has."""
+    asked = {m for module in MODULES if room(module) == "commands" for m in ours(source(module))}
+    inner = {"machine", "spec", "parts", "verdict", "analysis", "curves", "numerics", "specfile"}
+    # of laws alone, of templates, and of units: there is no machine yet
+    alone = {"analysis.law_values", "specfile.template", "curves.pieces"}
+    assert {m for m in asked if room(m) in inner} - alone == set()
+
+
 @pytest.mark.parametrize("module", [m for m in MODULES if room(m) not in STREAMS])
 def test_touches_no_stream(module):
     assert list(streams(source(module))) == []

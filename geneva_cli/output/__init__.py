@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 DRAWN = {"dxf": "dxf", "svg": "svg"}  # of drawings only; they are written in FORMATS as tables
-EXTENSIONS = {"txt": "table", **{name: name for name in ("csv", "json", "md", "dxf", "svg")}}
+EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN)}
 
 
 class Format(Protocol):
