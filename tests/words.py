@@ -37,13 +37,7 @@ def Keys(kind, *values, **named):
     cls = registry.drive(kind)
     own = [f.attribute for f in fields(cls) if f.attribute not in common]
     own.sort(key=lambda name: name not in cls.__annotations__)  # a base's come last
-    return dict(zip(own, values, strict=False)) | named
-
-
-def law(name, *values, **own):
-    """A law by its name, with its parameters in their order or by name."""
-    cls = registry.law(name)
-    return cls(**dict(zip([f.attribute for f in fields(cls)], values, strict=False)), **own)
+    return dict(zip(own[: len(values)], values, strict=True)) | named
 
 
 def points(path, cls, attribute):
@@ -57,10 +51,7 @@ def Motion(law=None, lambda_=None, *, alpha0_deg=0.0, ratio=None):
     """A motion by its law's name; None for none, as of straight slots."""
     if law is None:
         return None
-    shape = {} if lambda_ is None else {"lambda_": lambda_}
-    own = {f.attribute for f in fields(registry.law(law))}
-    assert set(shape) <= own or not lambda_
-    shape = {k: v for k, v in shape.items() if k in own}
+    shape = {"lambda_": lambda_} if lambda_ else {}
     return given.Motion(registry.law(law)(**shape), alpha0_deg, ratio)
 
 
@@ -79,9 +70,9 @@ def load(path):
     return design.load(str(path)).mechanism
 
 
-def named(name, shape=None):
+def named(name, shape=0.0):
     """A motion law by its name; ``shape`` is the sine group's lambda."""
-    return Motion(name, shape or None).law
+    return Motion(name, shape).law
 
 
 LAWS = registry.STANDARD_LAWS  # those that need nothing more said
