@@ -40,6 +40,13 @@ def Keys(kind, *values, **named):
     return dict(zip(own[: len(values)], values, strict=True)) | named
 
 
+def law(name, *values, **own):
+    """A law by its name, with its parameters in their order or by name."""
+    cls = registry.law(name)
+    keys = [f.attribute for f in fields(cls)][: len(values)]
+    return cls(**dict(zip(keys, values, strict=True)), **own)
+
+
 def points(path, cls, attribute):
     """The points in a CSV file, as the reader hands them over."""
     field = next(f for f in fields(cls) if f.attribute == attribute)
@@ -72,7 +79,7 @@ def load(path):
 
 def named(name, shape=0.0):
     """A motion law by its name; ``shape`` is the sine group's lambda."""
-    return Motion(name, shape).law
+    return law(name, *[shape] if shape else [])
 
 
 LAWS = registry.STANDARD_LAWS  # those that need nothing more said
