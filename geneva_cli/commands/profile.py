@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geneva_cli.commands.options import Output, SpecPath, warn
+from geneva_cli.commands.options import Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.output import DRAWN, FORMATS
+from geneva_cli.parts.catalogue import PARTS
 
 if TYPE_CHECKING:
     from geneva_cli.design import Design
@@ -19,7 +21,7 @@ def run(
     spec: SpecPath,
     part: Annotated[
         str,
-        typer.Option(metavar="PART", help="slot, wheel, crank, assembly, gears or groove."),
+        typer.Option(metavar="PART", help=one_of(PARTS)),
     ] = "slot",
     tolerance: Annotated[
         float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
@@ -35,7 +37,7 @@ def run(
     output: Output = "-",
     format: Annotated[
         str,
-        typer.Option("--format", metavar="FORMAT", help="table, csv, json, md, dxf or svg."),
+        typer.Option("--format", metavar="FORMAT", help=one_of((*FORMATS, *DRAWN))),
     ] = "",
 ) -> None:
     """A part as points, or as a drawing to cut: the slot, the wheel, the crank, or all together.

@@ -9,11 +9,11 @@ import importlib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.outlines import Outlines
 
 
