@@ -1,6 +1,5 @@
 """Design, the Python API: the answers and the refusals of a file, each worked out once."""
 
-import doctest
 import inspect
 import math
 from functools import cached_property
@@ -8,7 +7,6 @@ from functools import cached_property
 import numpy as np
 import pytest
 import repo
-import test_house as house
 
 import geneva_cli
 from geneva_cli import (
@@ -35,6 +33,7 @@ from geneva_cli import (
     design,
     load,
 )
+from geneva_cli.machine import registry
 
 PRESS = {
     "size": Size(center_distance_mm=441.89, roller_radius_mm=20, face_width_mm=30),
@@ -388,12 +387,6 @@ def test_every_member_says_what_it_is(name):
     assert said.rstrip().endswith(".")
 
 
-def test_the_examples_are_true():
-    found = doctest.testmod(design)
-    assert found.attempted >= 4
-    assert found.failed == 0
-
-
 @pytest.mark.parametrize("name", geneva_cli.__all__)
 def test_every_name_can_be_imported(name):
     scope = {}
@@ -404,50 +397,5 @@ def test_every_name_can_be_imported(name):
 
 
 def test_every_kind_has_its_name_in_the_package():
-    kinds = (house.registry.GEARINGS, house.registry.DRIVES, house.registry.LAWS)
+    kinds = (registry.GEARINGS, registry.DRIVES, registry.LAWS)
     assert {path.partition(":")[2] for k in kinds for path in k.values()} <= set(geneva_cli.__all__)
-
-
-def test_a_name_that_is_not_there():
-    with pytest.raises(AttributeError, match="no attribute 'Desing'"):
-        _ = geneva_cli.Desing
-
-
-# Commands print what a Design or a study answers, and nothing beside them
-
-OPEN = {
-    "design",
-    "study",  # many designs
-    "bench",
-    "output",
-    "errors",
-    "commands.options",
-    "specfile.template",  # `new` writes no design of anybody's yet
-    "analysis.law_values",  # `laws` is about laws alone
-    "curves.pieces",  # `profile` names the units that drawings are written in
-}
-
-
-def beside(text):
-    """What a command imports that it should ask a Design for."""
-    return {m for m in house.ours(text) if m not in OPEN and house.room(m) not in OPEN}
-
-
-@pytest.mark.parametrize("module", [m for m in house.MODULES if house.room(m) == "commands"])
-def test_commands_use_designs_and_studies_alone(module):
-    assert beside(house.source(module)) == set()
-
-
-def test_what_is_open_is_used():
-    used = {m for m in house.MODULES if house.room(m) == "commands"}
-    used = set().union(*(house.ours(house.source(m)) for m in used))
-    assert {m for m in OPEN if not any(u == m or house.room(u) == m for u in used)} == set()
-
-
-def test_a_command_that_goes_round_the_design_would_be_noticed():
-    for line in (
-        "from geneva_cli.machine.mechanism import build",
-        "def run():\n    from geneva_cli.analysis.peaks import worst",
-        "from geneva_cli.specfile import reader",
-    ):
-        assert beside(line)

@@ -34,6 +34,9 @@ MEMBERS = {
 }
 STREAMS = {"app", "streams", "__main__", "specfile", "output", "commands"}
 TYPER = {"app", "streams", "__main__", "commands"}
+# What commands know besides designs and studies: laws alone, templates, units and the names of
+# parts; there is no machine yet.
+ALONE = {"analysis.law_values", "specfile.template", "curves.pieces", "parts.catalogue"}
 # A kind's names; "table" is a law, and also what people are shown.
 NAMES = {*registry.DRIVES, *registry.GEARINGS, *registry.LAWS} - {"table"}
 
@@ -109,6 +112,12 @@ def climbs(module, text):
     return sorted(above)
 
 
+def beside_designs(text):
+    """What a command imports that it should ask a Design or a study for."""
+    inner = {"machine", "spec", "parts", "verdict", "analysis", "curves", "numerics", "specfile"}
+    return {m for m in ours(text) if room(m) in inner} - ALONE
+
+
 def streams(text):
     """Calls and names in a source that touch a file or a stream."""
     for node in running(ast.parse(text)):
@@ -180,11 +189,22 @@ def test_commands_and_subjects_do_not_know_each_other(room_of):
 
 def test_commands_ask_a_design():
     """A command knows a machine only as the object that a Python user has."""
-    asked = {m for module in MODULES if room(module) == "commands" for m in ours(source(module))}
-    inner = {"machine", "spec", "parts", "verdict", "analysis", "curves", "numerics", "specfile"}
-    # of laws alone, of templates, of units and the names of parts: there is no machine yet
-    alone = {"analysis.law_values", "specfile.template", "curves.pieces", "parts.catalogue"}
-    assert {m for m in asked if room(m) in inner} - alone == set()
+    asked = [source(module) for module in MODULES if room(module) == "commands"]
+    assert {m for text in asked for m in beside_designs(text)} == set()
+    # and what is open is used
+    assert {m for text in asked for m in ours(text)} >= ALONE
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from geneva_cli.machine.mechanism import build",
+        "def run():\n    from geneva_cli.analysis.peaks import worst",
+        "from geneva_cli.specfile import reader",
+    ],
+)
+def test_a_command_that_goes_round_the_design_would_be_noticed(line):
+    assert beside_designs(line)
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if room(m) not in STREAMS])

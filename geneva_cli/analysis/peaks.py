@@ -153,7 +153,7 @@ def worst(mechanism: Mechanism) -> Peaks:
 
 
 def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
-    """A engagement's peaks, their angles the machine's input angles."""
+    """An engagement's peaks, their angles the machine's input angles."""
     found = peaks(engagement)
 
     def moved(p: Peak) -> Peak:

@@ -114,7 +114,7 @@ def corner(plane: Plane, engagement: Engagement, end: float, r: float) -> tuple[
 
 
 def rest(plane: Plane, engagement: Engagement, end: float) -> tuple[float, float]:
-    """The crank's axis in the wheel's frame before (-1) and after (1) a engagement's motion."""
+    """The crank's axis in the wheel's frame before (-1) and after (1) an engagement's motion."""
     b = -end * engagement.half_step
     return plane.L * math.cos(b), plane.L * math.sin(b)
 

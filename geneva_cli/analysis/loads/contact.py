@@ -32,7 +32,7 @@ class Contact(NamedTuple):
 
 
 def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> Contact:
-    """The contact at input angles (degrees, one or an array) from a engagement's mid-motion.
+    """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
     At mid-motion of a curved slot only the values have a limit, that of the way in: there
     ``order`` must be 0.

@@ -38,7 +38,7 @@ class State(NamedTuple):
 
 
 def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) -> State:
-    """The loads of a engagement at an input angle from its mid-motion, or at an array of angles."""
+    """An engagement's loads at an input angle from its mid-motion, or at an array of angles."""
     import numpy as np
 
     given = setting(mechanism)
