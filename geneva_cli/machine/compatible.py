@@ -33,7 +33,7 @@ CLASHES = (
         "roller_angles_deg",
     ),
     Clash(
-        lambda s: s.wheel.NAME not in s.drive.GEARINGS,
+        lambda s: s.drive.GEARINGS and s.wheel.NAME not in s.drive.GEARINGS,
         ("wheel", "gearing"),
         'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
     ),

@@ -60,7 +60,9 @@ class Drive(Table):
     WORDS: ClassVar[str]
     # a spec to start from, its kind left out
     EXAMPLE: ClassVar[Example]
-    GEARINGS: ClassVar[tuple[str, ...]]  # the wheels that it drives
+    GEARINGS: ClassVar[
+        tuple[str, ...]
+    ] = ()  # the only wheels that it drives; any, if none is named
     LAW: ClassVar[Needs]
     # how many rollers: any number, placed as one likes, or one; several only with like motions
     ONE_ROLLER: ClassVar[bool] = False

@@ -54,7 +54,6 @@ class Carried(NamedTuple):
 class Transmission(Drive):
     """A drive in front of the crank. ``about`` is all that a kind has to say."""
 
-    GEARINGS: ClassVar[tuple[str, ...]] = ("external", "internal", "spherical")
     LAW: ClassVar[Needs] = Needs.MAY
     CRANKED: ClassVar[bool] = True
 
