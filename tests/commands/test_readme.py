@@ -1,6 +1,6 @@
 """Every example in the README is run again, and its output compared.
 
-``GENEVA_UPDATE=1 pytest tests/test_readme.py`` writes today's output into the README.
+``GENEVA_UPDATE=1 pytest tests/commands/test_readme.py`` writes today's output into the README.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Random machines turned through a whole turn: `python tests/stress_outline.py --runs 2000`.
+"""Random machines turned through a whole turn: `tests/stress/stress_outline.py --runs 2000`.
 
 First every number of slots, some two minutes; then about a second for each machine. Each is
 compared with polygons at some positions; those refused are counted, with their reasons. The exit
