@@ -28,19 +28,19 @@ bench: .venv/dev
 
 # Numerical stress against mpmath, then random machines turned; half an hour.
 stress: .venv/dev
-	$(BIN)/python tests/stress.py
-	$(BIN)/python tests/stress_outline.py
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
 
 # A million random specs, and 20,000 machines with parts; hours. Stopped, it goes on from there;
 # another seed, or new code, begins again: rm build/fuzz-*.json.
 fuzz: .venv/dev
 	@mkdir -p build
-	$(BIN)/python tests/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
-	$(BIN)/python tests/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev
-	$(BIN)/python tests/bench_start.py
+	PYTHONPATH=tests $(BIN)/python tests/bench/bench_start.py
 
 .venv/python:
 	@test -n "$(PYTHON)" || { echo "make: no Python 3.11 or newer found; set PYTHON=..." >&2; exit 1; }

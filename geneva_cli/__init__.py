@@ -1,3 +1,89 @@
-"""Design calculator for Geneva (Maltese-cross) mechanisms."""
+"""Design calculator for Geneva (Maltese-cross) mechanisms.
+
+    from geneva_cli import load, Design, External, SideCrank
+
+What is imported from here is loaded when it is first asked for.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # what a type checker sees
+    from geneva_cli.design import Design as Design
+    from geneva_cli.design import load as load
+    from geneva_cli.errors import GenevaError as GenevaError
+    from geneva_cli.machine.drives.cam import Cam as Cam
+    from geneva_cli.machine.drives.crank import Crank as Crank
+    from geneva_cli.machine.drives.elliptical_gears import EllipticalGears as EllipticalGears
+    from geneva_cli.machine.drives.epicyclic import Epicyclic as Epicyclic
+    from geneva_cli.machine.drives.four_bar import FourBar as FourBar
+    from geneva_cli.machine.drives.gear_sector import GearSector as GearSector
+    from geneva_cli.machine.drives.geneva_pair import GenevaPair as GenevaPair
+    from geneva_cli.machine.drives.noncircular_gears import NoncircularGears as NoncircularGears
+    from geneva_cli.machine.drives.side_crank import SideCrank as SideCrank
+    from geneva_cli.machine.drives.slider_crank import SliderCrank as SliderCrank
+    from geneva_cli.machine.laws.standard import Cycloidal as Cycloidal
+    from geneva_cli.machine.laws.standard import Harmonic as Harmonic
+    from geneva_cli.machine.laws.standard import ModifiedSine as ModifiedSine
+    from geneva_cli.machine.laws.standard import ModifiedTrapezoid as ModifiedTrapezoid
+    from geneva_cli.machine.laws.standard import Polynomial345 as Polynomial345
+    from geneva_cli.machine.laws.standard import Polynomial4567 as Polynomial4567
+    from geneva_cli.machine.laws.standard import SineGroup as SineGroup
+    from geneva_cli.machine.laws.table import TableLaw as TableLaw
+    from geneva_cli.machine.spec import Motion as Motion
+    from geneva_cli.machine.spec import Spec as Spec
+    from geneva_cli.machine.wheels.external import External as External
+    from geneva_cli.machine.wheels.internal import Internal as Internal
+    from geneva_cli.machine.wheels.spherical import Spherical as Spherical
+    from geneva_cli.spec.tables import Limits as Limits
+    from geneva_cli.spec.tables import Load as Load
+    from geneva_cli.spec.tables import Size as Size
 
 __version__ = "0.1.0"
+
+_FROM = {
+    "load": "design",
+    "Design": "design",
+    "GenevaError": "errors",
+    "Spec": "machine.spec",
+    "Motion": "machine.spec",
+    "Size": "spec.tables",
+    "Load": "spec.tables",
+    "Limits": "spec.tables",
+    "External": "machine.wheels.external",
+    "Internal": "machine.wheels.internal",
+    "Spherical": "machine.wheels.spherical",
+    "Crank": "machine.drives.crank",
+    "SideCrank": "machine.drives.side_crank",
+    "EllipticalGears": "machine.drives.elliptical_gears",
+    "NoncircularGears": "machine.drives.noncircular_gears",
+    "GenevaPair": "machine.drives.geneva_pair",
+    "FourBar": "machine.drives.four_bar",
+    "SliderCrank": "machine.drives.slider_crank",
+    "Epicyclic": "machine.drives.epicyclic",
+    "GearSector": "machine.drives.gear_sector",
+    "Cam": "machine.drives.cam",
+    "Harmonic": "machine.laws.standard",
+    "Cycloidal": "machine.laws.standard",
+    "ModifiedTrapezoid": "machine.laws.standard",
+    "ModifiedSine": "machine.laws.standard",
+    "Polynomial345": "machine.laws.standard",
+    "Polynomial4567": "machine.laws.standard",
+    "SineGroup": "machine.laws.standard",
+    "TableLaw": "machine.laws.table",
+}
+__all__ = ["__version__", *_FROM]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _FROM:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = vars(importlib.import_module(f"{__name__}.{_FROM[name]}"))[name]
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

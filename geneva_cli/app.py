@@ -7,10 +7,6 @@ what it shows.
 
 from __future__ import annotations
 
-import gc
-
-gc.disable()  # nothing that is imported is garbage; looking for it costs 5 % of the start
-
 import importlib
 import os
 import sys
@@ -65,7 +61,6 @@ class LazyGroup(TyperGroup):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; what a user can put right becomes a line and an exit code."""
-        gc.enable()
         try:
             return super().invoke(ctx)
         except GenevaError as error:

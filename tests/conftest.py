@@ -1,10 +1,9 @@
 """Machines under test, built as a spec would build them."""
 
 import pytest
+from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli.drives.side_crank import Keys
-from geneva_cli.keys import Drive, Motion, Spec, Wheel
-from geneva_cli.mechanism import build
+from geneva_cli.machine.mechanism import build
 
 
 @pytest.fixture(scope="session")
@@ -12,7 +11,7 @@ def machine():
     """A function to build a mechanism; A = 0 is a plain crank, other keywords are ``[motion]``."""
 
     def make(z, gearing="external", A=0.0, rollers=1, path="", **motion):
-        kind, keys = ("side-crank", Keys(A)) if A else ("crank", None)
+        kind, keys = ("side-crank", Keys("side-crank", A)) if A else ("crank", None)
         drive = Drive(kind, 60.0, rollers)
         return build(Spec(Wheel(z, gearing), drive, keys, motion=Motion(**motion), path=path))
 
@@ -20,6 +19,6 @@ def machine():
 
 
 @pytest.fixture(scope="session")
-def station(machine):
-    """A function to build a mechanism and take its first station."""
-    return lambda *args, **keys: machine(*args, **keys).stations[0]
+def engagement(machine):
+    """A function to build a mechanism and take its first engagement."""
+    return lambda *args, **keys: machine(*args, **keys).engagements[0]

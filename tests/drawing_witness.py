@@ -13,7 +13,7 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from geneva_cli.drawing import Arc, Circle, Cubic, Line, closed
+from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
 
 SHARES = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
 CHAIN = 1e-9  # how near ends must be to be one point; the files' last decimals are 1e-9 and 1e-12

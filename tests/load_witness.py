@@ -82,7 +82,7 @@ def coulisse(g, A):
 
 def planet(spec):
     """The body is a planet on a carrier, in mesh with a fixed gear about the crank's axis."""
-    keys, z = spec.kind, spec.wheel.z
+    keys, z = spec.drive, spec.wheel.z
     u = mp.mpf(2 * z) / (z - 2)
     c = 1 + u if keys.fixed == "sun" else 1 - u
     l = mp.sin(mp.pi / z)
@@ -117,8 +117,8 @@ def groove(g, pin):
 
 
 def link(spec, entry_deg, exit_deg):
-    """A four-bar's or slider-crank's coupler: the chain, and the motion (wheel, pin, entry)."""
-    keys, kind = spec.kind, spec.drive.kind
+    """A four-bar's or slider-crank's coupler: the chain, wheel and pin, and L in millimetres."""
+    keys, kind = spec.drive, spec.drive.NAME
     path, b = linkage(kind, keys), mp.pi / spec.wheel.z
     entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))
     middle = (entry + exit_) / 2
@@ -162,34 +162,35 @@ def link(spec, entry_deg, exit_deg):
     def angle(x):
         return sense * coupler(x)
 
-    return Chain(angle, shaft, sense), wheel, pin
+    return Chain(angle, shaft, sense), wheel, pin, abs(centre)
 
 
 def machine(spec, near=None):
-    """The chain, the wheel's angle and the roller's place of the machine's first station."""
+    """The chain, wheel's angle and roller's place of the first engagement, and L in millimetres."""
     if near:
         return link(spec, *near)
-    kind = spec.drive.kind
-    g = -1 if spec.wheel.gearing == "internal" else 1
+    kind = spec.drive.NAME
+    g = -1 if spec.wheel.NAME == "internal" else 1
     motion = motions(spec)[0]
-    wheel, pin = motion.wheel, motion.pin
+    wheel, pin = motion.wheel, motion.path
     if kind == "epicyclic":
         chain = planet(spec)
     elif kind == "cam":
         chain = groove(g, pin)
     else:
-        A = Front(spec.drive, spec.kind).A
+        A = Front(spec.drive).A
         chain = coulisse(g, A) if A else crank(g)
     if chain.body is None:
         chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) / (pin(mp.mpf(0)) - 1)))
-    return chain, wheel, pin
+    return chain, wheel, pin, mp.mpf(spec.given_distance_mm)
 
 
-def loads(spec, chain, wheel, pin, deg):
+def loads(spec, chain, wheel, pin, distance_mm, deg):
     """The loads at an input angle in degrees from mid-motion; torques in N m, force in N."""
     x = to_radians(deg)
-    L = mp.mpf(spec.size.center_distance_mm) / 1000
-    r = mp.mpf(spec.roller_radius_mm) / 1000 / L
+    L = distance_mm / 1000
+    given = spec.size.roller_radius_mm
+    r = (distance_mm / 20 if given is None else mp.mpf(given)) / distance_mm
     f = mp.mpf(spec.load.friction)
     w = mp.mpf(spec.drive.n_rpm) * mp.pi / 30
     speed = rate(wheel, x)

@@ -13,16 +13,16 @@ from witness import LAWS, mp, taylor, to_radians
 class Front:
     """The crank's angle f behind a front drive, as a function of the input angle, and back."""
 
-    def __init__(self, drive=None, keys=None):
-        self.kind = drive.kind if drive else "crank"
+    def __init__(self, drive=None):
+        self.kind = drive.NAME if drive else "crank"
         slow = self.kind in ("side-crank", "noncircular-gears")  # the same ratio
-        self.A = mp.mpf(keys.A) if slow else mp.mpf(0)
+        self.A = mp.mpf(drive.A) if slow else mp.mpf(0)
         self.e = mp.mpf(0)
         if self.kind == "elliptical-gears":
-            self.e = mp.mpf(keys.eccentricity) * (1 if keys.phase == "slow" else -1)
+            self.e = mp.mpf(drive.eccentricity) * (1 if drive.phase == "slow" else -1)
 
         # two wheels in series: the first wheel is the second's crank
-        self.first = mp.pi / keys.first_z if self.kind == "geneva-pair" else None
+        self.first = mp.pi / drive.first_z if self.kind == "geneva-pair" else None
 
     def crank(self, phi):
         """The coulisse points along A + E, the ellipse along (E + e)/(1 + e E), E = e^(i phi).
@@ -59,22 +59,22 @@ class Front:
 class Motion:
     """One motion of one roller through one slot, about its own mid-motion; radians, L = 1.
 
-    ``wheel`` and ``pin`` are functions of the input angle; ``closed``, of the same, gives the
+    ``wheel`` and ``path`` are functions of the input angle; ``closed``, of the same, gives the
     first three derivatives of the wheel's angle by hand-derived formulas.
     """
 
     law = None
     offset = mp.mpf(0)  # of the straight slot's axis from the wheel's
 
-    def __init__(self, mid, entry, exit_, half_step, wheel, pin, closed=None, polar=None):
+    def __init__(self, mid, entry, exit_, half_step, wheel, path, closed=None, polar=None):
         self.mid, self.entry, self.exit, self.b = mid, entry, exit_, half_step
-        self.wheel, self.pin, self.closed, self.polar = wheel, pin, closed, polar
+        self.wheel, self.path, self.closed, self.polar = wheel, path, closed, polar
 
     def derivatives(self, deg):
         """The wheel's angle and its derivatives 1..4, at a double in degrees taken as exact."""
         return taylor(self.wheel, to_radians(deg), 4)
 
-    def rail(self, x):
+    def axis(self, x):
         """What the pin does in its slot: lever of the slot's normal, and speed along the slot.
 
         In the frame that turns with the wheel the pin moves along the slot only.
@@ -82,7 +82,7 @@ class Motion:
         if self.polar:
             at, speed = taylor(self.polar, x, 1)
             return mp.sin(at), speed
-        place, speed = taylor(lambda t: self.pin(t) * mp.expj(-self.wheel(t)), x, 1)
+        place, speed = taylor(lambda t: self.path(t) * mp.expj(-self.wheel(t)), x, 1)
         along = mp.expj(mp.arg(speed)) * (1 if speed.real * place.real > 0 else -1)
         foot = (place * mp.conj(along)).real
         return abs(foot), (speed * mp.conj(along)).real
@@ -91,10 +91,10 @@ class Motion:
 class LawMotion(Motion):
     """A motion that a law gives; at a joint of the law, from the left."""
 
-    def __init__(self, law, motion, half_step, pin_of):
+    def __init__(self, law, motion, half_step, path_of):
         self.law, self.whole = law, motion
         super().__init__(mp.mpf(0), -motion / 2, motion / 2, half_step, self._wheel, None)
-        self.pin = lambda x: pin_of(x, self._wheel(x))
+        self.path = lambda x: path_of(x, self._wheel(x))
 
     def _wheel(self, x):
         u = (x - self.entry) / self.whole
@@ -110,14 +110,14 @@ class LawMotion(Motion):
 
 
 def motions(spec):
-    """The motions of a machine in the order of its stations."""
-    kind = spec.drive.kind
+    """The motions of a machine in the order of its engagements."""
+    kind = spec.drive.NAME
     if kind == "epicyclic":
         return [epicyclic(spec)]
     if kind == "cam":
         return [cam(spec)]
-    front = Front(spec.drive, spec.kind)
-    if spec.motion.law is not None:
+    front = Front(spec.drive)
+    if spec.motion is not None:
         return [curved(spec, front)]
     return [straight(spec, front, crank, b) for crank, b in rollers(spec)]
 
@@ -126,8 +126,8 @@ def rollers(spec):
     """Crank angle and half a step of every roller that moves the wheel in its own way."""
     wheel, drive = spec.wheel, spec.drive
     b = mp.pi / wheel.z
-    if wheel.steps_deg:
-        halves = [to_radians(s) / 2 for s in wheel.steps_deg]
+    if wheel.steps:
+        halves = [to_radians(s) / 2 for s in wheel.steps]
         # equal dwells between motions of pi - 2 b
         dwell = (2 * mp.pi - sum(mp.pi - 2 * h for h in halves)) / len(halves)
         out, at = [], mp.mpf(0)
@@ -138,14 +138,14 @@ def rollers(spec):
         return out
     if drive.roller_angles_deg:
         return [(to_radians(a), b) for a in drive.roller_angles_deg]
-    count = drive.rollers if drive.kind != "crank" else 1  # on a plain crank all move alike
+    count = drive.rollers if drive.NAME != "crank" else 1  # on a plain crank all move alike
     return [(2 * mp.pi * j / drive.rollers, b) for j in range(count)]
 
 
 def straight(spec, front, crank, b):
     """A straight slot, and a roller on the crank's circle, ``crank`` behind the first."""
-    gearing = spec.wheel.gearing
-    e = mp.mpf(spec.wheel.offset_mm) / mp.mpf(spec.size.center_distance_mm)
+    gearing = spec.wheel.NAME
+    e = mp.mpf(spec.wheel.as_dict().get("offset_mm", 0.0)) / mp.mpf(spec.given_distance_mm)
     polar = None
     if gearing == "spherical":
         S = to_radians(spec.wheel.axes_deg)
@@ -221,7 +221,7 @@ def on_the_sphere(S, th, a):
 
 def epicyclic(spec):
     """The roller on a planet's arm: a trochoid about the crank's axis."""
-    keys, z = spec.kind, spec.wheel.z
+    keys, z = spec.drive, spec.wheel.z
     b = mp.pi / z
     u = mp.mpf(2 * z) / (z - 2)
     c = 1 + u if keys.fixed == "sun" else 1 - u
@@ -245,20 +245,20 @@ def epicyclic(spec):
 
 def cam(spec):
     """A straight slot and a law: the law of sines in the triangle of both axes and the roller."""
-    g = -1 if spec.wheel.gearing == "internal" else 1
+    g = -1 if spec.wheel.NAME == "internal" else 1
     b = mp.pi / spec.wheel.z
     motion = mp.pi - 2 * g * b - to_radians(spec.motion.alpha0_deg)
 
     def pin(x, psi):
         return mp.sin(x) / mp.sin(x + g * psi) * mp.expj(psi)
 
-    return LawMotion(LAWS[spec.motion.law], motion, b, pin)
+    return LawMotion(LAWS[spec.motion.law.NAME], motion, b, pin)
 
 
 def curved(spec, front):
     """A law and a roller on the crank's circle."""
-    g = -1 if spec.wheel.gearing == "internal" else 1
-    b, law = mp.pi / spec.wheel.z, LAWS[spec.motion.law]
+    g = -1 if spec.wheel.NAME == "internal" else 1
+    b, law = mp.pi / spec.wheel.z, LAWS[spec.motion.law.NAME]
     motion = 2 * front.input(mp.pi / 2 - g * b) - to_radians(spec.motion.alpha0_deg)
     l = spec.motion.ratio
     if l is None:
@@ -351,7 +351,7 @@ def fitted(path, b, entry, exit_):
 def on_path(spec, entry_deg, exit_deg):
     """A machine whose roller is a point of a linkage; the two angles are near the true ones."""
     b = mp.pi / spec.wheel.z
-    path = linkage(spec.drive.kind, spec.kind)
+    path = linkage(spec.drive.NAME, spec.drive)
     entry, exit_, centre = fitted(path, b, to_radians(entry_deg), to_radians(exit_deg))
     middle = (entry + exit_) / 2  # the input's own middle
     L = abs(centre)

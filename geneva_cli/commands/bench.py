@@ -30,13 +30,13 @@ def run(
     import os
     import sys
 
-    from geneva_cli.accuracy.bench import bench_table, measure, names
+    from geneva_cli.bench.run import bench_table, measure, names
     from geneva_cli.errors import GenevaError, cut
     from geneva_cli.output import format_of, show
     from geneva_cli.output.files import write
 
     if plots:
-        from geneva_cli.accuracy.plot import require, svg
+        from geneva_cli.bench.plot import require, svg
 
         require()
         if not os.path.isdir(plots):

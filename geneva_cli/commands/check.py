@@ -21,8 +21,8 @@ def run(
     The motion, the parts and the spec's own [limits]; where a check fails, the nearest change that
     passes. Every spec is checked, also beside one that cannot be read.
     """
-    from geneva_cli.batch import checks_table, verdicts
     from geneva_cli.output import show
+    from geneva_cli.study.batch import checks_table, verdicts
 
     found = list(verdicts(specs))
     judged = [v for v in found if not v.error]

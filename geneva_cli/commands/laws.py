@@ -20,7 +20,7 @@ def run(
 
     Greatest ds/du, d2s/du2, d3s/du3 and their product for power, with u and s from 0 to 1.
     """
-    from geneva_cli.law_values import laws_table
+    from geneva_cli.analysis.law_values import laws_table
     from geneva_cli.output import show
 
     show(laws_table(shape), output, format)

@@ -17,12 +17,11 @@ def run(
 ) -> None:
     """Position, velocity, acceleration and jerk, evenly in the input angle over a cycle from entry.
 
-    Where the stations differ, over a whole period of the machine.
+    Where the engagements differ, over a whole period of the machine.
     """
-    from geneva_cli.motion import motion_table
+    from geneva_cli.design import load
     from geneva_cli.output import show
-    from geneva_cli.spec import load
 
-    mechanism = load(spec)
-    show(motion_table(mechanism, samples), output, format, mechanism.spec.files)
-    warn(mechanism)
+    design = load(spec)
+    show(design.motion(samples), output, format, design.spec.files)
+    warn(design)

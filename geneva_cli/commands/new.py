@@ -21,6 +21,6 @@ def run(
 ) -> None:
     """Write a commented spec to start from."""
     from geneva_cli.output import show_text
-    from geneva_cli.template import template
+    from geneva_cli.specfile.template import template
 
     show_text(template(kind), output)

@@ -9,9 +9,17 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from geneva_cli.errors import clean
+from geneva_cli.output import FORMATS
 
 if TYPE_CHECKING:
-    from geneva_cli.mechanism import Mechanism
+    from geneva_cli.design import Design
+
+
+def one_of(names: Iterable[str]) -> str:
+    """The words that an option may be, for its help."""
+    *others, last = names
+    return f"{', '.join(others)} or {last}."
+
 
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
@@ -22,15 +30,13 @@ Output: TypeAlias = Annotated[
 ]
 Format: TypeAlias = Annotated[
     str,
-    typer.Option("--format", metavar="FORMAT", help="table, csv, json or md."),
+    typer.Option("--format", metavar="FORMAT", help=one_of(FORMATS)),
 ]
 
 
-def warn(mechanism: Mechanism) -> None:
+def warn(design: Design) -> None:
     """Say on standard error what a number alone would hide."""
-    from geneva_cli.cautions import cautions
-
-    say(mechanism.spec.path, cautions(mechanism))
+    say(design.spec.path, design.warnings)
 
 
 def say(path: str, cautions: Iterable[str]) -> None:

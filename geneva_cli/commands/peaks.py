@@ -8,12 +8,11 @@ from geneva_cli.commands.options import Format, Output, SpecPath, warn
 def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
-    Angles are signed input angles from mid-motion. Where the stations differ, the greatest of all.
+    Angles are signed input angles from mid-motion. Where engagements differ, the greatest of all.
     """
+    from geneva_cli.design import load
     from geneva_cli.output import show
-    from geneva_cli.peaks import peaks_table
-    from geneva_cli.spec import load
 
-    mechanism = load(spec)
-    show(peaks_table(mechanism), output, format, mechanism.spec.files)
-    warn(mechanism)
+    design = load(spec)
+    show(design.peaks_table, output, format, design.spec.files)
+    warn(design)

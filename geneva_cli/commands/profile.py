@@ -7,22 +7,21 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geneva_cli.commands.options import Output, SpecPath, warn
+from geneva_cli.commands.options import Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.table import Table
+from geneva_cli.output import DRAWN, FORMATS
+from geneva_cli.parts.catalogue import PARTS
 
 if TYPE_CHECKING:
-    from geneva_cli.mechanism import Mechanism
-    from geneva_cli.outline import Outlines
-
-CURVES = {"arcs": "arcs", "spline": "cubics"}
+    from geneva_cli.design import Design
+    from geneva_cli.parts.proof import Proof
 
 
 def run(
     spec: SpecPath,
     part: Annotated[
         str,
-        typer.Option(metavar="PART", help="slot, wheel, crank, assembly, gears or groove."),
+        typer.Option(metavar="PART", help=one_of(PARTS)),
     ] = "slot",
     tolerance: Annotated[
         float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
@@ -38,7 +37,7 @@ def run(
     output: Output = "-",
     format: Annotated[
         str,
-        typer.Option("--format", metavar="FORMAT", help="table, csv, json, md, dxf or svg."),
+        typer.Option("--format", metavar="FORMAT", help=one_of((*FORMATS, *DRAWN))),
     ] = "",
 ) -> None:
     """A part as points, or as a drawing to cut: the slot, the wheel, the crank, or all together.
@@ -47,10 +46,9 @@ def run(
     in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
     the pin travels in. Before a drawing is written its machine is turned through a whole turn.
     """
+    from geneva_cli.curves.pieces import UNITS
+    from geneva_cli.design import CURVES, load
     from geneva_cli.output import draw, is_drawn, show
-    from geneva_cli.part import is_table, part_drawing, part_table
-    from geneva_cli.pieces import UNITS
-    from geneva_cli.spec import load_and
 
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
@@ -59,35 +57,25 @@ def run(
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
     drawn = is_drawn(output, format)
-
-    def make(mechanism: Mechanism) -> Table | Outlines:
-        if is_table(mechanism, part, drawn):
-            if units != "mm":
-                raise GenevaError("--units is for drawings; tables of points are in millimetres")
-            return part_table(mechanism, part, tolerance, samples)
+    design = load(spec)
+    if design.is_table(part, drawn):
+        if units != "mm":
+            raise GenevaError("--units is for drawings; tables of points are in millimetres")
+        show(design.part_table(part, tolerance, samples), output, format, design.spec.files)
+    else:
         if samples is not None:
             raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-        from geneva_cli.outline import outlines
-
-        return outlines(mechanism, tolerance)
-
-    mechanism, found = load_and(spec, lambda m: (m, make(m)))
-    if isinstance(found, Table):
-        show(found, output, format, mechanism.spec.files)
-    else:
-        _judge(found, force)
-        drawing = part_drawing(found, part, tolerance, CURVES[curves])
-        draw(drawing, output, format, units, mechanism.spec.files)
-    warn(mechanism)
+        proof = design.drawn(tolerance)
+        _judge(design, proof, force)
+        drawing = design.drawing(part, tolerance, curves, proof)
+        draw(drawing, output, format, units, design.spec.files)
+    warn(design)
 
 
-def _judge(found: Outlines, force: bool) -> None:
+def _judge(design: Design, proof: Proof, force: bool) -> None:
     """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
-    from geneva_cli.advice import verdict
-    from geneva_cli.proof import Proof
-
-    path = found.plane.given.spec.path
-    refused, warned = verdict(Proof(found.plane.given, found))
+    path = design.spec.path
+    refused, warned = design.judge(proof)
     if refused and not force:
         text = f"not written: {refused}; --force writes it all the same"
         print(clean(f"{path}: {text}"), file=sys.stderr)

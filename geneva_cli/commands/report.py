@@ -12,12 +12,12 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
 
     Exit status 1 where `check` has it: where a check fails.
     """
+    from geneva_cli.design import load
     from geneva_cli.output import show
-    from geneva_cli.report import report
-    from geneva_cli.spec import load_and
 
-    mechanism, found = load_and(spec, lambda m: (m, report(m)))
-    show(found.table, output, format, mechanism.spec.files)
-    say(mechanism.spec.path, found.cautions)
+    design = load(spec)
+    found = design.report
+    show(found.table, output, format, design.spec.files)
+    say(design.spec.path, found.cautions)
     if not found.passes:
         raise typer.Exit(1)

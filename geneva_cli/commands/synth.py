@@ -58,8 +58,8 @@ def run(
     """
     from geneva_cli.errors import GenevaError, clean, cut
     from geneva_cli.output import format_of, show, show_text
-    from geneva_cli.synthesis import for_people, synthesis, synthesis_table
-    from geneva_cli.synthesis_wish import read_wish
+    from geneva_cli.study.synthesis.search import for_people, synthesis, synthesis_table
+    from geneva_cli.study.synthesis.target import read_wish
 
     wish = read_wish(
         tau=tau,
@@ -85,8 +85,8 @@ def run(
         table = synthesis_table(wish)
         show(for_people(table) if name in ("table", "md") else table, output, format)
         return
-    from geneva_cli.mechanism import build
-    from geneva_cli.synthesis_spec import chosen
+    from geneva_cli.design import Design
+    from geneva_cli.study.synthesis.spec import chosen
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
@@ -95,4 +95,4 @@ def run(
     path = "<stdout>" if output == "-" else output
     if found.trouble:
         print(clean(f"{path}: warning: {found.trouble}"), file=sys.stderr)
-    warn(build(found.spec._replace(path=path)))
+    warn(Design.of(found.spec.but(path=path)))

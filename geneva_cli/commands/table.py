@@ -26,7 +26,7 @@ def run(
     format: Format = "",
 ) -> None:
     """Timing and peaks of wheels, one row for each number of slots."""
-    from geneva_cli.survey import survey
+    from geneva_cli.study.survey import survey
 
     if internal and spherical:
         raise GenevaError("--internal with --spherical: choose one of them")

@@ -12,12 +12,12 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.drawing import Drawing
+    from geneva_cli.curves.shapes import Drawing
 
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 DRAWN = {"dxf": "dxf", "svg": "svg"}  # of drawings only; they are written in FORMATS as tables
-EXTENSIONS = {"txt": "table", **{name: name for name in ("csv", "json", "md", "dxf", "svg")}}
+EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN)}
 
 
 class Format(Protocol):
@@ -68,7 +68,7 @@ def draw(
     if name not in formats:
         raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
     if name in FORMATS:
-        from geneva_cli.pieces import pieces_table
+        from geneva_cli.curves.pieces import pieces_table
 
         show(pieces_table(drawing, units), output, name, inputs)
         return

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table, flat
+from geneva_cli.table import Table, flat, is_floats
 
 BLOCK = 1024  # rows at a time
 
@@ -16,7 +16,7 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
     if table.record:
         table = flat(table)
     yield ",".join(table.names) + "\n"
-    if table.columns and all(getattr(c, "dtype", "") == "float64" for c in table.columns):
+    if table.columns and all(is_floats(c) for c in table.columns):
         yield from _numbers(table)
         return
     for block in table.blocks():

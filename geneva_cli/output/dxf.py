@@ -10,12 +10,12 @@ import io
 import math
 from collections.abc import Iterator
 
-from geneva_cli.drawing import Arc, Circle, Contour, Cubic, Drawing, Line, Segment
+from geneva_cli.curves.measure import extent, halves
+from geneva_cli.curves.pieces import UNITS, prepared
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, Segment
 from geneva_cli.errors import clean
-from geneva_cli.measure import extent, halves
 from geneva_cli.output.ezdxf_alone import Document, Modelspace, new, options
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
-from geneva_cli.pieces import UNITS, prepared
 
 INSUNITS = {"mm": 4, "inch": 1}
 DECIMALS = 12  # of lengths: with large coordinates more than a float has, and no exponent

@@ -43,7 +43,7 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
     """
     for name, column in zip(names, columns, strict=True):
         boundless = name.rpartition(".")[2] in BOUNDLESS
-        if hasattr(column, "dtype"):
+        if not isinstance(column, (list, tuple)):
             wrong = (column != column).any() if boundless else _any_endless(column)
         else:
             wrong = any(_wrong(v, boundless) for v in column)

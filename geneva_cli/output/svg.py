@@ -12,11 +12,21 @@ from collections.abc import Iterator
 from typing import NamedTuple
 from xml.sax.saxutils import escape, quoteattr
 
-from geneva_cli.drawing import Arc, Circle, Contour, Cubic, Drawing, Line, Point, Segment, Shape
+from geneva_cli.curves.measure import Box, extent, halves
+from geneva_cli.curves.pieces import SUFFIX, UNITS, prepared
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Drawing,
+    Line,
+    Point,
+    Segment,
+    Shape,
+)
 from geneva_cli.errors import clean
-from geneva_cli.measure import Box, extent, halves
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
-from geneva_cli.pieces import SUFFIX, UNITS, prepared
 
 DECIMALS = 9
 # Bulges of 150, 210 and 300 degrees. Near a half turn the radius says little about the centre,

@@ -1,0 +1,49 @@
+"""The characteristic values of the motion laws: C_v, C_a, C_j and C_p."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.analysis.peaks import peak
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.law_motion import LawMotion
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.spec.schema import REQUIRED, fields
+from geneva_cli.table import Table, rows_table
+
+NAMES = ("law", "C_v", "C_a", "C_j", "C_p", "about")
+
+
+class Characteristic(NamedTuple):
+    """Greatest sizes of ds/du, d²s/du², d³s/du³ and ds/du times d²s/du²."""
+
+    velocity: float
+    acceleration: float
+    jerk: float
+    power: float
+
+
+def characteristic(law: Law) -> Characteristic:
+    """The characteristic values of one law, from the same root finding as a machine's peaks."""
+    # A step of 1 in a motion of 1 radian: the invariants are then the law's own derivatives.
+    half = math.degrees(0.5)
+    motion = LawMotion(-half, half, 0.5, law)
+    return Characteristic(*[peak(motion, name).max for name in Characteristic._fields])
+
+
+def laws_table(shape: float) -> Table:
+    """One row a law; ``shape`` is the sine group's lambda."""
+    if not abs(shape) <= 10.0:
+        raise GenevaError(f"--lambda {shape:g}: must be at least -10, at most 10")
+    rows: list[tuple[object, ...]] = []
+    for name in registry.LAWS:
+        kind = registry.law(name)
+        keys = fields(kind)
+        if any(key.default is REQUIRED for key in keys):  # a user's own, which has no values yet
+            rows.append((name, None, None, None, None, kind.ABOUT))
+            continue
+        given = {key.attribute: shape for key in keys if key.key == "lambda"}
+        rows.append((name, *characteristic(kind(**given)), kind.ABOUT))
+    return rows_table(NAMES, rows)

@@ -1,0 +1,1 @@
+"""Forces, torque, stress and power: what the motion costs."""

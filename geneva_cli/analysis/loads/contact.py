@@ -1,0 +1,106 @@
+"""The roller in its slot at one or many input angles: levers, sliding speed, curvature.
+
+Jets by the input angle in radians; lengths are in units of the centre distance L. The slot's
+tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre in the wheel.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
+from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise, sqrt
+
+NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
+BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight
+
+
+class Contact(NamedTuple):
+    """What the loads need of motion and slot, each a jet of one order."""
+
+    velocity: Jet
+    acceleration: Jet
+    lever: Jet  # M . t: of the walls' normal about the wheel's axis
+    aside: Jet  # M x t: of the slot's tangent
+    along: Jet  # the roller centre's speed along t
+    curvature: Jet  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: Jet  # rate at which the body that carries the roller turns against the wheel
+    arm: Jet  # of friction at the wall about the wheel's axis, beyond M's: over the roller's radius
+    touches: Jet  # 0 while gears drive and no roller does, else 1
+
+
+def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> Contact:
+    """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
+
+    At mid-motion of a curved slot only the values have a limit, that of the way in: there
+    ``order`` must be 0.
+    """
+    if is_straight(engagement):
+        return _beside(engagement, input_deg, order)
+
+    def beside(x: Coefficient) -> Jet:
+        return Jet([c for jet in _beside(engagement, x, order) for c in jet.c])
+
+    def middle(x: Coefficient) -> Jet:
+        assert order == 0
+        return Jet([x * 0.0 + c for c in _middle(engagement)])
+
+    # one piece each side of mid-motion, and mid-motion itself
+    every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
+    return Contact(*[Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)])
+
+
+def is_straight(engagement: Engagement) -> bool:
+    """Whether the engagement's slot is a straight one."""
+    return not engagement.slot.curved
+
+
+def _beside(engagement: Engagement, x: Coefficient, order: int) -> Contact:
+    """Wherever the pin moves in its slot, or the slot is straight."""
+    rates = engagement.motion(x, order + 2).derivative()
+    velocity, acceleration = _cut(rates, order), rates.derivative()
+    constant = velocity * 0.0
+    rail = engagement.slot.axis(x, order)
+    if rail:
+        lever, along = rail
+        aside, curvature = constant + engagement.slot.offset, constant
+    else:
+        mx, my = engagement.slot(x, order + 2)
+        ux, uy = mx.derivative(), my.derivative()
+        bend_x, bend_y = ux.derivative(), uy.derivative()
+        mx, my, ux, uy = (_cut(jet, order) for jet in (mx, my, ux, uy))
+        outward = mx * ux + my * uy
+        way = library(outward.c[0]).copysign(1.0, outward.c[0])
+        along = sqrt(ux * ux + uy * uy) * way
+        lever, aside = outward / along, (mx * uy - my * ux) / along
+        curvature = (ux * bend_y - uy * bend_x) / (along * along * along)
+    upright = engagement.slot.upright(x, order)
+    touches = constant + engagement.slot.touches(x)
+    spin = (engagement.carrier(x, order) - velocity * upright) * touches
+    arm = (constant + upright) * touches
+    return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches)
+
+
+def _middle(engagement: Engagement) -> list[float]:
+    """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
+    if not retraces(engagement):
+        values = [jet.c[0] for jet in _beside(engagement, 0.0, 0)]
+        values[Contact._fields.index("lever")] = 0.0
+        return values
+    at = pitch_at_retrace(engagement)
+    lever = at.x * at.tangent_x + at.y * at.tangent_y
+    way = 1.0 if lever > 0.0 else -1.0
+    aside = way * (at.x * at.tangent_y - at.y * at.tangent_x)
+    _, v, a = engagement.motion(0.0, 2).derivatives()
+    spin = engagement.carrier(0.0).c[0] - v
+    if abs(at.turning) > BENT:
+        curvature = math.copysign(math.inf, way * at.turning)
+    else:  # the way in and the way out are one, and its curvature is that beside mid-motion
+        curvature = _beside(engagement, NEAR * engagement.entry_deg, 0).curvature.c[0]
+    return [v, a, way * lever, aside, 0.0, curvature, spin, 1.0, 1.0]
+
+
+def _cut(jet: Jet, order: int) -> Jet:
+    return Jet(jet.c[: order + 1])

@@ -1,0 +1,106 @@
+"""Forces at the contact of roller and slot: formulas, for jets of one angle or of many.
+
+With the unit tangent t of the slot (away from the wheel's axis) and the normal n = d i t towards
+the wall that bears, d = 1 where the torque T drives the wheel and -1 where it holds it back, the
+contact point is C = M + r n and the wheel's balance about its axis
+
+    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
+
+(M x t = 0 in a radial slot). s is the sign of the speed at which the roller, fixed to the body
+that carries it, rubs along the wall: v = M' . t - d r (rate of that body - rate of the wheel).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.analysis.loads.contact import Contact
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.jet import Coefficient, Jet
+
+
+class Setting(NamedTuple):
+    """What the loads depend on besides the motion."""
+
+    inertia_Nm: float  # inertia times the square of the input speed
+    resists_Nm: float
+    L: float  # metres
+    radius: float  # of the roller, over L
+    friction: float
+    efficiency: float
+    hertz: float | None  # square of the stress on a flat wall, MPa² per newton; None: no width
+
+
+def setting(mechanism: Mechanism) -> Setting:
+    """The setting that a spec asks for."""
+    spec = mechanism.spec
+    load, size = spec.load, spec.size
+    w = omega(spec.drive.n_rpm)
+    hertz = None
+    if size.face_width_mm is not None:
+        # p0² = N E* / (pi b R_e), E* = E / (2 (1 - nu²)) for two bodies of one material
+        modulus = load.youngs_modulus_GPa * 1e3 / (2.0 * (1.0 - load.poisson_ratio**2))
+        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
+    return Setting(
+        load.inertia_kgm2 * w * w,
+        load.torque_Nm,
+        mechanism.center_distance_mm / 1000.0,
+        mechanism.roller_radius_mm / mechanism.center_distance_mm,
+        load.friction,
+        load.efficiency,
+        hertz,
+    )
+
+
+class Greatest(NamedTuple):
+    """A greatest load (infinite where nothing bounds it), and its input angle."""
+
+    max: float
+    at_deg: float
+
+
+class Row(NamedTuple):
+    """A quantity that is looked for, and what must be positive for it to have a value."""
+
+    value: Jet
+    room: Jet | None = None
+
+
+class Forces(NamedTuple):
+    """Jets; force and stress mean nothing where ``grip``, and the stress where ``edge``, is <= 0.
+
+    There the friction alone holds the wheel, or the bearing wall is sharper than the roller.
+    """
+
+    torque: Jet  # that the wheel needs
+    grip: Jet  # torque on the wheel over L times the pin force
+    force: Jet
+    shaft: Jet  # torque on the input shaft, before the efficiency
+    edge: Jet | None  # 1 - curvature of the bearing wall's pitch curve times the roller's radius
+    square: Jet | None  # of the contact stress
+
+
+def sliding(at: Contact, drives: Coefficient, radius: float) -> Jet:
+    """Speed at which the roller rubs along the wall, over L, per input radian."""
+    speed: Jet = at.along - at.spin * (drives * radius)
+    return speed
+
+
+def forces(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Forces:
+    """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
+    torque = at.acceleration * given.inertia_Nm + given.resists_Nm
+    grip, shaft = at.lever, torque * at.velocity
+    if given.friction:
+        rub = at.touches * (given.friction * slides)
+        grip = grip + rub * (at.aside * drives - at.arm * given.radius)
+    force = torque * drives / (grip * given.L)
+    if given.friction:
+        shaft = shaft + force * rub * sliding(at, drives, given.radius) * given.L
+    if given.hertz is None:
+        return Forces(torque, grip, force, shaft, None, None)
+    # R_e of a wall at the roller's radius from its pitch curve, of curvature k towards the wall, is
+    # r (1 - k r): 1/r + k/(1 - k r) = 1/(r (1 - k r)).
+    edge = 1.0 - at.curvature * (drives * given.radius)
+    return Forces(torque, grip, force, shaft, edge, force * at.touches * given.hertz / edge)

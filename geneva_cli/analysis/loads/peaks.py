@@ -1,0 +1,263 @@
+"""The greatest loads over a motion, refined to the last digits.
+
+The loads are smooth but where the torque changes sign (the roller then bears on the other wall),
+where the sliding does (friction turns round), and where the motion itself has a break. Between
+these places each is scanned until nothing is stepped over, and its maxima are roots of its slope.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, is_straight
+from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, sliding
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.pitch_curve import retraces
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.roots import root
+from geneva_cli.numerics.scan import Scan, hopeful, scan
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.scan import Mask, Whole
+
+ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
+TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier is meant
+
+
+class Stretch(NamedTuple):
+    """Input angles between which the loads are smooth, and the signs of torque and sliding."""
+
+    start: float
+    end: float
+    drives: float
+    slides: float
+
+
+# contact, sign of torque, sign of sliding -> the quantities
+Rows: TypeAlias = Callable[[Contact, Coefficient, Coefficient], list[Row]]
+
+
+@lru_cache(maxsize=256)
+def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
+    """The motion cut where its loads have kinks or jumps.
+
+    Cuts are places of breaks; a stretch ends one double beside them. At the cusp of a curved slot
+    it keeps away from the slopes that are rounding.
+    """
+
+    def torque(at: Contact, _: Coefficient) -> Jet:
+        return at.acceleration * given.inertia_Nm + given.resists_Nm
+
+    def rubs(at: Contact, drives: Coefficient) -> Jet:
+        return sliding(at, drives, given.radius)
+
+    cut = [Stretch(a, b, 1.0, 1.0) for a, b in _smooth(engagement)]
+    if given.inertia_Nm:
+        cut = _cut_at_zeros(engagement, cut, torque, "drives")
+    if given.friction:
+        cut = _cut_at_zeros(engagement, cut, rubs, "slides")
+    return tuple(cut)
+
+
+def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
+    breaks = engagement.motion.breaks_deg
+    out = []
+    for a, b in zip(breaks, breaks[1:], strict=False):
+        start = a if a == breaks[0] else math.nextafter(a, math.inf)
+        end = b if b == breaks[-1] else math.nextafter(b, -math.inf)
+        if not is_straight(engagement):
+            start = NEAR * engagement.exit_deg if a == 0.0 else start
+            end = NEAR * engagement.entry_deg if b == 0.0 else end
+        if start < end:
+            out.append((start, end))
+    return out
+
+
+def _cut_at_zeros(
+    engagement: Engagement,
+    pieces: list[Stretch],
+    of: Callable[[Contact, Coefficient], Jet],
+    sign: str,
+) -> list[Stretch]:
+    """The pieces cut at the zeros of a jet, with its sign between them."""
+    drives = np.array([p.drives for p in pieces])
+
+    def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
+        return _columns([of(contact(engagement, x, 1), drives[span])], x)
+
+    found = scan(sampled, [(p.start, p.end) for p in pieces])
+    changes = found.changes(0)
+    out = []
+    for number, piece in enumerate(pieces):
+        places = [piece.start]
+        for i in changes[found.span[changes] == number]:
+
+            def here(x: float, side: float = piece.drives) -> Jet:
+                return of(contact(engagement, x, 1), side)
+
+            places.append(_zero(here, float(found.x[i]), float(found.x[i + 1])))
+        places.append(piece.end)
+        for a, b in zip(places, places[1:], strict=False):
+            if a < b:
+                middle = of(contact(engagement, 0.5 * (a + b)), piece.drives).c[0]
+                cut = piece._replace(start=a, end=b)
+                out.append(cut._replace(**{sign: math.copysign(1.0, middle)}))
+    return out
+
+
+def _zero(of: Callable[[float], Jet], low: float, high: float) -> float:
+    """Where a jet is zero, to a last place of the bracket: near 0 doubles are finer than angles."""
+
+    def line(way: float) -> tuple[float, float]:
+        c = of(low + way).c
+        return c[0], c[1] * DEGREE
+
+    return low + root(line, 0.0, high - low)
+
+
+def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
+    """Values and slopes by degrees, a row a jet."""
+    value = np.array([np.broadcast_to(j.c[0], x.shape) for j in jets], dtype=float)
+    slope = np.array([np.broadcast_to(j.c[1] * DEGREE, x.shape) for j in jets], dtype=float)
+    return value, slope
+
+
+def maxima(engagement: Engagement, given: Setting, rows: Rows) -> list[Greatest]:
+    """The greatest of each of ``rows`` over a motion; at least 0, at entry."""
+    pieces = stretches(engagement, given)
+    drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:])
+
+    def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
+        asked = rows(contact(engagement, x, 1), drives[span], slides[span])
+        value, slope = _columns([row.value for row in asked], x)
+        for i, row in enumerate(asked):
+            if row.room is not None:
+                value[i, np.broadcast_to(row.room.c[0] <= 0.0, x.shape)] = np.nan
+        return value, slope
+
+    found = scan(sampled, [(p.start, p.end) for p in pieces])
+    ends = _at_mid_motion(engagement, given, pieces, rows)
+    out = []
+    for i in range(len(found.value)):
+
+        def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row:
+            return rows(contact(engagement, x, order), piece.drives, piece.slides)[i]
+
+        out.append(_greatest(found, i, pieces, at, ends, engagement))
+    return out
+
+
+def _greatest(
+    found: Scan,
+    row: int,
+    pieces: tuple[Stretch, ...],
+    at: Callable[[Coefficient, Stretch, int], Row],
+    middle: list[float],
+    engagement: Engagement,
+) -> Greatest:
+    value = found.value[row]
+    lost = np.isnan(value)
+    if lost.any():
+        return Greatest(math.inf, _brink(found, lost, pieces, at))
+    if math.isinf(middle[row]):
+        return Greatest(math.inf, 0.0)
+    places = [(0.0, middle[row])]
+    cuts = np.flatnonzero(~found.joined)
+    places += [(float(found.x[i]), float(value[i])) for i in (0, *cuts, *(cuts + 1), -1)]
+    for i in hopeful(found, row):
+        piece = pieces[found.span[i]]
+
+        def slope(x: float, piece: Stretch = piece) -> Jet:
+            return at(x, piece, 2).value.derivative()
+
+        x = _zero(slope, float(found.x[i]), float(found.x[i + 1]))
+        places.append((x, at(x, piece, 0).value.c[0]))
+    most = max(v for _, v in places)
+    if not most > 0.0:
+        return Greatest(0.0, engagement.entry_deg)
+    first = min(x for x, v in places if v >= most * (1.0 - TIE))
+    return Greatest(most, _at_break(first, engagement))
+
+
+def _at_mid_motion(
+    engagement: Engagement, given: Setting, pieces: tuple[Stretch, ...], rows: Rows
+) -> list[float]:
+    """The quantities at mid-motion of a curved slot, which no stretch reaches; infinite or a limit.
+
+    Straight slots are scanned through mid-motion: nothing is added there.
+    """
+    x = np.zeros(1)
+    at = contact(engagement, x)
+    torque = at.acceleration * given.inertia_Nm + given.resists_Nm
+    needed = float(torque.c[0][0])
+    beside = [p for p in pieces if NEAR * engagement.entry_deg in (p.end, -p.start)]
+    if is_straight(engagement):
+        with np.errstate(all="ignore"):
+            return [0.0 for _ in rows(at, 1.0, 1.0)]
+    # The tangent points away from the axis on the way in and out; at a cusp they are one.
+    ways = (1.0,) if retraces(engagement) else (1.0, -1.0)
+    common = given.inertia_Nm * abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
+    loaded = abs(needed) > ZERO * (common + given.resists_Nm)
+    out: list[float] = []
+    for way in ways:
+        here = at._replace(along=at.along * way, aside=at.aside * way, curvature=at.curvature * way)
+        drives = math.copysign(1.0, needed)
+        slides = math.copysign(1.0, float(sliding(here, drives, given.radius).c[0][0]))
+        with np.errstate(all="ignore"):
+            asked = rows(here, drives, slides)
+        values = []
+        for i, row in enumerate(asked):
+            room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])
+            value = float(np.ravel(row.value.c[0])[0])
+            if room > ZERO and math.isfinite(value):
+                values.append(value)
+            elif loaded:
+                values.append(math.inf)
+            else:
+                values.append(max(_towards_mid_motion(engagement, p, rows, i) for p in beside))
+        out = [max(pair) for pair in zip(out, values, strict=True)] if out else values
+    return out
+
+
+def _towards_mid_motion(engagement: Engagement, piece: Stretch, rows: Rows, row: int) -> float:
+    """The limit of 0/0 there, from the stretch beside it."""
+    x = piece.end if piece.end < 0.0 else piece.start
+    h = math.radians(x)
+    c = rows(contact(engagement, x, 2), piece.drives, piece.slides)[row].value.c
+    return float(c[0] - h * (c[1] - h * c[2]))
+
+
+def _at_break(x: float, engagement: Engagement) -> float:
+    """The place, or the break from which only rounding parts it."""
+    near = min(engagement.motion.breaks_deg, key=lambda place: abs(place - x))
+    return near if abs(near - x) <= ZERO * engagement.motion_deg else x
+
+
+def _brink(
+    found: Scan,
+    lost: Mask,
+    pieces: tuple[Stretch, ...],
+    at: Callable[[Coefficient, Stretch, int], Row],
+) -> float:
+    """Where a quantity ceases to have a value: at the first place where what it needs is 0."""
+    turns = np.flatnonzero((lost[1:] != lost[:-1]) & found.joined)
+    if not len(turns):
+        return float(found.x[np.argmax(lost)])
+    i = int(turns[0])
+    piece = pieces[found.span[i]]
+
+    def room(x: float) -> Jet:
+        # as an array, whose quotients by what is needed may be infinite
+        needed = at(np.array([x]), piece, 1).room
+        assert needed is not None
+        return Jet([float(np.ravel(c)[0]) for c in needed.c])
+
+    with np.errstate(all="ignore"):
+        return _zero(room, float(found.x[i]), float(found.x[i + 1]))

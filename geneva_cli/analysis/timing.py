@@ -1,0 +1,54 @@
+"""How long each motion and each dwell lasts."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+
+
+class Timing(NamedTuple):
+    """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
+
+    k = motion / dwell (the work coefficient), tau = motion / cycle.
+    """
+
+    motion_deg: float
+    dwell_deg: float
+    index_deg: float
+    k: float
+    tau: float
+    motion_s: float
+    dwell_s: float
+    cycle_s: float
+
+
+def timing(motion_deg: float, dwell_deg: float, index_deg: float, n_rpm: float) -> Timing:
+    """The timing of one cycle at a steady input speed."""
+    second = 6.0 * n_rpm  # degrees of input a second
+    cycle = motion_deg + dwell_deg
+    return Timing(
+        motion_deg,
+        dwell_deg,
+        index_deg,
+        motion_deg / dwell_deg if dwell_deg else math.inf,
+        motion_deg / cycle,
+        motion_deg / second,
+        dwell_deg / second,
+        cycle / second,
+    )
+
+
+def timings(mechanism: Mechanism) -> list[Timing]:
+    """The timing of every engagement, in order."""
+    return [
+        timing(
+            engagement.motion_deg,
+            mechanism.dwell_deg(i),
+            mechanism.index_deg(i),
+            mechanism.spec.drive.n_rpm,
+        )
+        for i, engagement in enumerate(mechanism.engagements)
+    ]

@@ -1,0 +1,160 @@
+"""A subject's plot: error against time ratio, both logarithmic, as SVG text."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from geneva_cli.bench.method import Row, Subject
+from geneva_cli.errors import GenevaError
+
+OURS = "#c8102e"
+COLOURS = ("#1f5fa8", "#2e8540", "#b36b00", "#6b4fa0", "#00808a", "#555555", "#a83279", "#7a7a00")
+MARKERS = "os^Dv<>p"
+EXACT = 1e-17  # where an error of 0 is drawn
+TIME = "time / baseline"
+
+
+def require() -> None:
+    """Raise GenevaError where matplotlib is not installed."""
+    try:
+        import matplotlib.figure  # noqa: F401
+    except ImportError:
+        raise GenevaError(
+            "--plots needs matplotlib, which is not here: pip install 'geneva-cli[bench]'"
+        ) from None
+
+
+def svg(subject: Subject, rows: Sequence[Row]) -> str:
+    """The plot; the same rows give the same bytes."""
+    out = io.StringIO()
+    save(subject, rows, out, "svg")
+    return out.getvalue()
+
+
+def save(subject: Subject, rows: Sequence[Row], out: Any, format: str) -> None:
+    """The plot to an open file, in any format that matplotlib has."""
+    require()
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    settings: Any = {
+        "svg.hashsalt": "geneva",
+        "font.size": 9.0,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "grid.color": "#e3e3e3",
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+    }
+    with mpl.rc_context(settings):
+        panels = [p for p in _panels(subject, rows) if p[2]]
+        bars = all(not row.error for row in rows)
+        if bars:
+            height = 0.9 + 0.26 * sum(len(p[2]) + 1 for p in panels)
+            figure = Figure(figsize=(8.0, height), layout="constrained")
+            _bars(figure.add_subplot(), panels)
+        else:
+            columns = min(2, len(panels))
+            lines = math.ceil(len(panels) / columns)
+            size = (5.4 * columns + (2.0 if columns == 1 else 0.0), 4.0 * lines + 1.2)
+            figure = Figure(figsize=size, layout="constrained")
+            _curves(figure, subject, panels, lines, columns)
+        figure.suptitle(subject.title, fontweight="bold")
+        metadata = {"Date": None, "Creator": None} if format == "svg" else None
+        figure.savefig(out, format=format, metadata=metadata, dpi=80)
+
+
+Panel = tuple[str, str, list[Row], str]  # title, label of the x axis, rows, what x is
+
+
+def _panels(subject: Subject, rows: Sequence[Row]) -> list[Panel]:
+    """A panel a task; where answers come in pieces, another one with those."""
+    panels: list[Panel] = []
+    for task in subject.tasks:
+        own = [r for r in rows if r.task == task.name and r.error is not None]
+        if own and all(r.pieces for r in own):
+            panels.append((task.name, "pieces", own, "pieces"))
+        panels.append((task.name, f"{TIME}: {task.baseline}", own, "time_ratio"))
+    return panels
+
+
+def _styles(panels: Iterable[Panel]) -> dict[str, tuple[str, str]]:
+    names = dict.fromkeys(row.method for _, _, rows, _ in panels for row in rows if not row.ours)
+    return {
+        name: (COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]) for i, name in enumerate(names)
+    }
+
+
+def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, columns: int) -> None:
+    styles = _styles(panels)
+    seen: dict[str, Any] = {}
+    own = list(dict.fromkeys(r.method for p in panels for r in p[2] if r.ours))
+    for number, (title, label, rows, what) in enumerate(panels):
+        axes = figure.add_subplot(lines, columns, number + 1)
+        for name in dict.fromkeys(row.method for row in rows):
+            points = [row for row in rows if row.method == name]
+            x = [getattr(row, what) for row in points]
+            y = [max(row.error or 0.0, EXACT) for row in points]
+            if points[0].ours:
+                marker = "*P"[own.index(name) % 2]
+                colour, size, above = OURS, 15.0 if marker == "*" else 10.0, 5
+            else:
+                colour, marker = styles[name]
+                size, above = 6.0, 3
+            (line,) = axes.plot(
+                x,
+                y,
+                marker=marker,
+                color=colour,
+                markersize=size,
+                zorder=above,
+                linewidth=1.2,
+                markeredgecolor="white",
+                markeredgewidth=0.6,
+            )
+            seen.setdefault(name, line)
+        axes.set(xscale="log", yscale="log", xlabel=label, ylabel=subject.error)
+        axes.set_title(title, fontsize=9.0)
+        axes.margins(0.08)
+    order = sorted(seen, key=lambda name: name not in own)
+    figure.legend(
+        [seen[n] for n in order],
+        order,
+        loc="outside lower center",
+        ncols=3 if columns > 1 else 2,
+        frameon=False,
+        fontsize=8.5,
+    )
+
+
+def _bars(axes: Any, panels: list[Panel]) -> None:
+    """Times alone, where no method makes an error: a group of bars a task."""
+    place, ticks, labels = 0.0, [], []
+    for title, _, rows, _ in panels:
+        for row in rows:
+            colour = OURS if row.ours else "#9db7d5"
+            axes.barh(place, row.time_ratio, color=colour, height=0.8)
+            axes.annotate(
+                f"{row.time_ratio:.2f}  {row.method}",
+                (row.time_ratio, place),
+                (4, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=7.5,
+                color=OURS if row.ours else "#333333",
+            )
+            if row is rows[0]:
+                ticks.append(place + 0.5 * (len(rows) - 1))
+                labels.append(title)
+            place += 1.0
+        place += 0.7
+    axes.set_yticks(ticks, labels)
+    axes.invert_yaxis()
+    axes.grid(False, axis="y")
+    longest = max(row.time_ratio for _, _, rows, _ in panels for row in rows)
+    axes.set_xlim(0.0, 1.3 * longest)
+    axes.axvline(1.0, color="#555555", linewidth=0.8)
+    axes.set_xlabel(panels[0][1])

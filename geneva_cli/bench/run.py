@@ -1,0 +1,82 @@
+"""Run time against error, subject by subject, as one table.
+
+Times are ratios to a baseline in the same run: the median over rounds in which baseline and methods
+take turns. A method is on the frontier where no other one of its task is both faster (by more than
+a tenth, which is noise) and as accurate, with as few pieces where the answer has pieces.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+from typing import cast
+
+from geneva_cli.bench.method import Row, Subject, Task, with_frontier
+from geneva_cli.bench.timing_pairs import ratios
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.table import Table, rows_table
+
+# The registry: a subject is a module ``bench_<name>`` with ``subject(quick)``.
+SUBJECTS = ("peaks", "many", "motion", "slot", "start", "export")
+SECONDS = 1.0  # of a method's own time, at least one run
+QUICK_SECONDS = 0.01
+
+
+def names(asked: str) -> tuple[str, ...]:
+    """The subjects that a word names: one, or all."""
+    if asked == "all":
+        return SUBJECTS
+    if asked not in SUBJECTS:
+        known = ", ".join((*SUBJECTS, "all"))
+        raise GenevaError(
+            f"{cut(asked)}: no such subject{nearest(asked, SUBJECTS)}; one of {known}"
+        )
+    return (asked,)
+
+
+def measure(name: str, quick: bool) -> tuple[Subject, list[Row]]:
+    """One subject: what it is about, and its rows."""
+    module = importlib.import_module(f"geneva_cli.bench.subjects.{name}")
+    subject = cast(Subject, module.subject(quick))
+    rows = [row for task in subject.tasks for row in _rows(name, subject, task, quick)]
+    return subject, rows
+
+
+def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]:
+    yield Row(name, task.name, f"baseline: {task.baseline}", None, None, None, 1.0, None, False)
+    answers = [method.run() for method in task.methods]
+    times = ratios(
+        task.baseline_run, [m.run for m in task.methods], QUICK_SECONDS if quick else SECONDS
+    )
+    rows = [
+        Row(
+            name,
+            task.name,
+            method.name,
+            method.size,
+            method.pieces(answer) if method.pieces else None,
+            task.error(answer),
+            time * method.times,
+            method.memory() if method.memory else None,
+            method.ours,
+        )
+        for method, answer, time in zip(task.methods, answers, times, strict=True)
+    ]
+    yield from with_frontier(rows, subject.slack, subject.floor)
+
+
+def bench_table(rows: list[Row], for_people: bool) -> Table:
+    """The rows as ``geneva bench`` writes them; a column that is empty throughout is left out.
+
+    People get errors in powers of ten: a table for them shows as 0 what is small beside its
+    column's largest number, and here the smallest is what counts.
+    """
+    shown = rows_table(Row._fields, [_spelled(row) if for_people else row for row in rows])
+    kept = [i for i, c in enumerate(shown.columns) if any(v is not None for v in c)]
+    return Table(tuple(shown.names[i] for i in kept), [list(shown.columns[i]) for i in kept])
+
+
+def _spelled(row: Row) -> tuple[object, ...]:
+    error = None if row.error is None else f"{row.error:.1e}" if row.error else "0"
+    size = None if row.size is None else f"{row.size:g}"
+    return (*row[:3], size, row.pieces, error, *row[6:])

@@ -1,0 +1,163 @@
+"""Export of rows of six numbers with every digit."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+import io
+import tracemalloc
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.output import delimited
+
+if TYPE_CHECKING:
+    from geneva_cli.table import Table
+
+COUNTS = (1_000, 100_000, 1_000_000)
+TRACED = 100_000  # rows
+MEGABYTE = 1e6
+
+
+class Sink(io.TextIOBase):
+    """Takes text and counts it, and keeps it only if asked: memory is the writer's own."""
+
+    def __init__(self, keep: bool = False) -> None:
+        self.parts: list[str] | None = [] if keep else None
+        self.size = 0
+
+    def write(self, text: str) -> int:
+        """As of any text stream."""
+        self.size += len(text)
+        if self.parts is not None:
+            self.parts.append(text)
+        return len(text)
+
+
+def with_csv(table: Table, out: Sink) -> None:
+    """The csv module, fed with Python's numbers."""
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(table.names)
+    writer.writerows(zip(*[c.tolist() for c in table.columns], strict=True))
+
+
+def savetxt(table: Table, out: Sink) -> None:
+    """np.savetxt with 17 digits (with %r, NumPy 2 writes ``np.float64(...)``)."""
+    header = ",".join(table.names)
+    np.savetxt(out, np.column_stack(table.columns), "%.17g", ",", header=header, comments="")
+
+
+def with_polars(table: Table, out: Sink) -> None:
+    """Polars, from NumPy's columns."""
+    import polars
+
+    out.write(polars.DataFrame(dict(zip(table.names, table.columns, strict=True))).write_csv())
+
+
+def with_pyarrow(table: Table, out: Sink) -> None:
+    """Apache Arrow's csv, from NumPy's columns."""
+    import pyarrow
+    from pyarrow import csv as arrow
+
+    text = io.BytesIO()
+    columns = [pyarrow.array(c) for c in table.columns]
+    arrow.write_csv(pyarrow.Table.from_arrays(columns, names=list(table.names)), text)
+    out.write(text.getvalue().decode())
+
+
+def with_orjson(table: Table, out: Sink) -> None:
+    """orjson writes json; the rows of an array, brackets made line ends, are csv."""
+    import orjson
+
+    rows = orjson.dumps(np.column_stack(table.columns), option=orjson.OPT_SERIALIZE_NUMPY)
+    out.write(",".join(table.names) + "\n")
+    out.write(rows[2:-2].replace(b"],[", b"\n").decode() + "\n")
+
+
+def ours(table: Table, out: Sink) -> None:
+    """The program's own csv."""
+    out.writelines(delimited.chunks(table, False))
+
+
+SAVETXT = "np.savetxt, %.17g"
+# The registry: name, writer, whether it is ours.
+WRITERS: list[tuple[str, Callable[[Table, Sink], None], bool]] = [
+    ("csv module", with_csv, False),
+    (SAVETXT, savetxt, False),
+    ("ours", ours, True),
+]
+# Libraries that take part where they are installed.
+LIBRARIES = {"orjson": with_orjson, "polars": with_polars, "pyarrow": with_pyarrow}
+
+
+def subject(quick: bool) -> Subject:
+    """Every writer at every number of rows."""
+    mechanism = build(Spec(External(6)))
+    absent = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
+    found = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
+    tasks = []
+    for count in COUNTS[:1] if quick else COUNTS:
+        table = motion_table(mechanism, count)
+        methods = [
+            Method(name, count, _call(run, table), is_ours, memory=_memory(run, table, count))
+            for name, run, is_ours in (*found, *WRITERS)
+        ]
+        base = _call(savetxt, table)
+        tasks.append(Task(f"{count} rows x 6", SAVETXT, base, _error(table), methods))
+    return Subject(
+        "Export with every digit", "numbers that read back differently", tasks, absent=absent
+    )
+
+
+def _call(run: Callable[[Table, Sink], None], table: Table) -> Callable[[], Any]:
+    def call() -> Callable[[Table, Sink], None]:
+        run(table, Sink())
+        return run
+
+    return call
+
+
+def _memory(
+    run: Callable[[Table, Sink], None], table: Table, count: int
+) -> Callable[[], float] | None:
+    """Peak of what a writer allocates besides the table itself; being traced, it takes long.
+
+    Python's memory: of a library with an allocator of its own, only what it hands over.
+    """
+    if count > TRACED:
+        return None
+
+    def peak() -> float:
+        tracemalloc.start()
+        try:
+            run(table, Sink())
+            return tracemalloc.get_traced_memory()[1] / MEGABYTE
+        finally:
+            tracemalloc.stop()
+
+    return peak
+
+
+def _error(table: Table) -> Callable[[Any], float]:
+    def mismatches(run: Any) -> float:
+        sink = Sink(keep=True)
+        run(table, sink)
+        text = "".join(sink.parts or ())
+        del sink
+        lines = text.split("\n")
+        wrong = 0
+        for start in range(0, len(table), 8192):
+            part = ",".join(lines[1 + start : 1 + min(start + 8192, len(table))])
+            wanted = np.column_stack([c[start : start + 8192] for c in table.columns]).ravel()
+            found = np.array([float(v) for v in part.split(",")])
+            wrong += int((found != wanted).sum()) if len(found) == len(wanted) else len(wanted)
+        return float(wrong)
+
+    return mismatches

@@ -1,0 +1,151 @@
+"""The motion of one design at very many angles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.truth import digits, motion
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.numerics.angles import DEGREE
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+Z = 3  # the wheel that asks most of a formula
+COUNTS = (1_000, 1_000_000)
+CHECKED = 200  # angles whose error is measured, ends and middle among them
+
+
+def textbook(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """What handbooks print, over whole arrays; x in radians."""
+    sine, cosine = np.sin(x), np.cos(x)
+    D = 1.0 - 2.0 * l * cosine + l * l
+    out = []
+    if 0 in orders:
+        out.append(np.arctan2(l * sine, 1.0 - l * cosine))
+    if 1 in orders:
+        out.append(l * (cosine - l) / D)
+    if 2 in orders:
+        out.append(-l * (1.0 - l * l) * sine / D**2)
+    if 3 in orders:
+        top = 4.0 * l - (1.0 + l * l) * cosine - 2.0 * l * cosine * cosine
+        out.append(l * (1.0 - l * l) * top / (D * D * D))  # three times as quick as D**3
+    return out
+
+
+def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """The same with the half angle, over whole arrays."""
+    half = 0.5 * x
+    h, g = np.sin(half), np.cos(half)
+    v, sine, rest = 2.0 * h * h, 2.0 * h * g, 1.0 - l
+    D = rest * rest + 2.0 * l * v
+    k = l * rest * (1.0 + l)
+    out = []
+    if 0 in orders:
+        out.append(np.arctan2(l * sine, rest + l * v))
+    if 1 in orders:
+        out.append(l * (rest - v) / D)
+    if 2 in orders:
+        out.append(-k * sine / (D * D))
+    if 3 in orders:
+        out.append(k * (v * (1.0 + 4.0 * l + l * l - 2.0 * l * v) - rest * rest) / (D * D * D))
+    return out
+
+
+def differences(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """The position, and np.gradient of it, and of that: what scripts do."""
+    found = [np.arctan2(l * np.sin(x), 1.0 - l * np.cos(x))]
+    for _ in range(max(orders)):
+        found.append(np.gradient(found[-1], x))
+    return [found[k] for k in orders]
+
+
+# The registry of formulas: name, function of l, angles in radians and orders.
+FORMULAS: list[tuple[str, Callable[[float, Array, Sequence[int]], list[Array]]]] = [
+    ("textbook formula", textbook),
+    ("stable formula, whole arrays", stable),
+    ("numerical differentiation of the position", differences),
+]
+WANTED = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
+
+
+def subject(quick: bool) -> Subject:
+    """Every formula for velocity and acceleration, and for all four."""
+    tasks = [
+        _task(count, what, orders)
+        for count in (COUNTS[:1] if quick else COUNTS)
+        for what, orders in WANTED.items()
+    ]
+    return Subject(
+        f"Motion of a wheel of {Z} slots at N angles",
+        "greatest error, in units of each quantity's peak",
+        tasks,
+    )
+
+
+def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
+    mechanism = build(Spec(External(Z)))
+    engagement, l = mechanism.engagements[0], mechanism.ratio
+    half = np.linspace(engagement.entry_deg, 0.0, count // 2 + 1)[: count // 2]
+    mirrored = np.concatenate((half, -half[::-1]))
+    skew = mirrored.copy()
+    skew[1] = math.nextafter(skew[1], 0.0)  # no longer the mirror image of itself
+    x = np.radians(skew)
+
+    methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in FORMULAS]
+    methods += [
+        Method(
+            "jets, whole arrays",
+            count,
+            lambda: [engagement.motion(skew, max(orders)).derivatives()[k] for k in orders],
+        ),
+        Method("ours", count, lambda: engagement.motion.derivatives(skew, orders), True),
+        Method(
+            "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
+        ),
+    ]
+    return Task(
+        f"{what} at {count} angles",
+        f"one np.sin + np.cos over {count} angles",
+        lambda: (np.sin(x), np.cos(x)),
+        lambda found: _error(found, mirrored, orders),
+        methods,
+    )
+
+
+def _error(found: Any, input_deg: Array, orders: Sequence[int]) -> float:
+    """At an even sample of the angles, the two ends and the two beside the middle among them."""
+    n = len(input_deg)
+    sample = np.unique(
+        np.concatenate((np.linspace(0, n - 1, CHECKED).astype(int), [n // 2 - 1, n // 2]))
+    )
+    exact = [_exact(float(input_deg[i])) for i in sample]
+    worst = 0.0
+    for values, k in zip(found, orders, strict=True):
+        peak = _peak(k)
+        for i, derivatives in zip(sample, exact, strict=True):
+            error = abs(digits().mpf(float(values[i])) - derivatives[k]) / peak
+            worst = max(worst, float(error))
+    return worst
+
+
+@cache
+def _exact(degrees: float) -> tuple[Any, ...]:
+    mp = digits()
+    return motion(Z, "external", 0.0, mp.mpf(degrees) * mp.pi / 180)
+
+
+@cache
+def _peak(k: int) -> float:
+    """Size of the peak of a derivative, to the percent: the unit of its error."""
+    half = 90.0 - 180.0 / Z
+    scan = np.linspace(0.0, half, 1001) * DEGREE
+    return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())

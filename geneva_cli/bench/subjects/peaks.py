@@ -1,0 +1,68 @@
+"""The peak acceleration of one design."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from geneva_cli.analysis.peaks import acceleration_peak as program
+from geneva_cli.bench.formulas import Design, acceleration
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.numeric import NUMERIC, closed
+from geneva_cli.bench.truth import acceleration_peak, relative
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels import classic
+from geneva_cli.machine.wheels import side_crank_peaks as many
+
+DESIGNS = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
+QUICK = 2  # how many of a method's sizes a quick run shows
+
+
+def subject(quick: bool) -> Subject:
+    """Every method on a few designs."""
+    tasks = [_task(*design, quick) for design in DESIGNS[: 2 if quick else None]]
+    return Subject("Peak acceleration of one design", "relative error of the peak", tasks)
+
+
+def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
+    d = Design.of(z, gearing, A)
+    methods = [
+        Method(numeric.name, size, partial(_run, numeric.run, d, size))
+        for numeric in NUMERIC
+        for size in (numeric.sizes[:QUICK] if quick else numeric.sizes)
+    ]
+    wheel = registry.gearing(gearing)(z)
+    mechanism = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
+    engagement = mechanism.engagements[0]
+    outside = wheel.SIGN > 0.0
+    if not A and outside:
+        l, gap = mechanism.ratio, classic.gap(wheel.SIGN, 1, z)
+        methods += [
+            Method("closed form of the textbook", None, lambda: closed(d)[0]),
+            Method("ours", None, lambda: classic.acceleration_peak(l, gap)[0], True),
+        ]
+    else:
+        one = partial(many.acceleration_peak, z, wheel.SIGN, A)
+        methods.append(Method("ours", None, lambda: one()[0], True))
+    methods.append(
+        Method("ours, as geneva peaks does", None, lambda: program(engagement).max, True)
+    )
+    name = f"{gearing}, z = {z}" + (f", A = {A:g}" if A else "")
+    x = 0.3 * d.half
+    return Task(
+        name,
+        "one evaluation of the formula in plain Python",
+        lambda: acceleration(math, d, x),
+        lambda peak: relative(peak, acceleration_peak(z, gearing, A)),
+        methods,
+    )
+
+
+def _run(method: Callable[[Design, Any], float], d: Design, size: float) -> float:
+    return method(d, int(size) if size >= 1.0 else size)

@@ -1,0 +1,175 @@
+"""A curved slot's profile: pieces and time against chord error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.bench import flank
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.curves import fit
+from geneva_cli.machine.laws.standard import Cycloidal
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.parts.slot_profile import chord_errors, nodes, slot
+from geneva_cli.spec.tables import Size
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # mm
+QUICK = 2
+GREEDY_FINEST = 1e-4  # the greedy search takes minutes below
+STARTS = 17  # the first guess of the methods that refine one
+
+
+def even(mechanism: Mechanism, tolerance: float) -> Array:
+    """Even input angles, as many as it takes: the number goes with the error's square root."""
+    engagement, count = mechanism.engagements[0], STARTS - 1
+    while True:
+        found = np.linspace(engagement.entry_deg, engagement.exit_deg, count + 1)
+        worst = chord_errors(mechanism, found).max()
+        if worst <= tolerance:
+            return found
+        count = 2 * int(np.ceil(0.5 * max(count * 1.001, count * np.sqrt(worst / tolerance))))
+
+
+def bisection(mechanism: Mechanism, tolerance: float) -> Array:
+    """Chords that miss by more are halved, until none does."""
+    engagement = mechanism.engagements[0]
+    found = np.array([engagement.entry_deg, 0.0, engagement.exit_deg])
+    while len(long := np.flatnonzero(chord_errors(mechanism, found) > tolerance)):
+        found = np.insert(found, long + 1, 0.5 * (found[long] + found[long + 1]))
+    return found
+
+
+def greedy(mechanism: Mechanism, tolerance: float) -> Array:
+    """The longest chords that stay within the tolerance, one by one: the fewest there can be."""
+    engagement = mechanism.engagements[0]
+    found = [engagement.entry_deg]
+    guess = engagement.motion_deg / STARTS
+    while (a := found[-1]) < engagement.exit_deg:
+        far = 0.0 if a < 0.0 else engagement.exit_deg
+
+        def good(b: float, a: float = a) -> bool:
+            return bool(chord_errors(mechanism, np.array([a, b]))[0] <= tolerance)
+
+        low, high = a, min(a + 2.0 * guess, far)
+        while high < far and good(high):
+            low, high = high, min(a + 2.0 * (high - a), far)
+        if high == far and good(far):
+            low = far
+        else:
+            for _ in range(20):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if good(middle) else (low, middle)
+        guess = low - a
+        found.append(low)
+    return np.array(found)
+
+
+class Pieces(NamedTuple):
+    """A way to write a slot in pieces: from a tolerance to an answer, its count and its error.
+
+    Those of the same ``shape`` compete.
+    """
+
+    shape: str
+    name: str
+    run: Callable[[Mechanism, float], Any]
+    pieces: Callable[[Any], int]
+    error: Callable[[Mechanism, Any], float]
+    ours: bool = False
+    finest: float = 0.0  # mm; the method is not shown at finer tolerances
+
+
+def chords(found: Array) -> int:
+    """A polyline's pieces."""
+    return len(found) - 1
+
+
+def chord_error(mechanism: Mechanism, found: Array) -> float:
+    """The greatest distance of 63 points a chord from it, over pitch curve and flanks, mm.
+
+    As complex numbers turned into each chord's direction: another way than the program's.
+    """
+    ends = slot(mechanism, found)
+    inner = np.linspace(0.0, 1.0, 65)[1:-1]
+    worst = 0.0
+    for start in range(0, len(found) - 1, 2048):
+        a, b = found[start : start + 2049][:-1], found[start : start + 2049][1:]
+        points = slot(mechanism, (a[:, None] + (b - a)[:, None] * inner).ravel())
+        for name in ("centre", "left", "right"):
+            p = (getattr(points, name) @ [1.0, 1j]).reshape(len(a), -1)
+            q = (getattr(ends, name) @ [1.0, 1j])[start : start + len(a) + 1]
+            turned = (p - q[:-1, None]) * np.exp(-1j * np.angle(np.diff(q)))[:, None]
+            worst = max(worst, float(np.abs(turned.imag).max()))
+    return worst
+
+
+def on_flank(fitted: Callable[..., list[Any]]) -> Callable[[Mechanism, float], list[Any]]:
+    """The left flank in pieces that are fitted to a curve."""
+    return lambda mechanism, tolerance: fitted(*flank.left_flank(mechanism), tolerance)
+
+
+def flank_error(mechanism: Mechanism, found: list[Any]) -> float:
+    """How far the left flank strays from such pieces, mm."""
+    return flank.stray(*flank.left_flank(mechanism), found)
+
+
+SLOT, ARCS, CUBICS = "", ": left flank in arcs", ": left flank in cubics"
+# The registry: each way by one line.
+PIECES = [
+    Pieces(SLOT, "even input angles", even, chords, chord_error),
+    Pieces(SLOT, "recursive bisection", bisection, chords, chord_error),
+    Pieces(SLOT, "greedy longest chords", greedy, chords, chord_error, finest=GREEDY_FINEST),
+    Pieces(SLOT, "ours: polyline", nodes, chords, chord_error, True),
+    Pieces(ARCS, "biarcs by bisection", on_flank(flank.biarcs), len, flank_error),
+    Pieces(ARCS, "ours: arcs", on_flank(fit.arcs), len, flank_error, True),
+    Pieces(CUBICS, "Hermite cubics by bisection", on_flank(flank.hermite_cubics), len, flank_error),
+    Pieces(CUBICS, "ours: cubics", on_flank(fit.cubics), len, flank_error, True),
+]
+
+
+def subject(quick: bool) -> Subject:
+    """Every way at every tolerance, for a wheel of 8 slots and the cycloidal law."""
+    size = Size(center_distance_mm=200.0, roller_radius_mm=9.0, slot_clearance_mm=0.25)
+    mechanism = build(Spec(External(8), motion=Motion(Cycloidal(), ratio="matched"), size=size))
+    engagement = mechanism.engagements[0]
+    angles = np.linspace(engagement.entry_deg, engagement.exit_deg, 1000)
+    tasks = [
+        Task(
+            f"slot of z = 8, cycloidal, matched R/L, L = 200 mm{shape}",
+            "pitch curve and flanks at 1000 angles",
+            lambda: slot(mechanism, angles),
+            lambda answer: answer[0].error(mechanism, answer[1]),
+            _methods(mechanism, shape, quick),
+        )
+        for shape in dict.fromkeys(way.shape for way in PIECES)
+    ]
+    return Subject(
+        "A curved slot in pieces", "greatest distance from the curve, mm", tasks, floor=0.0
+    )
+
+
+def _methods(mechanism: Mechanism, shape: str, quick: bool) -> list[Method]:
+    return [
+        Method(
+            way.name,
+            tolerance,
+            partial(_run, way, mechanism, tolerance),
+            way.ours,
+            pieces=lambda answer: answer[0].pieces(answer[1]),
+        )
+        for way in PIECES
+        for tolerance in TOLERANCES[: QUICK if quick else None]
+        if way.shape == shape and tolerance >= way.finest and not (quick and way.run is greedy)
+    ]
+
+
+def _run(way: Pieces, mechanism: Mechanism, tolerance: float) -> tuple[Pieces, Any]:
+    return way, way.run(mechanism, tolerance)

@@ -1,0 +1,92 @@
+"""Start-up: whole runs as a user waits for them, with and without the lazy imports."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from functools import partial
+
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.timing_pairs import process_seconds
+from geneva_cli.specfile.template import template
+
+# What a command is run with; a spec on standard input. Others are run with --help.
+ARGUMENTS = {
+    "table": ("--z", "6"),
+    "peaks": ("-",),
+    "motion": ("-",),
+    "profile": ("-",),
+    "report": ("-",),
+    "check": ("-",),
+    "laws": (),
+    "new": ("external",),
+}
+SPEC = "curved"  # the template that needs most
+QUICK = ("table",)
+RUN = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.app import main; main()"
+EAGER = (
+    "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
+    "from geneva_cli.app import COMMANDS\n"
+    "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
+)
+# What one would write instead: a row of the table as handbooks have it, by a script of its own.
+ROW = """
+def row(z):
+    import math
+    a = math.pi / z
+    l = math.sin(a)
+    t = 0.5 - 1 / z
+    print(z, 180 - 360 / z, 180 + 360 / z, t / (1 - t), t, l / (1 - l))
+"""
+SCRIPTS = {
+    "a script with argparse, fewer columns": ROW + "import argparse\n"
+    "parser = argparse.ArgumentParser()\n"
+    "table = parser.add_subparsers().add_parser('table')\n"
+    "table.add_argument('--z', type=int)\n"
+    "row(parser.parse_args().z)\n",
+    "a Typer app of lazy commands, fewer columns": ROW + "import typer\n"
+    "app = typer.Typer()\n"
+    "app.callback()(lambda: None)\n"
+    "@app.command()\n"
+    "def table(z: int = 6): row(z)\n"
+    "app()\n",
+}
+BASELINE = "python -c 'import typer'"
+
+
+def commands() -> list[str]:
+    """The registry, asked of the program as a whole: this module is below it."""
+    code = "from geneva_cli.app import COMMANDS; print(*COMMANDS)"
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
+
+
+def subject(quick: bool) -> Subject:
+    """Bare Python, and every command in both ways; one task a command."""
+    spec = template(SPEC)
+    tasks = [_task("python", {"python -c pass": ("pass", ())}, None)]
+    for name in QUICK if quick else ("--help", *commands()):
+        words = (name, *ARGUMENTS.get(name, ("--help",) if name != "--help" else ()))
+        runs = {
+            "ours: lazy imports": (RUN, words),
+            "everything imported first": (EAGER + RUN, words),
+        }
+        if name == "table":
+            runs |= {way: (code, words) for way, code in SCRIPTS.items()}
+        tasks.append(_task("geneva " + " ".join(words), runs, spec))
+    return Subject("Start-up of whole runs", "none", tasks)
+
+
+def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | None) -> Task:
+    methods = [
+        Method(way, None, partial(_run, (sys.executable, "-c", code, *words), spec), "ours" in way)
+        for way, (code, words) in runs.items()
+    ]
+    base = partial(_run, (sys.executable, "-c", "import typer"), None)
+    return Task(name, BASELINE, base, lambda _: 0.0, methods)
+
+
+def _run(command: tuple[str, ...], given: str | None) -> None:
+    process_seconds(command, os.environ, given)

@@ -1,0 +1,1 @@
+"""Lines, arcs and cubics: shapes, their measures, distances and fits."""

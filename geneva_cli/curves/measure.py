@@ -1,0 +1,313 @@
+"""Measures of shapes: bounds, area, length, polylines; and shapes scaled and turned.
+
+Lengths are in the unit of the coordinates, areas in its square. An arc is taken by its ends and
+its bulge throughout: its centre is far off and badly known where it is nearly straight.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple, TypeVar
+
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Drawing,
+    Line,
+    Point,
+    Segment,
+    Shape,
+)
+from geneva_cli.errors import GenevaError
+
+STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
+SERIES = 0.5  # radians; below, theta - sin(theta) is summed, as the difference would cancel
+LENGTH_ERROR = 1e-13  # of a cubic's length, relative to its control polygon's
+DEPTH = 40  # halvings of a cubic, of which a cusp needs about twenty
+# Gauss-Legendre's abscissae and weights of eight points on -1..1, one sign of each pair
+GAUSS = (
+    (0.18343464249564980, 0.36268378337836198),
+    (0.52553240991632899, 0.31370664587788729),
+    (0.79666647741362674, 0.22238103445337447),
+    (0.96028985649753623, 0.10122853629037626),
+)
+S = TypeVar("S", Contour, Circle, Shape)
+
+
+class Box(NamedTuple):
+    """The least and the greatest coordinates."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+
+def bounds(shape: Shape) -> Box:
+    """The smallest box around a shape: the extremes of its arcs and cubics are taken exactly."""
+    if isinstance(shape, Circle):
+        (x, y), r = shape.centre, shape.radius
+        return Box(x - r, y - r, x + r, y + r)
+    return _box(p for segment in shape.segments for p in _extremes(segment))
+
+
+def extent(drawing: Drawing) -> Box:
+    """The smallest box around all shapes; raises GenevaError where there are none."""
+    boxes = [bounds(shape) for shape in drawing.shapes]
+    if not boxes:
+        raise GenevaError("nothing to draw: a drawing must have a shape")
+    return _box(p for box in boxes for p in ((box.x0, box.y0), (box.x1, box.y1)))
+
+
+def area(shape: Shape) -> float:
+    """The area inside, positive where the contour runs counterclockwise; in closed form.
+
+    An open contour is closed by the chord from its end to its start. Green's theorem is taken
+    about the first point, so that a shape far from the origin loses no digits.
+    """
+    if isinstance(shape, Circle):
+        return math.pi * shape.radius * shape.radius
+    if not shape.segments:
+        return 0.0
+    origin = shape.segments[0].start
+    return math.fsum(_swept(segment, origin) for segment in shape.segments)
+
+
+def length(shape: Shape) -> float:
+    """The length of the line that is drawn, in closed form but for cubics (LENGTH_ERROR)."""
+    if isinstance(shape, Circle):
+        return 2.0 * math.pi * shape.radius
+    return math.fsum(map(segment_length, shape.segments))
+
+
+def segment_length(segment: Segment) -> float:
+    """The length of one segment."""
+    if isinstance(segment, Cubic):
+        scale = _polygon(segment)
+        return _refined(segment, _gauss(segment), LENGTH_ERROR * scale, DEPTH)
+    chord = math.dist(segment.start, segment.end)
+    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        return chord
+    half = 0.5 * segment.sweep
+    return chord * half / math.sin(half)
+
+
+def at(segment: Segment, t: float) -> Point:
+    """The point at the parameter 0..1, which is a share of the way on lines and arcs."""
+    if t in (0.0, 1.0):
+        return segment.end if t else segment.start
+    if isinstance(segment, Cubic):
+        return _halves(segment, t)[0].end
+    (x0, y0), (x1, y1) = segment.start, segment.end
+    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
+    # the chord to the point is the whole chord, turned and shortened
+    half = 0.5 * segment.sweep
+    turn, share = (t - 1.0) * half, math.sin(t * half) / math.sin(half)
+    c, s = share * math.cos(turn), share * math.sin(turn)
+    return x0 + c * (x1 - x0) - s * (y1 - y0), y0 + s * (x1 - x0) + c * (y1 - y0)
+
+
+def halves(segment: Segment) -> tuple[Segment, Segment]:
+    """The segment cut in two at its parameter 1/2."""
+    if isinstance(segment, Cubic):
+        return _halves(segment, 0.5)
+    middle = at(segment, 0.5)
+    if isinstance(segment, Line):
+        return Line(segment.start, middle), Line(middle, segment.end)
+    bulge = math.tan(0.125 * segment.sweep)
+    return Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
+
+
+def vertices(shape: Shape, tolerance: float) -> list[Point]:
+    """A polyline whose chords stay within ``tolerance`` of the shape, with all segments' ends.
+
+    It runs from the first start to the last end: on a closed contour the last point is the first
+    one again. Raises GenevaError where the tolerance is not above 0.
+    """
+    if not tolerance > 0.0:
+        raise GenevaError(f"the tolerance is {tolerance}; it must be above 0")
+    if isinstance(shape, Circle):
+        (x, y), r = shape.centre, shape.radius
+        count = max(_chords(2.0 * math.pi, r, tolerance), 3)
+        turns = [2.0 * math.pi * i / count for i in range(count)]
+        points = [(x + r * math.cos(a), y + r * math.sin(a)) for a in turns]
+        return [*points, points[0]]
+    points = [shape.segments[0].start] if shape.segments else []
+    for segment in shape.segments:
+        count = _pieces(segment, tolerance)
+        points += [at(segment, i / count) for i in range(1, count + 1)]
+    return points
+
+
+def mapped(
+    shape: S,
+    point: Callable[[Point], Point],
+    radius: Callable[[float], float] = lambda r: r,
+) -> S:
+    """A shape moved by a similarity that keeps the sense of turning.
+
+    ``point`` maps its points, and ``radius`` a circle's radius.
+    """
+    if isinstance(shape, Circle):
+        return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
+    return shape._replace(segments=tuple(_mapped(s, point) for s in shape.segments))
+
+
+def scaled(drawing: Drawing, factor: float) -> Drawing:
+    """The drawing enlarged from the origin; ``factor`` above 0."""
+
+    def point(p: Point) -> Point:
+        return factor * p[0], factor * p[1]
+
+    shapes = (mapped(shape, point, lambda r: factor * r) for shape in drawing.shapes)
+    return drawing._replace(shapes=tuple(shapes))
+
+
+def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
+    """The shape turned about a point, counterclockwise."""
+    (x, y), c, s = centre, math.cos(radians), math.sin(radians)
+
+    def point(p: Point) -> Point:
+        u, v = p[0] - x, p[1] - y
+        return x + c * u - s * v, y + s * u + c * v
+
+    return mapped(shape, point)
+
+
+def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:
+    if isinstance(segment, Cubic):
+        return Cubic(*map(point, segment))
+    return segment._replace(start=point(segment.start), end=point(segment.end))
+
+
+def _box(points: Iterable[Point]) -> Box:
+    xs, ys = zip(*points, strict=True)
+    return Box(min(xs), min(ys), max(xs), max(ys))
+
+
+def _extremes(segment: Segment) -> Iterator[Point]:
+    """The ends, and where the segment runs along an axis."""
+    yield segment.start
+    yield segment.end
+    if isinstance(segment, Cubic):
+        for axis in (0, 1):
+            for t in _level(*(p[axis] for p in segment)):
+                yield at(segment, t)
+    elif isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
+        (x0, y0), (x1, y1) = segment.start, segment.end
+        sweep, quarter = segment.sweep, 0.5 * math.pi
+        first = math.atan2(y1 - y0, x1 - x0) - 0.5 * sweep  # direction at the start
+        low, high = sorted((first, first + sweep))
+        for k in range(math.ceil(low / quarter), math.floor(high / quarter) + 1):
+            yield at(segment, min(max((k * quarter - first) / sweep, 0.0), 1.0))
+
+
+def _level(a: float, b: float, c: float, d: float) -> list[float]:
+    """Where a cubic's coordinate stands still, inside 0..1."""
+    e, f, g = b - a, c - b, d - c  # the derivative's Bernstein coefficients, by 3
+    square, half = e - 2.0 * f + g, f - e  # square t^2 + 2 half t + e = 0
+    under = half * half - square * e
+    if under < 0.0:
+        return []
+    root = -(half + math.copysign(math.sqrt(under), half))  # no cancellation
+    found = [root / square] if square else []
+    found += [e / root] if root else []
+    return [t for t in found if 0.0 < t < 1.0]
+
+
+def _swept(segment: Segment, origin: Point) -> float:
+    """The area that the ray from the origin to the segment's point sweeps."""
+    points = [(x - origin[0], y - origin[1]) for x, y in _points(segment)]
+    if isinstance(segment, Cubic):
+        p, q, r, s = points
+        pairs = 6.0 * (_cross(p, q) + _cross(r, s)) + 3.0 * (_cross(p, r) + _cross(q, s))
+        return 0.05 * (pairs + 3.0 * _cross(q, r) + _cross(p, s))
+    triangle = 0.5 * _cross(points[0], points[1])
+    if isinstance(segment, Line):
+        return triangle
+    return triangle + _cap(math.dist(*points), segment.sweep)
+
+
+def _cap(chord: float, sweep: float) -> float:
+    """The area between an arc and its chord: chord^2 (sweep - sin sweep) / (8 sin^2(sweep/2))."""
+    if abs(sweep) < SERIES:
+        square = sweep * sweep
+        rest = 1.0
+        for k in (12, 10, 8, 6, 4):  # 6 (sweep - sin sweep) / sweep^3, from its far end
+            rest = 1.0 - rest * square / (k * (k + 1))
+        sinc = math.sin(0.5 * sweep) / (0.5 * sweep) if sweep else 1.0
+        return chord * chord * sweep * rest / (12.0 * sinc * sinc)
+    sine = math.sin(0.5 * sweep)
+    return chord * chord * (sweep - math.sin(sweep)) / (8.0 * sine * sine)
+
+
+def _points(segment: Segment) -> tuple[Point, ...]:
+    return tuple(segment) if isinstance(segment, Cubic) else (segment.start, segment.end)
+
+
+def _cross(p: Point, q: Point) -> float:
+    return p[0] * q[1] - p[1] * q[0]
+
+
+def _polygon(cubic: Cubic) -> float:
+    return sum(map(math.dist, cubic[:-1], cubic[1:]))
+
+
+def _gauss(cubic: Cubic) -> float:
+    """The length by eight points."""
+    sides = [
+        (3.0 * (q[0] - p[0]), 3.0 * (q[1] - p[1]))
+        for p, q in zip(cubic[:-1], cubic[1:], strict=True)
+    ]
+    total = 0.0
+    for node, weight in GAUSS:
+        for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
+            a, b, c = (1.0 - t) ** 2, 2.0 * t * (1.0 - t), t * t
+            (e, f), (g, h), (i, j) = sides
+            total += weight * math.hypot(a * e + b * g + c * i, a * f + b * h + c * j)
+    return 0.5 * total
+
+
+def _refined(cubic: Cubic, whole: float, error: float, depth: int) -> float:
+    first, second = _halves(cubic, 0.5)
+    a, b = _gauss(first), _gauss(second)
+    if abs(a + b - whole) <= error or not depth:
+        return a + b
+    return _refined(first, a, error, depth - 1) + _refined(second, b, error, depth - 1)
+
+
+def _halves(cubic: Cubic, t: float) -> tuple[Cubic, Cubic]:
+    """De Casteljau's two parts."""
+
+    def between(p: Point, q: Point) -> Point:
+        return p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])
+
+    a, d = cubic.start, cubic.end
+    ab, bc, cd = between(a, cubic.first), between(cubic.first, cubic.second), between(*cubic[2:])
+    abc, bcd = between(ab, bc), between(bc, cd)
+    middle = between(abc, bcd)
+    return Cubic(a, ab, abc, middle), Cubic(middle, bcd, cd, d)
+
+
+def _pieces(segment: Segment, tolerance: float) -> int:
+    """Chords that a segment needs."""
+    if isinstance(segment, Cubic):
+        bends = [
+            math.hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1])
+            for p, q, r in zip(segment[:-2], segment[1:-1], segment[2:], strict=True)
+        ]
+        # a chord is off by at most an eighth of the second derivative, which is 6 bends
+        return max(math.ceil(math.sqrt(0.75 * max(bends) / tolerance)), 1)
+    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        return 1
+    return _chords(abs(segment.sweep), segment.radius, tolerance)
+
+
+def _chords(sweep: float, radius: float, tolerance: float) -> int:
+    """Chords within the tolerance of an arc: r (1 - cos(step / 2)) is how far one is off."""
+    step = 4.0 * math.asin(math.sqrt(tolerance / max(2.0 * radius, tolerance)))
+    return max(math.ceil(sweep / step), 1)

@@ -1,0 +1,134 @@
+"""A drawing's pieces, as they are written: in the file's unit, none doubled, none of no length."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from geneva_cli.curves.measure import mapped, segment_length
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Cubic,
+    Drawing,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    closed,
+    joined,
+)
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.table import Table, rows_table
+
+UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one
+SUFFIX = {"mm": "mm", "inch": "in"}
+DECIMALS = 12  # beyond them is rounding
+STEP = 1e-9  # mm; what is shorter, or bends less from its chord, no file shows
+LENGTHS = (
+    "x",
+    "y",
+    "end_x",
+    "end_y",
+    "center_x",
+    "center_y",
+    "radius",
+    "control1_x",
+    "control1_y",
+    "control2_x",
+    "control2_y",
+)
+
+
+def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
+    """One row a segment or circle, contours and their pieces counted from 1.
+
+    The columns of control points are there where there are cubics.
+
+    ``units`` is mm or inch, and names the columns. Raises GenevaError as ``prepared`` does.
+    """
+    rows = []
+    for number, shape in enumerate(prepared(drawing, units).shapes, 1):
+        pieces = shape.segments if isinstance(shape, Contour) else (shape,)
+        for i, piece in enumerate(pieces, 1):
+            kind, *values = _values(piece)
+            shown = [None if v is None else round(v, DECIMALS) + 0.0 for v in values]
+            rows.append((shape.layer, number, i, kind, *shown))
+    lengths = [f"{name}_{SUFFIX[units]}" for name in LENGTHS]
+    names = ["layer", "contour", "piece", "kind", *lengths[:7], "sweep_deg", *lengths[7:]]
+    if not any(row[3] == "cubic" for row in rows):
+        names = names[:-4]
+        rows = [row[:-4] for row in rows]
+    return rows_table(names, rows, drawing.title)
+
+
+def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
+    """The drawing in a unit, without doubled shapes and pieces shorter than ``STEP``.
+
+    Pieces that are left stay end to end. Raises GenevaError for another unit, and where a
+    coordinate is not finite.
+    """
+    if units not in UNITS:
+        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
+    shapes = [shape for given in drawing.shapes for shape in _cleaned(given)]
+    return drawing._replace(
+        shapes=tuple(_divided(shape, UNITS[units]) for shape in dict.fromkeys(shapes))
+    )
+
+
+def _divided(shape: Shape, unit: float) -> Shape:
+    """By a division, which is rounded once: 25.4 mm are 1 inch and nothing besides."""
+
+    def point(p: Point) -> Point:
+        return p[0] / unit, p[1] / unit
+
+    return mapped(shape, point, lambda radius: radius / unit)
+
+
+def _cleaned(shape: Shape) -> Iterator[Shape]:
+    _require_finite(shape)
+    if isinstance(shape, Circle):
+        if shape.radius > STEP:
+            yield shape
+        return
+    kept = [_straightened(s) for s in shape.segments if segment_length(s) > STEP]
+    if kept:
+        yield (
+            closed(shape.layer, kept)
+            if shape.closed
+            else Contour(shape.layer, joined(kept), closed=False)
+        )
+
+
+def _straightened(segment: Segment) -> Segment:
+    """A line for an arc so flat that its centre would only be noise."""
+    flat = isinstance(segment, Arc) and (
+        0.5 * math.dist(segment.start, segment.end) * abs(segment.bulge) < STEP
+    )
+    return Line(segment.start, segment.end) if flat else segment
+
+
+def _require_finite(shape: Shape) -> None:
+    for piece in shape.segments if isinstance(shape, Contour) else (shape,):
+        for value in piece:
+            numbers = value if isinstance(value, tuple) else (value,)
+            if not all(math.isfinite(n) for n in numbers if not isinstance(n, str)):
+                kind = type(piece).__name__.lower()
+                raise GenevaError(
+                    f"layer {shape.layer}: a {kind} at {value}; coordinates must be finite"
+                )
+
+
+def _values(piece: Segment | Circle) -> tuple[Any, ...]:
+    """Kind, start, end, centre, radius, sweep in degrees and control points."""
+    if isinstance(piece, Circle):
+        return "circle", *[None] * 4, *piece.centre, piece.radius, 360.0, *[None] * 4
+    ends = (*piece.start, *piece.end)
+    if isinstance(piece, Cubic):
+        return "cubic", *ends, *[None] * 4, *piece.first, *piece.second
+    if isinstance(piece, Line):
+        return "line", *ends, *[None] * 8
+    sweep = math.degrees(piece.sweep)
+    return "arc", *ends, *piece.centre, piece.radius, sweep, *[None] * 4

@@ -1,0 +1,260 @@
+"""Design: one spec and all its answers, each computed once and kept.
+
+    >>> from geneva_cli import Design, External, SideCrank
+    >>> slow = Design(External(6), SideCrank(A=0.6))
+    >>> slow.peaks.velocity.max
+    0.625
+    >>> slow.with_("drive.A", 0.0).timing.motion_deg
+    120.0
+
+What is imported for an answer is imported when it is asked for: here is the one door.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.spec.tables import Limits, Load, Size
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.loads.forces import Greatest
+    from geneva_cli.analysis.peaks import Peaks
+    from geneva_cli.analysis.timing import Timing
+    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.parts.proof import Proof
+    from geneva_cli.specfile.reader import Text
+    from geneva_cli.table import Table
+    from geneva_cli.verdict.checks import Check
+    from geneva_cli.verdict.report import Report
+
+T = TypeVar("T")
+CURVES = {"arcs": "arcs", "spline": "cubics"}  # what curved walls are written as
+
+
+def load(path: str) -> Design:
+    """The design in a spec file; ``-`` is standard input.
+
+    Raises GenevaError, ``FILE:LINE: what is wrong; what would be right``, here for what cannot be
+    read, and from every answer for what cannot be built.
+    """
+    from geneva_cli.specfile.reader import read
+
+    text = read(path)
+    return Design.of(text.spec(), text)
+
+
+def answer(make: Callable[[Any], T]) -> cached_property[T]:
+    """An answer that is worked out once; what is wrong with it is said with the spec's line."""
+
+    def located(design: Design) -> T:
+        return design._located(lambda: make(design))
+
+    located.__doc__ = make.__doc__
+    return cached_property(located)
+
+
+class Design:
+    """A Geneva mechanism: what it is given as, and what follows.
+
+    Values are checked where they are made: ``SideCrank(A=2.0)`` raises the GenevaError that a
+    file with ``A = 2`` gets, without the line. Angles are in degrees, lengths in millimetres,
+    loads in newtons, newton metres and megapascals; velocity, acceleration and jerk are
+    derivatives of the wheel's angle by the input's in radians.
+    """
+
+    def __init__(
+        self,
+        wheel: Gearing,
+        drive: Drive | None = None,
+        motion: Motion | None = None,
+        *,
+        size: Size | None = None,
+        load: Load | None = None,
+        limits: Limits | None = None,
+        title: str = "",
+    ) -> None:
+        self.spec = Spec(
+            wheel,
+            drive or Crank(),
+            motion,
+            size or Size(),
+            load or Load(),
+            limits or Limits(),
+            title,
+        )
+        self._text: Text | None = None
+
+    @classmethod
+    def of(cls, spec: Spec, text: Text | None = None) -> Design:
+        """The design of a whole spec; ``text`` is the file that it was read from."""
+        design = cls.__new__(cls)
+        design.spec, design._text = spec, text
+        return design
+
+    def with_(self, key: str, value: Any) -> Design:
+        """The design with one key changed, ``table.key`` as in the file; None: its default.
+
+        Raises GenevaError for a key that it does not have, or a value out of its range.
+        """
+        return Design.of(self.spec.with_(key, value), None)
+
+    def _located(self, make: Callable[[], T]) -> T:
+        if self._text is None:
+            return make()
+        with self._text.located():
+            return make()
+
+    @answer
+    def mechanism(self) -> Mechanism:
+        """The machine: its engagements over a period. Raises GenevaError where there is none."""
+        return build(self.spec)
+
+    @answer
+    def timings(self) -> list[Timing]:
+        """Motion, dwell and cycle of each engagement in a period: degrees and seconds."""
+        from geneva_cli.analysis.timing import timings
+
+        return timings(self.mechanism)
+
+    @property
+    def timing(self) -> Timing:
+        """Motion, dwell and cycle of the first engagement."""
+        return self.timings[0]
+
+    @answer
+    def peaks(self) -> Peaks:
+        """Greatest velocity, acceleration, jerk and power of a period, and where.
+
+        Invariants: derivatives by the input's angle in radians. Angles are input angles in degrees.
+        """
+        from geneva_cli.analysis.peaks import worst
+
+        return worst(self.mechanism)
+
+    @answer
+    def peaks_table(self) -> Table:
+        """The peaks as ``geneva peaks`` prints them, engagement by engagement where they differ."""
+        from geneva_cli.analysis.peaks import peaks_table
+
+        return peaks_table(self.mechanism)
+
+    def motion(self, samples: int = 361) -> Table:
+        """``samples`` rows over a period from the first entry, evenly in the input angle.
+
+        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+        """
+        from geneva_cli.analysis.motion import motion_table
+
+        return self._located(lambda: motion_table(self.mechanism, samples))
+
+    @answer
+    def loads(self) -> dict[str, Greatest]:
+        """The greatest wheel torque, pin force, input torque and contact stress, and where.
+
+        Infinite where nothing bounds them; the stress needs a ``face_width_mm``. Newtons, newton
+        metres, megapascals; input angles in degrees.
+        """
+        from geneva_cli.analysis.loads.loads import greatest
+
+        names = ["torque_Nm", "pin_force_N", "input_torque_Nm"]
+        if self.spec.size.face_width_mm is not None:
+            names.append("contact_stress_MPa")
+        return {name: greatest(self.mechanism, name) for name in names}
+
+    def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
+        """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.
+
+        Or ``samples`` rows, evenly in the input angle.
+        """
+        return self.part_table("slot", tolerance_mm, samples)
+
+    def part_table(
+        self, part: str, tolerance_mm: float = 0.001, samples: int | None = None
+    ) -> Table:
+        """A part as a table of points: ``slot``, ``gears``, ``groove``, or a sphere's ``wheel``."""
+        from geneva_cli.parts.catalogue import part_table
+
+        return self._located(lambda: part_table(self.mechanism, part, tolerance_mm, samples))
+
+    def is_table(self, part: str, drawn: bool) -> bool:
+        """Whether a part is a table of points; ``drawn`` where a drawing is asked for."""
+        from geneva_cli.parts.catalogue import is_table
+
+        return self._located(lambda: is_table(self.mechanism, part, drawn))
+
+    @answer
+    def proof(self) -> Proof:
+        """Outlines and full turn, which all questions about the parts share."""
+        from geneva_cli.parts.proof import Proof
+
+        return Proof(self.mechanism)
+
+    @answer
+    def parts(self) -> Outlines:
+        """Wheel and crank as closed outlines. Raises GenevaError where there are no flat parts."""
+        return self.proof.found
+
+    def drawn(self, tolerance_mm: float) -> Proof:
+        """The parts as they are written for a tolerance in mm above 0, and their full turn."""
+        from geneva_cli.parts.outlines import outlines
+        from geneva_cli.parts.proof import Proof
+
+        if not tolerance_mm > 0.0:
+            raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
+        made = self._located(lambda: outlines(self.mechanism, tolerance_mm))
+        return Proof(self.mechanism, made)
+
+    def drawing(
+        self, part: str, tolerance_mm: float = 0.001, curves: str = "arcs", of: Proof | None = None
+    ) -> Drawing:
+        """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
+
+        ``slot``, ``wheel``, ``crank``, ``assembly`` or ``groove``; millimetres.
+        """
+        from geneva_cli.parts.catalogue import part_drawing
+
+        if curves not in CURVES:
+            raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+        found = (of or self.drawn(tolerance_mm)).found
+        return self._located(lambda: part_drawing(found, part, tolerance_mm, CURVES[curves]))
+
+    @answer
+    def checks(self) -> list[Check]:
+        """Every check: its value, its limit, and where it fails the nearest change that passes."""
+        from geneva_cli.verdict.advice import judged
+
+        return judged(self.mechanism, self.proof)
+
+    @property
+    def passes(self) -> bool:
+        """Whether no check fails; what cannot be proved does not fail."""
+        return all(check.passes is not False for check in self.checks)
+
+    def judge(self, proof: Proof) -> tuple[str, list[str]]:
+        """Why drawn parts cannot be written, empty where they can, and what else is wrong."""
+        from geneva_cli.verdict.advice import verdict
+
+        return self._located(lambda: verdict(proof))
+
+    @answer
+    def warnings(self) -> list[str]:
+        """What a number alone would hide."""
+        from geneva_cli.verdict.cautions import cautions
+
+        return cautions(self.mechanism)
+
+    @answer
+    def report(self) -> Report:
+        """The whole page: a record of named values, whether all checks pass, and the cautions."""
+        from geneva_cli.verdict.report import report
+
+        return report(self.mechanism)

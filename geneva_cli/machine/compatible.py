@@ -1,0 +1,112 @@
+"""What goes together: a wheel, a drive and a motion, each by what it says of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Needs
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
+
+
+class Clash(NamedTuple):
+    """Two things that cannot be together: when, the key to blame, and what to say."""
+
+    when: Callable[[Spec], object]
+    key: tuple[str, str]
+    text: str
+
+
+def _several(spec: Spec) -> int:
+    """How many rollers the wheel's steps or the crank's angles place; 0 where neither does."""
+    return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
+
+
+CLASHES = (
+    Clash(
+        lambda s: s.drive.RADIAL and (not s.wheel.radial or s.drive.roller_angles_deg),
+        ("drive", "kind"),
+        'kind = "{drive}" has one roller and radial slots: remove offset_mm, steps_deg and '
+        "roller_angles_deg",
+    ),
+    Clash(
+        lambda s: s.drive.GEARINGS and s.wheel.NAME not in s.drive.GEARINGS,
+        ("wheel", "gearing"),
+        'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
+    ),
+    Clash(
+        lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
+        ("drive", "kind"),
+        'kind = "{drive}" needs a law in [motion]: the groove is cut for it',
+    ),
+    Clash(
+        lambda s: s.drive.LAW is Needs.NO_LAW and s.motion is not None,
+        ("motion", "law"),
+        'kind = "{drive}" gives the roller its path, and the slots are straight; a law would be '
+        "one too many",
+    ),
+    Clash(
+        lambda s: s.motion is not None and s.wheel.steps,
+        ("wheel", "steps_deg"),
+        "steps_deg shapes straight slots; with a law the slots are solved for (remove one)",
+    ),
+    Clash(
+        lambda s: s.motion is not None and not s.wheel.radial,
+        ("wheel", "offset_mm"),
+        "offset_mm shapes straight slots; with a law the slots are solved for (remove one)",
+    ),
+    Clash(
+        lambda s: s.motion is not None and not s.wheel.FLAT,
+        ("motion", "law"),
+        "curved slots are flat; a {gearing} wheel has straight ones (remove law)",
+    ),
+    Clash(
+        lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,
+        ("drive", "rollers"),
+        'kind = "{drive}" carries one roller',
+    ),
+    Clash(
+        lambda s: s.drive.ONE_ROLLER and _several(s),
+        ("drive", "kind"),
+        'kind = "{drive}" carries one roller',
+    ),
+    Clash(
+        lambda s: s.wheel.steps and s.drive.roller_angles_deg,
+        ("wheel", "steps_deg"),
+        "steps_deg places the rollers itself; remove roller_angles_deg",
+    ),
+    Clash(
+        lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
+        ("drive", "rollers"),
+        "rollers = {rollers}, but there are {several} {places} for them; leave rollers out",
+    ),
+    Clash(
+        lambda s: s.motion is not None and s.drive.roller_angles_deg,
+        ("drive", "roller_angles_deg"),
+        "roller_angles_deg is for straight slots; remove the law or the angles",
+    ),
+    Clash(
+        lambda s: s.motion is not None and s.drive.rollers > 1 and not s.drive.ALIKE,
+        ("drive", "rollers"),
+        "{rollers} rollers on a {drive} move the wheel differently, so one curved slot cannot "
+        "serve them all; use rollers = 1, or straight slots (no law)",
+    ),
+)
+
+
+def refuse(spec: Spec) -> None:
+    """Raise GenevaError for things that make no machine together, saying why."""
+    for clash in CLASHES:
+        if clash.when(spec):
+            text = clash.text.format(
+                drive=spec.drive.NAME,
+                gearing=spec.wheel.NAME,
+                gearings=" or ".join(spec.drive.GEARINGS),
+                rollers=spec.drive.rollers,
+                several=_several(spec),
+                places="steps" if spec.wheel.steps else "angles",
+            )
+            raise GenevaError(text, clash.key)

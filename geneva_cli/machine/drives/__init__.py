@@ -1,0 +1,1 @@
+"""What turns the crank or moves the roller, one file a kind; what several share is beside them."""

@@ -1,0 +1,26 @@
+"""The input shaft carries the crank itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from geneva_cli.machine.drives.transmission import About, Transmission, same
+
+
+@dataclass(frozen=True, kw_only=True)
+class Crank(Transmission):
+    """The plain crank: crank angle and input angle are one."""
+
+    NAME: ClassVar[str] = "crank"
+    WORDS: ClassVar[str] = "a crank"
+    ALIKE: ClassVar[bool] = True
+
+    @property
+    def direct(self) -> bool:
+        """The classic closed forms hold."""
+        return True
+
+    def about(self, crank_deg: float) -> About:
+        """The same angle."""
+        return About(crank_deg, same)

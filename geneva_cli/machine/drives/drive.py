@@ -1,0 +1,115 @@
+"""What a drive is: what turns the crank, or moves the roller, and what it goes together with."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+
+from geneva_cli.machine.engagement import Displacement, Engagement
+from geneva_cli.spec.rules import SPEED, Z_MAX, Range
+from geneva_cli.spec.schema import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.laws.law import Law
+    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.wheels.gearing import Gearing
+    from geneva_cli.numerics.spline import Doubt
+
+
+class Needs(Enum):
+    """Whether a drive takes a motion law."""
+
+    NO_LAW = "no law"
+    MAY = "may"
+    LAW = "law"
+
+
+class Plan(NamedTuple):
+    """What a drive makes of a spec: the engagements of a period, and what was solved for."""
+
+    engagements: tuple[Engagement, ...]
+    period_deg: float  # input angle after which they come round again
+    ratio: float  # l = R/L at mid-motion
+    rollers_max: int  # most evenly spaced rollers that do not jam
+    center_distance_mm: float
+
+
+class Gears(NamedTuple):
+    """A pair of gears: the distance of their axes, and the crank's turning from input angle 0."""
+
+    distance_mm: float
+    advance: Displacement
+
+
+class Example(NamedTuple):
+    """A machine to start from: what it is, and the keys that it sets, table by table."""
+
+    about: str
+    tables: dict[str, dict[str, Any]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive(Table):
+    """A kind of drive. Its fields are the keys of ``[drive]``."""
+
+    TABLE: ClassVar[str] = "drive"
+    NAME: ClassVar[str]
+    # what drives the wheel, in a sentence
+    WORDS: ClassVar[str]
+    # a spec to start from, its kind left out
+    EXAMPLE: ClassVar[Example]
+    GEARINGS: ClassVar[
+        tuple[str, ...]
+    ] = ()  # the only wheels that it drives; any, if none is named
+    LAW: ClassVar[Needs]
+    # how many rollers: any number, placed as one likes, or one; several only with like motions
+    ONE_ROLLER: ClassVar[bool] = False
+    # whether the roller stays as far from the crank's axis as it is at mid-motion
+    ONE_ARM: ClassVar[bool] = True
+    # whether its slots must be radial and its steps equal
+    RADIAL: ClassVar[bool] = False
+    # whether all rollers on its crank move the wheel alike
+    ALIKE: ClassVar[bool] = False
+    # whether its crank can carry a locking disc about the line of centres
+    LOCKS: ClassVar[bool] = True
+    # whether its roller is carried on a crank, which may be turned for itself
+    CRANKED: ClassVar[bool] = False
+    # whether it is a pair of noncircular gears, which have pitch curves
+    GEARED: ClassVar[bool] = False
+    # whether its wheel is a flat outline that can be cut
+    OUTLINED: ClassVar[bool] = True
+    n_rpm: Annotated[float, SPEED, "speed of the input shaft, constant"] = 60.0
+    rollers: Annotated[int, Range(1, Z_MAX), "rollers on the crank, m"] = 1
+    roller_angles_deg: Annotated[
+        tuple[float, ...] | None, Range(0.0, 360.0, "[)"), "where they stand, if not evenly"
+    ] = None
+
+    @property
+    def turns(self) -> int:
+        """Input turns in a turn of the crank."""
+        return 1
+
+    @property
+    def gears(self) -> Gears | None:
+        """The noncircular gears between input and crank; None for a drive that has none."""
+        return None
+
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float | None:
+        """R/L of curved slots with a finite pressure angle at mid-motion; None where none has."""
+        return None
+
+    def doubt(self, input_deg: float) -> Doubt | None:
+        """Of a ratio given by points: their decimals, and what share of the ratio at an input angle
+        their rounding moves its second derivative by, which is the crank's jerk.
+        """
+        return None
+
+    def input_deg(self, crank_deg: float) -> float:
+        """The input angle at which the crank has turned so far from mid-motion."""
+        return crank_deg
+
+    @abstractmethod
+    def plan(self, spec: Spec) -> Plan:
+        """The engagements of a machine. Raises GenevaError where the values make none together."""

@@ -1,0 +1,104 @@
+"""Two equal elliptical gears, each turning about a focus, in front of the crank.
+
+With the driver at phi the driven gear, which carries the crank, is at f:
+tan(f/2) = (1-e)/(1+e) tan(phi/2), slowest at 0. The half angles' directions are
+(cos phi/2, sin phi/2) and ((1+e) cos phi/2, (1-e) sin phi/2).
+
+Source: the focal property of the ellipse; the same law is Kepler's true anomaly.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Example, Gears
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.jet import Coefficient, Jet, library, sine_versine_of
+from geneva_cli.spec.rules import OneOf, Range
+
+MOST = 1.0 - 0.999e-12
+DISTANCE_MM = 100.0  # of the gears' axes
+
+
+@dataclass(frozen=True, kw_only=True)
+class EllipticalGears(Transmission):
+    """Two equal ellipses: the index in their slow phase, or in their quick one."""
+
+    NAME: ClassVar[str] = "elliptical-gears"
+    WORDS: ClassVar[str] = "a crank behind elliptical gears"
+    EXAMPLE: ClassVar[Example] = Example(
+        "equal elliptical gears in front: a slower, softer index",
+        {
+            "wheel": {"z": 6},
+            "drive": {"eccentricity": 0.3},
+        },
+    )
+    GEARED: ClassVar[bool] = True
+    eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
+    phase: Annotated[str, OneOf(("slow", "quick")), "which index is at mid-motion"] = "slow"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.eccentricity > MOST:
+            raise GenevaError(
+                f"eccentricity = {self.eccentricity!r}: so near to 1 the motion is rounding; it "
+                "must be at most 1 - 1e-12",
+                ("drive", "eccentricity"),
+            )
+
+    @property
+    def gears(self) -> Gears:
+        """At the distance of axes at which their pitch curves are given."""
+        return Gears(DISTANCE_MM, self.about(0.0).advance)
+
+    def about(self, crank_deg: float) -> About:
+        """About the driven gear's angle f in degrees."""
+        slow = self.phase == "slow"
+        return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
+
+
+class Focal(NamedTuple):
+    """The gears about one angle f of the driven one.
+
+    Half angles: the driven gear's direction, the driver's, and W = 1 + e² + 2 e cos phi = size²
+    there, a sum of positive terms.
+    """
+
+    e: Coefficient
+    sin_h: Coefficient
+    cos_h: Coefficient
+    sin_p: Coefficient
+    cos_p: Coefficient
+    size: Coefficient
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of the driven gear's angle d since, ``tau`` input radians later."""
+        e = self.e
+        m = library(tau + e)
+        least = (1.0 - e) * (1.0 + e)
+        s, c = m.sin(0.5 * tau), m.cos(0.5 * tau)
+        # Half angles: the driver's direction, and the driven gear's against its own at f.
+        sine, cosine = self.sin_p * c + self.cos_p * s, self.cos_p * c - self.sin_p * s
+        across = self.size * self.size * s
+        along = least * c - 4.0 * e * self.sin_h * self.cos_h * s
+        x, y = along * along - across * across, 2.0 * along * across
+        W = ((1.0 + e) * cosine) ** 2 + ((1.0 - e) * sine) ** 2
+        sin_phi, cos_phi = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+        turns = (cos_phi, -sin_phi, -0.5 * cos_phi, sin_phi / 6.0, cos_phi / 24.0)[: max(order, 1)]
+        rate = least / Jet((W, *[2.0 * e * t for t in turns[1:]]))
+        return sine_versine_of(rate, y, x, order)
+
+
+def _about(e: Coefficient, crank_deg: float) -> About:
+    m = library(e)
+    sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
+    a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
+    size = m.hypot(a, b)
+    phi = 2.0 * m.degrees(m.atan2(a, b))
+    turns = (crank_deg - phi) / 720.0  # half angles come round every two turns
+    phi = phi + 720.0 * (round(turns) if m is math else m.round(turns))
+    return About(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))

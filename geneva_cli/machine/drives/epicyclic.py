@@ -1,0 +1,121 @@
+"""Gear-Geneva: the roller sits on a planet that rolls on a fixed sun, or in a fixed ring.
+
+With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi), c = 1 + u on a sun and
+1 - u in a ring, u = fixed teeth / planet teeth. It enters its slot without shock at an extreme of
+this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b. The jump at entry is
+(R0 - c² rp)/(L cos b), zero for rp = L sin b/(c² - 1); rp < 0 lowers the peak instead.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import path_and_slot
+from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.pin_path import PinPath
+from geneva_cli.machine.engagement import Anchor, Turning
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.wheels.classic import gap
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+from geneva_cli.spec.rules import OneOf, Range, Words
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
+
+
+@dataclass(frozen=True, kw_only=True)
+class Epicyclic(PinPath):
+    """A planet carries the roller."""
+
+    NAME: ClassVar[str] = "epicyclic"
+    WORDS: ClassVar[str] = "a roller on a planet gear"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a gear-Geneva: the roller on a planet enters without a jump",
+        {
+            "wheel": {"z": 4},
+            "drive": {"planet_ratio": "shockless", "fixed": "sun"},
+            "size": {"roller_radius_mm": 4.0},
+        },
+    )
+    planet_ratio: Annotated[
+        float | str,
+        Words(Range(-0.4, 0.4), ("shockless",)),
+        'planet crank rp / L, either sign; "shockless" for no jump at entry',
+    ]
+    fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
+
+    def plan(self, spec: Spec) -> Plan:
+        """The one engagement, the planet's arm pointing outwards at mid-motion."""
+        wheel = spec.wheel
+        if wheel.z not in (3, 4, 6):
+            raise GenevaError(
+                f"z = {wheel.z}: the planet comes round once a turn only where 2z/(z-2) is whole; "
+                "z must be 3, 4 or 6",
+                ("wheel", "z"),
+            )
+        step = wheel.step
+        teeth = 2 * wheel.z // (wheel.z - 2)
+        c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
+        l, cos_b = step.sin_cos
+        rp = l / (c * c - 1.0) if isinstance(self.planet_ratio, str) else self.planet_ratio
+        _refuse_reach(l, rp, teeth, c)
+        R0 = l + rp
+        half = wheel.half_motion_deg(step)
+
+        def both(slope: float, bend: float, planet: float) -> tuple[tuple[float, float], ...]:
+            return ((R0 * slope, R0 * bend), (planet * slope, planet * bend))
+
+        # At the ends the planet's arm points back along the carrier, at mid-motion outwards.
+        anchors = (
+            Anchor(-half, -step.b, cos_b, Arms(-1.0, 0.0, both(1.0, 1.0, -rp), c)),
+            Anchor(0.0, 0.0, gap(1.0, *step) - 2.0 * rp, Arms(0.0, 1.0, both(1.0, 1.0, rp), c)),
+            Anchor(half, step.b, cos_b, Arms(1.0, 0.0, both(1.0, -1.0, -rp), c)),
+        )
+        path = AnchoredPath(anchors)
+        motion = Followed(path, step.b)
+        # The roller sits on the planet, which turns c times as fast as the carrier.
+        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c))
+        return self.planned(engagement, R0 + rp, spec.given_distance_mm)
+
+
+class Arms(NamedTuple):
+    """Carrier and planet about a pose: their slopes and bends, the planet's rate c.
+
+    ``radial`` is the sense of their speed along the ray, ``level`` 1 where it is across.
+    """
+
+    radial: float
+    level: float
+    arms: tuple[tuple[Coefficient, Coefficient], ...]
+    c: float
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """The pin's way since then, along the ray and across it."""
+        u: Jet | None = None
+        v: Jet | None = None
+        for (slope, bend), rate in zip(self.arms, (1.0, self.c), strict=True):
+            sine, versine = sine_versine(Jet.variable(tau, order) * rate)
+            # On the ray's own axes: at the ends the speed is along it, at mid-motion across.
+            du = sine * (slope * self.radial) + versine * (bend * self.level)
+            dv = sine * (slope * self.level) + versine * (bend * (1.0 - self.level))
+            u, v = (du, dv) if u is None or v is None else (u + du, v + dv)
+        assert u is not None and v is not None
+        return u, v
+
+
+def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
+    """Raise GenevaError where the wheel would start backwards or the roller leave its slot.
+
+    Forward from rest: R0 >= c² rp. Into the slot at entry: R0 > c rp. Forward at mid-motion:
+    R0 + c rp > 0, where R0 = l + rp.
+    """
+    most = l / (c * c - 1.0)
+    least = -l / (1.0 + c) if c > 0.0 else -l / teeth
+    if not least < rp <= most:
+        raise GenevaError(
+            f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot; it "
+            f"must be above {least:.6g} and at most {most:.6g} (shockless)",
+            ("drive", "planet_ratio"),
+        )

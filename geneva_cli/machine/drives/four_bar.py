@@ -1,0 +1,174 @@
+"""A four-bar linkage in front of the wheel: the roller is a point of its coupler.
+
+Crank a from the input's axis to the pin A, coupler b from A to B, rocker c from B to its own pivot
+at the distance g; the roller C stands k from A, at an angle from the line AB. The wheel's centre is
+not given but solved for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
+from geneva_cli.machine.wheel_for_path import Path, Way
+from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.spec.rules import POSITIVE, OneOf, Range
+
+
+@dataclass(frozen=True, kw_only=True)
+class FourBar(Linkage):
+    """A point of a four-bar's coupler carries the roller."""
+
+    NAME: ClassVar[str] = "four-bar"
+    WORDS: ClassVar[str] = "a point of a four-bar linkage"
+    EXAMPLE: ClassVar[Example] = Example(
+        "the roller on a four-bar's coupler",
+        {
+            "wheel": {"z": 4, "held_by": "detent"},
+            "drive": {
+                "crank_mm": 40.0,
+                "ground_mm": 90.0,
+                "coupler_mm": 100.0,
+                "rocker_mm": 100.0,
+                "point_mm": 161.51903573811165,
+                "point_deg": -36.13836508095113,
+                "entry_deg": 123.3,
+            },
+            "size": {"roller_radius_mm": 2.0},
+        },
+    )
+    crank_mm: Annotated[float, POSITIVE, "crank a"]
+    ground_mm: Annotated[float, POSITIVE, "distance g of the fixed pivots"]
+    coupler_mm: Annotated[float, POSITIVE, "coupler b, from crank pin A to rocker pin B"]
+    rocker_mm: Annotated[float, POSITIVE, "rocker c"]
+    point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]
+    point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
+    branch: Annotated[str, OneOf(("+", "-")), "side of the crank's line the coupler is on"] = "+"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse_proportions(
+            crank_mm=self.crank_mm,
+            ground_mm=self.ground_mm,
+            coupler_mm=self.coupler_mm,
+            rocker_mm=self.rocker_mm,
+            point_mm=self.point_mm,
+        )
+        # Grashof: the crank turns all round.
+        others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
+        longest = max(others)
+        limit = min(*others, sum(others) - 2.0 * longest)
+        if self.crank_mm >= limit:
+            below = f"it must be below {limit:.6g}"
+            helps = below if limit > 0.0 else "change the other links first"
+            raise GenevaError(
+                f"crank_mm = {self.crank_mm:g}: the crank cannot turn all round (Grashof: it is "
+                "the shortest link, and with the longest shorter than the other two together); "
+                f"{helps}",
+                ("drive", "crank_mm"),
+            )
+
+    @property
+    def roller_path(self) -> CouplerPath:
+        """The path of its point."""
+        return CouplerPath(self)
+
+
+class _Links(NamedTuple):
+    """Crank, ground, coupler, rocker and the point's place on the coupler (along it, aside)."""
+
+    a: Any
+    g: Any
+    b: Any
+    c: Any
+    p: Any
+    q: Any
+
+
+class CouplerPath(Path):
+    """The path of a point of the coupler.
+
+    With d the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²),
+    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D).
+    """
+
+    def __init__(self, keys: FourBar) -> None:
+        lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
+        a, g, b, c = (Decimal(x) for x in lengths)
+        p, q = exact_point(keys.point_mm, keys.point_deg)
+        self.exact = _Links(a, g, b, c, p, q)
+        self.rough = _Links._make(float(x) for x in self.exact)
+        self.side = 1 if keys.branch == "+" else -1
+
+    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """The coupler's unit vector e, from A towards B."""
+        a, g, b, c, _, _ = self.exact if exact else self.rough
+        dx, dy = g - cosine * a, sine * -a
+        D = dx * dx + dy * dy
+        along = (D + (b - c) * (b + c)) / (D * (2 * b))
+        # N² as a product (Heron)
+        across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2 * b)) * self.side
+        return dx * along - dy * across, dy * along + dx * across
+
+    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """Crank, and e turned and stretched to the point."""
+        a, _, _, _, p, q = self.exact if exact else self.rough
+        ex, ey = self.link(sine, cosine, exact)
+        return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
+
+    def about(self, sine: Decimal, cosine: Decimal) -> Way:
+        """The change of each of A, D, 1/D, N, k and e, from the one before it."""
+        a, g, b, c, p, q = self.exact
+        D0 = g * g + a * a - 2 * g * a * cosine
+        above, below = (b + c) ** 2 - D0, D0 - (b - c) ** 2
+        N0, m = (above * below).sqrt(), (b - c) * (b + c)
+        k0 = ((1 + m / D0) / (2 * b), self.side * N0 / (D0 * 2 * b))
+        x0, y0 = float(g - cosine * a), float(-sine * a)
+        s, t = float(a * sine), float(a * cosine)
+        high, low, steep = float(above), float(below), float(above - below)
+        root, inverse, span = float(N0), float(1 / D0), float(2 * g)
+        real, imag = float(k0[0]), float(k0[1])
+        by_u, by_N = float(m / (2 * b)), float(self.side / (2 * b))
+        P, Q = float(p), float(q)
+
+        return CouplerWay(
+            s, t, high, low, steep, root, inverse, span, real, imag, by_u, by_N, x0, y0, P, Q
+        )
+
+
+class CouplerWay(NamedTuple):
+    """What the coupler's point moves by, from the numbers of one crank angle."""
+
+    s: float
+    t: float
+    high: float
+    low: float
+    steep: float
+    root: float
+    inverse: float
+    span: float
+    real: float
+    imag: float
+    by_u: float
+    by_N: float
+    x0: float
+    y0: float
+    P: float
+    Q: float
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """The point's way, from sin d and 1 - cos d of the crank's angle d since."""
+        x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
+        D = x * -self.span
+        u = 1.0 / (D + 1.0 / self.inverse)
+        du = D * u * -self.inverse
+        N = D * (self.steep - D) / (sqrt((self.high - D) * (D + self.low)) + self.root)
+        k, n = du * self.by_u, (N * u + du * self.root) * self.by_N
+        kk, nn = k + self.real, n + self.imag
+        ex = y * nn - x * kk + k * self.x0 - n * self.y0
+        ey = n * self.x0 - x * nn - y * kk + k * self.y0
+        return x + ex * self.P - ey * self.Q, y + ey * self.P + ex * self.Q

@@ -1,0 +1,205 @@
+"""A gear sector that takes over from the slot at constant ratio, for steps that a slot cannot make.
+
+The roller starts the wheel as any straight slot of half angle b does; where the wheel has come up
+to u times the crank's speed, toothed sectors take over at that ratio for a crank angle D, and the
+next roller stops the wheel in its own slot. The speeds agree at the crank angle a_t with
+cos a_t = (u (1 + l²) + l²) / (l (1 + 2u)); the acceleration jumps there, but not for u = l/(1-l),
+where a_t = 0 and the pitch circles are R and L - R. The step is 2 (b - psi_t) + u D.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.pin_path import PinPath
+from geneva_cli.machine.drives.transmission import Carried, same
+from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.wheels import poses
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise
+from geneva_cli.spec.rules import POSITIVE, Range, Words
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearSector(PinPath):
+    """Slot, gears at constant ratio, slot."""
+
+    NAME: ClassVar[str] = "gear-sector"
+    WORDS: ClassVar[str] = "a crank with gear sectors"
+    EXAMPLE: ClassVar[Example] = Example(
+        "slot, gears at a constant ratio, slot",
+        {
+            "wheel": {"z": 3},
+            "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"},
+        },
+    )
+    OUTLINED: ClassVar[bool] = False
+    sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle that the gears drive, D"]
+    gear_ratio: Annotated[
+        float | str,
+        Words(POSITIVE, ("shockless",)),
+        'wheel speed / crank speed in the gears; "shockless" for no jump',
+    ] = "shockless"
+
+    def plan(self, spec: Spec) -> Plan:
+        """The one engagement; the slot's half angle follows from the step."""
+        b = self._half_angle(spec.wheel.z)
+        u, handover, _ = self._handover(b)
+        engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
+        return self.planned(engagement, math.sin(b), spec.given_distance_mm)
+
+    def _half_angle(self, z: int) -> float:
+        """The half angle b of the slots that make up the step together with the gears."""
+        wanted, D = math.pi / z, math.radians(self.sector_deg)
+
+        def excess(b: float) -> float:
+            u, _, turn = self._handover(b)
+            return b - turn + 0.5 * u * D - wanted
+
+        if isinstance(self.gear_ratio, str):
+            ends = (1e-9, wanted)  # the step grows with b
+        else:
+            # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
+            # turns the wheel.
+            u = self.gear_ratio
+            ends = (math.pi / 2.0 - 1e-6, math.asin(u / (1.0 + u)))
+            least, most = (2.0 * (D / 2.0 - excess(b) / u) for b in reversed(ends))
+            if not least <= D <= most:
+                raise GenevaError(
+                    f"sector_deg = {self.sector_deg:g}: a slot that comes up to {u:g} times the "
+                    f"crank's speed leaves no such step of {360.0 / z:.6g} deg; it must be at "
+                    f"least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
+                    ("drive", "sector_deg"),
+                )
+        low, high = ends
+        for _ in range(200):
+            b = 0.5 * (low + high)
+            low, high = (b, high) if excess(b) < 0.0 else (low, b)
+        return b
+
+    def _handover(self, b: float) -> tuple[float, float, float]:
+        """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""
+        l = math.sin(b)
+        if isinstance(self.gear_ratio, str):
+            return l / (1.0 - l), 0.0, 0.0
+        u = self.gear_ratio
+        cosine = (u * (1.0 + l * l) + l * l) / (l * (1.0 + 2.0 * u))
+        a = math.acos(min(1.0, cosine))
+        return u, a, math.atan2(l * math.sin(a), 1.0 - l * math.cos(a))
+
+
+class SectorMotion(Motion):
+    """The slot's motion at both ends, the gears' between."""
+
+    def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
+        self.inner, self.u = inner, u
+        self.half_sector = 0.5 * sector_deg
+        self.handover_deg = math.degrees(handover)
+        half = inner.exit_deg - self.handover_deg + self.half_sector
+        turn = float(inner(self.handover_deg, 0).c[0])
+        gears: float = u * radians(self.half_sector)
+        super().__init__(-half, half, inner.half_step - turn + gears)
+
+    @property
+    def breaks_deg(self) -> tuple[float, ...]:
+        """Entry, both handovers with mid-motion between them, and exit."""
+        return (self.entry_deg, -self.half_sector, 0.0, self.half_sector, self.exit_deg)
+
+    def slot_deg(self, input_deg: Coefficient) -> Coefficient:
+        """The crank angle of the roller in its slot; in the gears, the one at handover."""
+        m = library(input_deg)
+        past = abs(input_deg) - self.half_sector
+        past = max(past, 0.0) if m is math else m.maximum(past, 0.0)
+        return m.copysign(past + self.handover_deg, input_deg)
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+        """The slot's motion, moved out by the gears' in between."""
+
+        def before(x: Coefficient) -> Jet:
+            at = self.inner.entry_deg + (x - self.entry_deg)
+            return self.inner(at, order) + (self.inner.half_step - self.half_step)
+
+        def gears(x: Coefficient) -> Jet:
+            return Jet.variable(radians(x), order) * self.u
+
+        def after(x: Coefficient) -> Jet:
+            at = self.inner.exit_deg + (x - self.exit_deg)
+            return self.inner(at, order) + (self.half_step - self.inner.half_step)
+
+        return piecewise(input_deg, (-self.half_sector, self.half_sector), (before, gears, after))
+
+
+class SectorPath(NamedTuple):
+    """The roller in its slot; while the gears drive, where it hands over."""
+
+    inner: Path
+    motion: SectorMotion
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The roller's centre."""
+        return self.inner(self.motion.slot_deg(input_deg), order)
+
+
+class SectorSlot(Slot):
+    """The slot, and the gears' pitch circle while they drive."""
+
+    def __init__(self, inner: RadialSlot, motion: SectorMotion) -> None:
+        self.inner, self.motion = inner, motion
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin runs along the slot's straight axis."""
+        return self.inner(self.motion.slot_deg(input_deg), order)
+
+    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+        """In the gears the lever is the wheel's pitch radius, L/(1+u), and nothing slides."""
+        lever, along = self.inner.axis(self.motion.slot_deg(input_deg), order)
+        slot = self.touches(input_deg)
+        return Axis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
+
+    def touches(self, input_deg: Coefficient) -> Coefficient:
+        """Not while the gears drive."""
+        slot = abs(input_deg) >= self.motion.half_sector
+        return float(slot) if isinstance(slot, bool) else slot.astype(float)
+
+
+class SectorEngagement(Engagement):
+    """Slot, gears, slot: the roller waits at the handover while the gears drive."""
+
+    def __init__(
+        self, inner: Engagement, slot: RadialSlot, handover: float, sector_deg: float, u: float
+    ) -> None:
+        motion = SectorMotion(inner.motion, handover, sector_deg, u)
+        path = SectorPath(inner.path, motion)
+        super().__init__(0.0, path, SectorSlot(slot, motion), motion)
+        self._inner, self._sector = inner, motion
+
+    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """The roller sits on the crank."""
+        return self._inner.carrier(self._sector.slot_deg(input_deg), order)
+
+    @property
+    def through(self) -> Engagement:
+        """The slot's shape is that of the plain wheel whose slot it is."""
+        return self._inner
+
+
+def _slot(b: float) -> tuple[Engagement, RadialSlot]:
+    """The straight slot of half angle b, on a plain crank."""
+    p, q = math.degrees(b).as_integer_ratio()
+    step = poses.Step(p, 180 * q)
+
+    entry, middle, exit_ = (
+        Anchor(pose.crank_deg, pose.wheel, pose.along, Carried(pose, same))
+        for pose in poses.radial(1.0, step)
+    )
+    path = AnchoredPath((entry, middle, exit_))
+    slot = RadialSlot(path)
+    return Engagement(0.0, path, slot, Followed(path, step.b)), slot

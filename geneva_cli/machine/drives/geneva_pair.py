@@ -1,0 +1,96 @@
+"""Two Geneva wheels in series: the first wheel carries the crank of the second.
+
+The second wheel moves while the first makes one of its steps, once in a turn of the first wheel. It
+starts from a crank that is itself just starting or running, so its jump is the first one's speed
+squared times tan b: none where both motions begin together (as with four slots on four).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, NamedTuple
+
+from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.wheels import poses
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
+from geneva_cli.spec.rules import Z_MAX, Range
+
+
+@dataclass(frozen=True, kw_only=True)
+class GenevaPair(Transmission):
+    """An external wheel in front of the crank: one index in many turns of the input."""
+
+    NAME: ClassVar[str] = "geneva-pair"
+    WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
+    EXAMPLE: ClassVar[Example] = Example(
+        "two wheels in series: one index in many turns",
+        {
+            "wheel": {"z": 4},
+            "drive": {"first_z": 4},
+        },
+    )
+    ONE_ROLLER: ClassVar[bool] = True
+    first_z: Annotated[int, Range(3, Z_MAX), "slots of the first wheel, external"]
+
+    @property
+    def turns(self) -> int:
+        """Input turns in a turn of the second crank."""
+        return self.first_z
+
+    @property
+    def reach_deg(self) -> float:
+        """Farthest the second crank may be from mid-step while it moves its wheel."""
+        return 180.0 / self.first_z
+
+    def about(self, crank_deg: float) -> About:
+        """About an angle of the second crank within the first wheel's step, degrees."""
+        step = poses.Step(1, self.first_z)
+        entry, middle, exit_ = poses.radial(1.0, step)
+        if abs(crank_deg) == self.reach_deg:
+            pose = entry if crank_deg < 0.0 else exit_
+        else:
+            pose = _running(middle, _crank_at(step, crank_deg))
+
+        return About(pose.crank_deg, FirstWheel(pose))
+
+
+class FirstWheel(NamedTuple):
+    """The first wheel, which carries the second crank, about a pose of its own roller."""
+
+    pose: poses.Pose
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of its angle d since then, ``tau`` input radians later."""
+        sine, versine = sine_versine(Jet.variable(tau, max(order, 1)))
+        along, across = self.pose.displacement(sine, versine)
+        along = along + self.pose.along
+        rate = atan2(across, along).derivative()
+        return sine_versine_of(rate, across.c[0], along.c[0], order)
+
+
+def _crank_at(step: poses.Step, wheel_deg: float) -> float:
+    """The first crank's angle a, radians, where its wheel is at psi: sin(a + psi) = sin psi / l.
+
+    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) nothing cancels in
+    l sin a = sin psi cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi.
+    """
+    n, d = wheel_deg.as_integer_ratio()
+    whole = 180 * d * step.q
+    here, less = 180 * d * step.p, n * step.q  # b and psi, in parts of pi
+    s, c = sin_cos_pi(less, whole)
+    k = math.sqrt(sin_cos_pi(here - less, whole)[0] * sin_cos_pi(here + less, whole)[0])
+    return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
+
+
+def _running(middle: poses.Pose, a: float) -> poses.Pose:
+    """The first crank's pin at an angle a (radians) from mid-motion, in its own ray's frame."""
+    l, s, c = middle.bend[0], math.sin(a), math.cos(a)
+    x, y = middle.along + 2.0 * l * math.sin(0.5 * a) ** 2, l * s
+    rho = math.hypot(x, y)
+    u, v = x / rho, y / rho
+    slope = (l * (s * u + c * v), l * (c * u - s * v))
+    bend = (l * (c * u - s * v), -l * (s * u + c * v))
+    return poses.Pose(math.degrees(a), math.atan2(y, x), rho, slope, bend)

@@ -1,0 +1,31 @@
+"""Drives that carry the roller on a path of its own: straight radial slots follow it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from geneva_cli.machine.drives.drive import Drive, Needs, Plan
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
+
+
+@dataclass(frozen=True, kw_only=True)
+class PinPath(Drive):
+    """A drive whose roller is not carried on the crank's circle."""
+
+    GEARINGS: ClassVar[tuple[str, ...]] = ("external",)
+    LAW: ClassVar[Needs] = Needs.NO_LAW
+    ONE_ROLLER: ClassVar[bool] = True
+    ONE_ARM: ClassVar[bool] = False
+    RADIAL: ClassVar[bool] = True
+    ALIKE: ClassVar[bool] = True
+
+    def planned(
+        self, engagement: Engagement, ratio: float, center_distance_mm: float, inside: bool = False
+    ) -> Plan:
+        """The plan with the one engagement of each roller."""
+        motion = engagement.motion_deg
+        refuse_jam(self.rollers, motion, inside)
+        period = 360.0 / self.rollers
+        return Plan((engagement,), period, ratio, rollers_max(motion), center_distance_mm)

@@ -1,0 +1,47 @@
+"""Side-crank drive (Whitworth's crank and rotating coulisse) in front of the crank.
+
+The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and Kandyak, "Kinematics
+of the Maltese cross mechanism with a side-crank drive".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from geneva_cli.machine.drives import whitworth
+from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.spec.rules import Range
+
+
+@dataclass(frozen=True, kw_only=True)
+class SideCrank(Transmission):
+    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 quickens it."""
+
+    NAME: ClassVar[str] = "side-crank"
+    WORDS: ClassVar[str] = "a side-crank"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a side-crank drive: a slower, softer index",
+        {
+            "wheel": {"z": 6},
+            "drive": {"A": 0.6},
+        },
+    )
+    A: Annotated[
+        float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank length; > 0 is slower"
+    ]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        whitworth.refuse(self.A)
+
+    def about(self, crank_deg: float) -> About:
+        """About a coulisse angle f in degrees."""
+        return whitworth.about(self.A, crank_deg)
+
+    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+        """The peak acceleration of plain wheels."""
+        return whitworth.known(self.A, wheel, place)

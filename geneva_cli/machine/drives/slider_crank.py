@@ -1,0 +1,121 @@
+"""A slider-crank in front of the wheel: the roller is a point of its connecting rod.
+
+Crank a from the input's axis to the pin A, rod b from A to the slider B, which runs at the height h
+beside the crank's axis; the roller C stands k from A, at an angle from the line AB. The wheel's
+centre is not given but solved for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
+from geneva_cli.machine.wheel_for_path import Path, Way
+from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
+
+
+@dataclass(frozen=True, kw_only=True)
+class SliderCrank(Linkage):
+    """A point of a connecting rod carries the roller."""
+
+    NAME: ClassVar[str] = "slider-crank"
+    WORDS: ClassVar[str] = "a point of a slider-crank"
+    EXAMPLE: ClassVar[Example] = Example(
+        "the roller on a slider-crank's rod",
+        {
+            "wheel": {"z": 8, "held_by": "detent"},
+            "drive": {"crank_mm": 40.0, "rod_mm": 100.0, "point_mm": 80.0, "point_deg": 90.0},
+            "size": {"roller_radius_mm": 6.0},
+        },
+    )
+    crank_mm: Annotated[float, POSITIVE, "crank a"]
+    rod_mm: Annotated[float, POSITIVE, "connecting rod b, from crank pin A to slider B"]
+    point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]
+    point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
+    height_mm: Annotated[float, LENGTH, "slider's line beside the crank's axis, h"] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        a, b, h = self.crank_mm, self.rod_mm, self.height_mm
+        refuse_proportions(crank_mm=a, rod_mm=b, point_mm=self.point_mm)
+        if a + abs(h) >= b:
+            raise GenevaError(
+                f"crank_mm = {a:g}: the crank cannot turn all round; crank and height together "
+                f"must be shorter than the rod, so the crank below {b - abs(h):.6g}",
+                ("drive", "crank_mm"),
+            )
+
+    @property
+    def roller_path(self) -> RodPath:
+        """The path of its point."""
+        return RodPath(self)
+
+
+class _Rod(NamedTuple):
+    """Crank, rod, height and the point's place on the rod (along it, aside), of either kind."""
+
+    a: Any
+    b: Any
+    h: Any
+    p: Any
+    q: Any
+
+
+class RodPath(Path):
+    """The path of a point of the connecting rod."""
+
+    def __init__(self, keys: SliderCrank) -> None:
+        a, b, h = (Decimal(x) for x in (keys.crank_mm, keys.rod_mm, keys.height_mm))
+        p, q = exact_point(keys.point_mm, keys.point_deg)
+        self.exact = _Rod(a, b, h, p, q)
+        self.rough = _Rod._make(float(x) for x in self.exact)
+
+    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """The rod's unit vector, from A towards B."""
+        a, b, h, _, _ = self.exact if exact else self.rough
+        ey = (h - sine * a) / b
+        return sqrt((1 - ey) * (ey + 1)), ey
+
+    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """Crank, and the rod's vector turned and stretched to the point."""
+        a, _, _, p, q = self.exact if exact else self.rough
+        ex, ey = self.link(sine, cosine, exact)
+        return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
+
+    def about(self, sine: Decimal, cosine: Decimal) -> Way:
+        """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
+        a, b, _, p, q = self.rough
+        level = (self.exact.h - sine * self.exact.a) / self.exact.b
+        s, c, ey = float(sine), float(cosine), float(level)
+        less, more, ex = float(1 - level), float(1 + level), float((1 - level * level).sqrt())
+
+        return RodWay(s, c, ey, ex, less, more, a, b, p, q)
+
+
+class RodWay(NamedTuple):
+    """What the rod's point moves by, from the numbers of one crank angle."""
+
+    s: float
+    c: float
+    ey: float
+    ex: float
+    less: float
+    more: float
+    a: float
+    b: float
+    p: float
+    q: float
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """The point's way, from sin d and 1 - cos d of the crank's angle d since."""
+        a, s, c = self.a, self.s, self.c
+        x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
+        dy = y / -self.b
+        now = sqrt((self.less - dy) * (dy + self.more))
+        dx = dy * (dy + 2.0 * self.ey) / -(now + self.ex)
+        return x + dx * self.p - dy * self.q, y + dy * self.p + dx * self.q

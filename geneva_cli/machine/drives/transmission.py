@@ -1,0 +1,182 @@
+"""Drives that turn a crank: the roller is carried on the crank's circle."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import path_and_motion
+from geneva_cli.machine.drives.drive import Drive, Needs, Plan
+from geneva_cli.machine.engagement import Anchor, Displacement, Engagement, PeakKnown
+from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
+from geneva_cli.machine.rollers import places
+from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
+from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.poses import Pose, middle
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.laws.law import Law
+    from geneva_cli.machine.spec import Motion, Spec
+
+MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
+
+
+class About(NamedTuple):
+    """A transmission between input shaft and crank, about one crank angle."""
+
+    input_deg: float  # input angle there
+    # input angle since then, radians, and order -> sin d and 1 - cos d of the crank's angle d
+    # since then, with their derivatives by the input angle
+    advance: Displacement
+
+
+def same(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    """Of a crank that turns as the input does."""
+    return sine_versine(Jet.variable(tau, order))
+
+
+class Carried(NamedTuple):
+    """A pin that a transmission carries round, about a pose."""
+
+    pose: Pose
+    advance: Displacement
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """The pin's way since then, along the pose's ray and across it."""
+        return self.pose.displacement(*self.advance(tau, order))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Transmission(Drive):
+    """A drive in front of the crank. ``about`` is all that a kind has to say."""
+
+    LAW: ClassVar[Needs] = Needs.MAY
+    CRANKED: ClassVar[bool] = True
+
+    @abstractmethod
+    def about(self, crank_deg: float) -> About:
+        """The transmission about a crank angle in degrees, 0 where the wheel is at mid-motion."""
+
+    @property
+    def reach_deg(self) -> float:
+        """How far from mid-motion the crank may be while it moves the wheel."""
+        return 180.0
+
+    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+        """Closed forms of the peaks behind this transmission, or quicker ways to them."""
+        return None
+
+    def input_deg(self, crank_deg: float) -> float:
+        """The input angle at which the crank has turned so far from mid-motion.
+
+        The law is known for one turn of the crank, or of a first wheel one step, about that.
+        """
+        whole = 2.0 * self.reach_deg
+        turns = round(crank_deg / whole)
+        return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
+
+    def plan(self, spec: Spec) -> Plan:
+        """Straight slots give the motion; a law gives the slots."""
+        return self._straight(spec) if spec.motion is None else self._curved(spec, spec.motion)
+
+    def _straight(self, spec: Spec) -> Plan:
+        found = places(spec)
+        self._refuse_reach(spec.wheel, found[0].reach_deg)
+        engagements = tuple(self._follows(spec.wheel, place) for place in found)
+        turn = 360.0 * self.turns
+        period = turn / self.rollers if len(found) == 1 else turn
+        most = rollers_max(2.0 * found[0].half_motion_deg)
+        return Plan(engagements, period, found[0].ratio, most, spec.given_distance_mm)
+
+    def _follows(self, wheel: Gearing, place: Place) -> Engagement:
+        """The engagement of a straight slot with the roller at a place on the crank."""
+        here = self.about(place.crank_deg)
+        first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
+        path = AnchoredPath((first, second, third))
+        slot, motion = wheel.follow(path, place, here.advance)
+        closed = wheel.closed_form(place) if self.direct else None
+        if closed:
+            motion = Classic(path, place.step.b, *closed)
+        else:
+            motion.peaks_known = self.known(wheel, place)
+        body = wheel.body(place, here.advance)
+        return Engagement(here.input_deg, path, slot, motion, body=body)
+
+    @property
+    def direct(self) -> bool:
+        """Whether crank angle and input angle are one, so that the classic closed forms hold."""
+        return False
+
+    def _anchor(self, pose: Pose, crank_deg: float) -> Anchor:
+        """The pose of a roller ``crank_deg`` behind the first, as the input sees it."""
+        here = self.about(crank_deg + pose.crank_deg)
+        from_mid = here.input_deg - self.about(crank_deg).input_deg
+        return Anchor(from_mid, pose.wheel, pose.along, Carried(pose, here.advance))
+
+    def _curved(self, spec: Spec, motion: Motion) -> Plan:
+        """A law and a roller on the crank's circle: the slots are solved for."""
+        wheel, law = spec.wheel, motion.law
+        half = wheel.half_motion_deg(wheel.step)
+        self._refuse_reach(wheel, half)
+        natural = 2.0 * self.about(half).input_deg
+        motion_deg = natural - motion.alpha0_deg
+        _refuse_alpha0(motion.alpha0_deg, natural)
+        refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
+        ratio = self._ratio(wheel, motion, motion_deg)
+        pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
+        anchor = self._anchor(pose, 0.0)
+        engagement = path_and_motion.engagement(0.0, motion_deg, wheel.step.b, law, anchor)
+        period = 360.0 * self.turns / self.rollers
+        most = rollers_max(motion_deg)
+        return Plan((engagement,), period, ratio, most, spec.given_distance_mm)
+
+    def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
+        """R/L of a curved slot: given, sin b, or matched to the law's velocity at mid-motion."""
+        if motion.ratio is None:
+            return wheel.step.sin_cos[0]
+        if not isinstance(motion.ratio, str):
+            return motion.ratio
+        matched = self.matched_ratio(wheel, motion.law, motion_deg)
+        if matched is None:
+            raise GenevaError(
+                "no R/L between 0 and 1 matches this motion: at mid-motion the wheel would have to "
+                "turn too fast (inside, more than half as fast as the crank) or back; give ratio "
+                "as a number, or change alpha0_deg or the law",
+                ("motion", "ratio"),
+            )
+        return matched
+
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float | None:
+        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
+
+        At any other R/L the pressure angle at mid-motion is 90 degrees. None where no R/L below 1
+        does.
+        """
+        crank: float = self.about(0.0).advance(0.0, 1)[0].c[1]
+        turned: float = law(0.5, 1).c[1] * 2.0 * wheel.step.b / math.radians(motion_deg)
+        return wheel.matched_ratio(turned / crank)
+
+    def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
+        """Raise GenevaError where the crank cannot turn through the whole motion in one go."""
+        if farthest_deg > self.reach_deg * (1.0 + 1e-12):
+            raise GenevaError(
+                f"z = {wheel.z}: the crank moves the wheel from up to {farthest_deg:.6g} deg "
+                f'beside the line of centres, and kind = "{self.NAME}" turns it by '
+                f"{self.reach_deg:.6g} on either side; fewer slots here, or fewer on the first "
+                "wheel",
+                ("wheel", "z"),
+            )
+
+
+def _refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
+    low, high = natural_deg - 360.0, natural_deg
+    if not low + MOTION_MIN < alpha0_deg < high - MOTION_MIN:
+        raise GenevaError(
+            f"alpha0_deg = {alpha0_deg:.12g} leaves no motion angle between 0 and 360 degrees; "
+            f"it must be above {low:.12g} and below {high:.12g}",
+            ("motion", "alpha0_deg"),
+        )

@@ -1,0 +1,109 @@
+"""Crank and rotating coulisse (Whitworth): the transmission of the side-crank drive.
+
+An input crank of length r turns about an axis that stands the base offset a away from the
+coulisse's. A = a/r. With the input at phi the coulisse points along the vector
+(A + cos phi, sin phi), whose angle is f.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.transmission import About
+from geneva_cli.machine.engagement import Known
+from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak
+from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.jet import Coefficient, Jet, choose, library, sine_versine_of
+
+A_MAX = 1.0 - 0.999e-12
+
+
+def refuse(A: float) -> None:
+    """Raise GenevaError so near to 1 that the motion is rounding."""
+    if abs(A) > A_MAX:
+        raise GenevaError(
+            f"A = {A!r}: so near to 1 the motion is rounding; its size must be at most 1 - 1e-12",
+            ("drive", "A"),
+        )
+
+
+class PeakOf(NamedTuple):
+    """The peak acceleration of a plain wheel behind a side-crank, without the general search."""
+
+    A: float
+    z: int
+    sign: float
+
+    def __call__(self, quantity: str) -> Known | None:
+        """The peak of a quantity, if it is this one."""
+        if quantity != "acceleration":
+            return None
+        return Known(*acceleration_peak(self.z, self.sign, self.A))
+
+
+def known(A: float, wheel: Gearing, place: Place) -> PeakOf | None:
+    """The peak of a plain wheel's first roller; None for others."""
+    closed = wheel.closed_form(place)
+    if closed is None or place.step != wheel.step or place.crank_deg != 0.0:
+        return None
+    return PeakOf(A, wheel.z, wheel.SIGN)
+
+
+class Coulisse(NamedTuple):
+    """The coulisse about one of its angles f: what its turning from there on is made of.
+
+    h = asin(A sin f) is the angle between input crank and coulisse; ``length`` is the coulisse's,
+    cos h + A cos f, ``rest`` = cos h - A cos f. ``grows`` is true on the line of centres for the
+    sign of A with which W = x² + y² is a sum of positive terms another way.
+    """
+
+    A: Coefficient
+    sin_f: Coefficient
+    cos_f: Coefficient
+    sin_h: Coefficient
+    cos_h: Coefficient
+    length: Coefficient
+    rest: Coefficient
+    grows: Any  # bool, or an array of them
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """sin d and 1 - cos d of the coulisse's angle d since then, ``tau`` input radians later."""
+        A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
+        m = library(tau + A)
+        sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
+        # The coulisse's vector in the frame of its own direction at f.
+        x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * self.sin_h - sin_t * sin_t * self.rest
+        y = 2.0 * sin_t * (cos_t * self.cos_h - sin_t * self.sin_h)
+        # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi: as A nears 1 the
+        # coulisse turns at half speed, and nothing cancels.
+        sine, cosine = x * s + y * c, x * c - y * s - A
+        turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[: max(order, 1)]
+        W = choose(self.grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
+        square = Jet((W, *[2.0 * A * t for t in turns[1:]]))
+        rate = 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
+        return sine_versine_of(rate, y, x, order)
+
+
+def about(A: Coefficient, crank_deg: float) -> About:
+    """About a coulisse angle f in degrees, for an offset A between -1 and 1."""
+    m = library(A)
+    s, c = sin_cos_deg(crank_deg)
+    # cos h and the coulisse's length are written as sums of positive terms for A near +-1.
+    sin_h = A * s
+    cos_h = m.hypot(c, s * m.sqrt((1.0 - A) * (1.0 + A)))
+    level = s == 0.0  # on the line of centres, which is where most peaks are
+    if level:
+        length, rest = 1.0 + A * c, 1.0 - A * c
+    else:
+        long = cos_h + abs(A * c)
+        short = (1.0 - A) * (1.0 + A) / long
+        length, rest = choose(A * c > 0.0, long, short), choose(A * c > 0.0, short, long)
+    # phi = f + h, but where the two nearly cancel, the angle of the input crank itself.
+    added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
+    whole = 360.0 * round(crank_deg / 360.0)
+    own = whole + m.degrees(m.atan2(length * s, length * c - A))
+    phi = choose(A < 0.0, own, added)
+    grows = (A * c < 0.0) if level else False
+    return About(phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows))

@@ -1,0 +1,238 @@
+"""One index of the wheel: pin path, slot and motion, of which two are known and give the third.
+
+An engagement is one roller's passage through one slot. Input angles are degrees from its own
+mid-motion, wheel angles radians from half-way through the step, lengths in units of the centre
+distance L. The wheel's axis is the origin, the crank's axis at (1, 0).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.laws.law import Law
+    from geneva_cli.machine.slot_and_motion import SolvedPath
+    from geneva_cli.numerics.jet import Array
+
+
+class Path(Protocol):
+    """Where the roller's centre is, in the fixed frame, as the input turns."""
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin (x, y) with its derivatives by the input angle in radians."""
+
+
+class Axis(NamedTuple):
+    """A straight slot as the loads see it: its normal's lever about the wheel's axis, and the
+    pin's speed along it, both over L.
+    """
+
+    lever: Jet
+    along: Jet
+
+
+class Body(Protocol):
+    """The body that carries the roller, where that is not the crank's arm."""
+
+    def __call__(self, tau: Coefficient, order: int) -> Jet:
+        """How fast it turns, positive with the wheel, ``tau`` input radians after mid-motion."""
+
+
+class Turning(NamedTuple):
+    """A body that turns at one rate, radians per input radian, positive with the wheel."""
+
+    rate: float
+
+    def __call__(self, tau: Coefficient, order: int) -> Jet:
+        """The rate."""
+        return Jet((tau * 0.0 + self.rate, *[0.0] * order))
+
+
+class Slot(ABC):
+    """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve."""
+
+    # whether it is a curve that was solved for: it has two branches and walls of its own
+    curved = False
+    # e: by how much a straight slot's axis misses the wheel's centre
+    offset = 0.0
+
+    @abstractmethod
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin in the wheel's frame; on a sphere its polar angle in the flat development."""
+
+    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis | None:
+        """Of a straight slot; None for a curved one."""
+        return None
+
+    def upright(self, input_deg: Coefficient, order: int = 0) -> Jet | float:
+        """Cosine of the angle between the roller's axis and the wheel's."""
+        return 1.0
+
+    def touches(self, input_deg: Coefficient) -> Coefficient:
+        """1 where the roller drives the wheel, 0 where something else does."""
+        return 1.0
+
+
+class Known(NamedTuple):
+    """A peak known in closed form: its size, and its signed input angle in degrees."""
+
+    size: float
+    at_deg: float
+
+
+class PeakKnown(Protocol):
+    """Peaks that are had without a search."""
+
+    def __call__(self, quantity: str) -> Known | None:
+        """The greatest size of a quantity; None where only a search tells."""
+
+
+class Motion(ABC):
+    """The wheel's angle as the input turns, from rest to rest."""
+
+    # the motion law, where the motion is given by one
+    law: Law | None = None
+
+    def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
+        self.entry_deg = entry_deg  # from mid-motion, negative
+        self.exit_deg = exit_deg
+        self.half_step = half_step  # b: the wheel goes from -b to b
+
+    @abstractmethod
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+        """Wheel angle with its derivatives by the input angle in radians."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the second half mirrors the first."""
+        return self.entry_deg == -self.exit_deg
+
+    @property
+    def breaks_deg(self) -> tuple[float, ...]:
+        """Entry, the places where a derivative may jump, mid-motion, and exit."""
+        return (self.entry_deg, 0.0, self.exit_deg)
+
+    def known(self, quantity: str) -> Known | None:
+        """The greatest size of a quantity, where there is a closed form or a quicker way to it."""
+        return None
+
+    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
+        """The wheel's angle and its derivatives at many ascending input angles.
+
+        A symmetric motion at symmetric angles is computed once and mirrored.
+        """
+        mirrored = self.symmetric and is_mirrored(input_deg)
+        first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
+        values = self(first, max(orders)).derivatives()
+        return [mirror(values[k], len(input_deg), k) if mirrored else values[k] for k in orders]
+
+
+def is_mirrored(input_deg: Array) -> bool:
+    """Whether the angles lie symmetrically about mid-motion."""
+    return bool((input_deg == -input_deg[::-1]).all())
+
+
+def mirror(first: Array, count: int, order: int) -> Array:
+    """``count`` values of a derivative from their first half; the even ones change sign."""
+    import numpy
+
+    rest = first[: count - len(first)][::-1]
+    return numpy.concatenate((first, rest if order % 2 else -rest))
+
+
+class Engagement:
+    """Pin path, slot and motion of one roller in one slot.
+
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``crank_sense`` says which way the
+    crank turns where the roller is not on its arm: with the wheel (-1) or against it (1); 0 where
+    it is, and the pin's direction is the crank's. ``groove`` is the path where a fixed groove
+    guides the roller along the crank; ``body`` carries the roller where the crank's arm does not.
+    """
+
+    def __init__(
+        self,
+        mid_deg: float,
+        path: Path,
+        slot: Slot,
+        motion: Motion,
+        crank_sense: float = 0.0,
+        groove: SolvedPath | None = None,
+        body: Body | None = None,
+    ) -> None:
+        self.mid_deg = mid_deg
+        self.path, self.slot, self.motion = path, slot, motion
+        self.crank_sense = crank_sense
+        self.groove, self.body = groove, body
+
+    @property
+    def entry_deg(self) -> float:
+        """Where the motion begins."""
+        return self.motion.entry_deg
+
+    @property
+    def exit_deg(self) -> float:
+        """Where the motion ends."""
+        return self.motion.exit_deg
+
+    @property
+    def half_step(self) -> float:
+        """Half the wheel's step, radians."""
+        return self.motion.half_step
+
+    @property
+    def motion_deg(self) -> float:
+        """Input angle of the motion."""
+        return self.exit_deg - self.entry_deg
+
+    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """Rate at which the body that carries the roller turns, positive with the wheel.
+
+        About the roller's own axis, in radians per input radian.
+        """
+        if self.body:
+            return self.body(radians(input_deg), order)
+        x, y = self.path(input_deg, order + 1)
+        return atan2(y, x - 1.0).derivative()
+
+    @property
+    def through(self) -> Engagement:
+        """The engagement whose roller runs through the whole slot: this one, as a rule."""
+        return self
+
+
+class Anchor(NamedTuple):
+    """A moment about which the pin's path is written without cancellation."""
+
+    input_deg: float
+    wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
+    along: float  # distance of the pin from the wheel's axis there
+    displacement: Displacement
+    # input angle since then, radians, and order -> the pin's way (along the ray, across it)
+
+    def way(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """The pin's way since the anchor (along its ray, across it), at an angle in degrees."""
+        return self.displacement(radians(input_deg - self.input_deg), order)
+
+    def place(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """The pin (along the anchor's ray, across it) at an input angle in degrees."""
+        along, across = self.way(input_deg, order)
+        return along + self.along, across
+
+
+class Displacement(Protocol):
+    """The pin's way since an anchor."""
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """(along the anchor's ray, across it), ``tau`` radians of the input later."""
+
+
+def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:
+    """A place of the fixed frame in the frame of a wheel at some angle."""
+    x, y = path
+    s, c = sin_cos(wheel)
+    return x * c + y * s, y * c - x * s

@@ -1,0 +1,49 @@
+"""The motion that a law gives: what curved slots and the groove of a cam are solved from."""
+
+from __future__ import annotations
+
+from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.laws.law import Law, remaining
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
+
+
+class LawMotion(Motion):
+    """A law, scaled to the wheel's step and to the motion angle."""
+
+    law: Law
+
+    def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
+        super().__init__(entry_deg, exit_deg, half_step)
+        self.law = law
+
+    @property
+    def symmetric(self) -> bool:
+        """A law with two unlike halves makes a motion with two unlike halves."""
+        return self.law.symmetric
+
+    @property
+    def breaks_deg(self) -> tuple[float, ...]:
+        """Entry, the law's own breaks and its middle, the crossing of the centres, and exit."""
+        whole = self.exit_deg - self.entry_deg
+        places = (0.5, *self.law.BREAKS)
+        inner = {0.0, *[self.entry_deg + u * whole for u in places]}
+        if self.symmetric:
+            inner = {0.0, *[(u - 0.5) * whole for u in self.law.BREAKS]}
+        return (self.entry_deg, *sorted(inner), self.exit_deg)
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+        """Each half of the law from its own end."""
+        whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
+        middle = 0.5 * (self.entry_deg + self.exit_deg)
+
+        def first(x: Coefficient) -> Jet:
+            return self.law.first((x - self.entry_deg) / whole, order) * step - self.half_step
+
+        def second(x: Coefficient) -> Jet:
+            rest = self.law.second((self.exit_deg - x) / whole, order)
+            return remaining(rest * step, self.half_step)
+
+        s = piecewise(input_deg, (middle,), (first, second))
+        rate = 1.0 / (whole * DEGREE)
+        return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])

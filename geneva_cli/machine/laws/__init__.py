@@ -1,0 +1,1 @@
+"""Motion laws s(u), one class a law."""

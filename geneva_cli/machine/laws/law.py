@@ -1,0 +1,79 @@
+"""What a motion law is: s(u), the wheel's share of its step against the share of the motion time.
+
+Both run from 0 to 1. A law is given on its first half as a function of u, and on its second as
+what is left to do, 1 - s, as a function of what is left of the time, w = 1 - u: so both ends are
+exact, and a symmetric law is written once.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from geneva_cli.numerics.jet import Coefficient, Jet, integral, piecewise
+from geneva_cli.spec.schema import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.spline import Doubt
+
+
+@dataclass(frozen=True)
+class Law(Table):
+    """A motion law. Its fields are the keys that it adds to ``[motion]``."""
+
+    TABLE: ClassVar[str] = "motion"
+    NAME: ClassVar[str]
+    ABOUT: ClassVar[str]
+    # where a derivative up to the fourth jumps, inside 0..1
+    BREAKS: ClassVar[tuple[float, ...]] = ()
+    # why a law may turn the wheel back
+    TURNS_BACK: ClassVar[str] = "the law's points must not fall"
+    # analytic between the breaks; a spline is not
+    ANALYTIC: ClassVar[bool] = True
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the second half mirrors the first."""
+        return True
+
+    def doubt(self) -> Doubt | None:
+        """Of points: the decimals given, and what their rounding moves the third derivative by."""
+        return None
+
+    @abstractmethod
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share s on 0 <= u <= 1/2, with its derivatives by u."""
+
+    def second(self, w: Coefficient, order: int) -> Jet:
+        """What is left, 1 - s, on 0 <= w = 1 - u <= 1/2, with its derivatives by w."""
+        return self.first(w, order)
+
+    def __call__(self, u: Coefficient, order: int = 3) -> Jet:
+        """The law at a number or an array of u in 0..1, with its derivatives by u."""
+        return piecewise(
+            u,
+            (0.5,),
+            (lambda x: self.first(x, order), lambda x: remaining(self.second(1.0 - x, order))),
+        )
+
+
+def remaining(rest: Jet, end: float = 1.0) -> Jet:
+    """What is left to do as a function of the time left, turned into what is done of ``end``."""
+    return Jet([end - rest.c[0], *[c if k % 2 else 0.0 - c for k, c in enumerate(rest.c) if k]])
+
+
+def from_velocity(
+    u: Coefficient,
+    order: int,
+    position: Callable[[Coefficient], Coefficient],
+    velocity: Callable[[Jet], Jet],
+) -> Jet:
+    """The jet of s(u) from a closed form of s and from the jet of ds/du.
+
+    The velocity is written as a product wherever it vanishes, so that nothing cancels there.
+    """
+    if order == 0:
+        return Jet((position(u),))
+    return integral(velocity(Jet.variable(u, order - 1)), position(u))

@@ -1,0 +1,212 @@
+"""The common set of motion laws of VDI 2143, and the sine group of Krasniqi."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from geneva_cli.machine.laws.law import Law, from_velocity
+from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise, sin_cos
+from geneva_cli.spec.rules import Range
+
+
+def _sine(x: Jet) -> Jet:
+    return sin_cos(x)[0]
+
+
+@dataclass(frozen=True)
+class Harmonic(Law):
+    """Simple sine line: ds/du = (pi/2) sin(pi u)."""
+
+    NAME: ClassVar[str] = "harmonic"
+    ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share s = sin²(pi u / 2)."""
+        return from_velocity(
+            u,
+            order,
+            lambda u: library(u).sin(math.pi / 2.0 * u) ** 2,
+            lambda u: _sine(u * math.pi) * (math.pi / 2.0),
+        )
+
+
+@dataclass(frozen=True)
+class Cycloidal(Law):
+    """Inclined sine line: ds/du = 2 sin²(pi u)."""
+
+    NAME: ClassVar[str] = "cycloidal"
+    ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share s = u - sin(2 pi u) / (2 pi)."""
+
+        def velocity(u: Jet) -> Jet:
+            s = _sine(u * math.pi)
+            return s * s * 2.0
+
+        return from_velocity(
+            u, order, lambda u: u - library(u).sin(2.0 * math.pi * u) / (2.0 * math.pi), velocity
+        )
+
+
+@dataclass(frozen=True)
+class ModifiedTrapezoid(Law):
+    """Modified acceleration trapezoid: constant acceleration, joined by quarter sines."""
+
+    NAME: ClassVar[str] = "modified-trapezoid"
+    ABOUT: ClassVar[str] = "constant acceleration joined by sines; the lowest peak without a jump"
+    BREAKS: ClassVar[tuple[float, ...]] = (0.125, 0.375, 0.625, 0.875)
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """Quarter sine to u = 1/8, constant acceleration to 3/8, quarter sine to the middle."""
+        peak = 8.0 * math.pi / (2.0 + math.pi)
+        rate = 4.0 * math.pi
+        v_1 = peak / rate  # velocity at u = 1/8
+        s_1 = v_1 * (0.125 - 1.0 / rate)
+        v_2 = v_1 + peak / 4.0  # at u = 3/8
+        s_2 = s_1 + v_1 / 4.0 + peak / 32.0
+
+        def start(u: Coefficient) -> Coefficient:
+            return v_1 * (u - library(u).sin(rate * u) / rate)
+
+        def start_velocity(u: Jet) -> Jet:
+            s = _sine(u * (rate / 2.0))
+            return s * s * (2.0 * v_1)
+
+        def flat(u: Coefficient) -> Coefficient:
+            t = u - 0.125
+            return s_1 + t * (v_1 + t * peak / 2.0)
+
+        def middle(u: Coefficient) -> Coefficient:
+            t = u - 0.375
+            return s_2 + v_2 * t + v_1 / rate * 2.0 * library(u).sin(rate / 2.0 * t) ** 2
+
+        return piecewise(
+            u,
+            (0.125, 0.375),
+            (
+                lambda x: from_velocity(x, order, start, start_velocity),
+                lambda x: from_velocity(x, order, flat, lambda u: (u - 0.125) * peak + v_1),
+                lambda x: from_velocity(
+                    x, order, middle, lambda u: _sine((u - 0.375) * rate) * v_1 + v_2
+                ),
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class ModifiedSine(Law):
+    """Modified sine line: sine acceleration of period 1/2 for u < 1/8, of period 3/2 between."""
+
+    NAME: ClassVar[str] = "modified-sine"
+    ABOUT: ClassVar[str] = "sines of two periods; a low peak of velocity and of torque"
+    BREAKS: ClassVar[tuple[float, ...]] = (0.125, 0.875)
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The quick sine to u = 1/8, the slow one to the middle."""
+        scale = 1.0 / (4.0 + math.pi)
+
+        def start(u: Coefficient) -> Coefficient:
+            return (math.pi * u - library(u).sin(4.0 * math.pi * u) / 4.0) * scale
+
+        def start_velocity(u: Jet) -> Jet:
+            s = _sine(u * (2.0 * math.pi))
+            return s * s * (2.0 * math.pi * scale)
+
+        def middle(u: Coefficient) -> Coefficient:
+            phase = math.pi / 3.0 * (1.0 + 4.0 * u)
+            return (2.0 + math.pi * u - 2.25 * library(u).sin(phase)) * scale
+
+        def middle_velocity(u: Jet) -> Jet:
+            phase = (u * 4.0 + 1.0) * (math.pi / 3.0)
+            return (1.0 - sin_cos(phase)[1] * 3.0) * (math.pi * scale)
+
+        return piecewise(
+            u,
+            (0.125,),
+            (
+                lambda x: from_velocity(x, order, start, start_velocity),
+                lambda x: from_velocity(x, order, middle, middle_velocity),
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class Polynomial345(Law):
+    """Polynomial 3-4-5: ds/du = 30 u² (1-u)²."""
+
+    NAME: ClassVar[str] = "3-4-5"
+    ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share s = 10 u³ - 15 u⁴ + 6 u⁵."""
+
+        def velocity(u: Jet) -> Jet:
+            w = u * (1.0 - u)
+            return w * w * 30.0
+
+        return from_velocity(u, order, lambda u: u**3 * (10.0 - u * (15.0 - 6.0 * u)), velocity)
+
+
+@dataclass(frozen=True)
+class Polynomial4567(Law):
+    """Polynomial 4-5-6-7: ds/du = 140 u³ (1-u)³."""
+
+    NAME: ClassVar[str] = "4-5-6-7"
+    ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
+
+        def position(u: Coefficient) -> Coefficient:
+            return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
+
+        def velocity(u: Jet) -> Jet:
+            w = u * (1.0 - u)
+            return w * w * w * 140.0
+
+        return from_velocity(u, order, position, velocity)
+
+
+@dataclass(frozen=True)
+class SineGroup(Law):
+    """Krasniqi's law: ds/du = (8/3) sin⁴ x (1 - 8 lambda cos x), x = pi u.
+
+    Velocity to snap vanish at both ends. Beyond |lambda| = 1/8 the wheel turns back.
+    """
+
+    NAME: ClassVar[str] = "sine-group"
+    ABOUT: ClassVar[str] = "four sines; no jump up to snap; lambda tilts it, |lambda| <= 1/8"
+    TURNS_BACK: ClassVar[str] = "the sine group does so for |lambda| > 1/8"
+    lambda_: Annotated[float, Range(-10.0, 10.0), "shape of the sine-group law"] = 0.0
+
+    @property
+    def symmetric(self) -> bool:
+        """Only without a tilt."""
+        return self.lambda_ == 0.0
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share s in closed form, from its velocity."""
+        return _tilted(u, order, self.lambda_)
+
+    def second(self, w: Coefficient, order: int) -> Jet:
+        """Seen from the end, the tilt is the other way."""
+        return _tilted(w, order, -self.lambda_)
+
+
+def _tilted(u: Coefficient, order: int, shape: Coefficient) -> Jet:
+    def position(u: Coefficient) -> Coefficient:
+        m = library(u)
+        x = math.pi * u
+        even = x - 2.0 / 3.0 * m.sin(2.0 * x) + m.sin(4.0 * x) / 12.0
+        return (even - 64.0 / 15.0 * shape * m.sin(x) ** 5) / math.pi
+
+    def velocity(u: Jet) -> Jet:
+        s, c = sin_cos(u * math.pi)
+        squared = s * s
+        out: Jet = squared * squared * (1.0 - c * (8.0 * shape)) * (8.0 / 3.0)
+        return out
+
+    return from_velocity(u, order, position, velocity)

@@ -1,0 +1,88 @@
+"""A design as a machine: its engagements over a full period, built from a spec."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.machine import compatible
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.machine.size_rules import refuse_sizes
+from geneva_cli.machine.spec import Spec
+
+ROUNDING_DEG = 1e-9  # input angles nearer to each other are one
+
+
+class Mechanism(NamedTuple):
+    """A Geneva mechanism.
+
+    ``engagements`` holds one for each kind of motion in a period; rollers that all move alike
+    share one, and the period is then one index.
+    """
+
+    spec: Spec
+    engagements: tuple[Engagement, ...]
+    period_deg: float  # input angle after which the engagements come round again
+    ratio: float  # l = R/L
+    rollers_max: int  # most evenly spaced rollers that do not jam
+    center_distance_mm: float  # L, as given or as solved for
+
+    @property
+    def law(self) -> Law | None:
+        """The motion law, where the motion is given."""
+        return self.engagements[0].motion.law
+
+    @property
+    def roller_radius_mm(self) -> float:
+        """The roller's radius r, by default L/20."""
+        return self.spec.roller_radius_mm(self.center_distance_mm)
+
+    @property
+    def matched_ratio(self) -> float | None:
+        """The R/L at which this machine's curved slots have a finite pressure angle at mid-motion.
+
+        Whatever its own; None where no R/L below 1 has, or the slots are straight.
+        """
+        law = self.law
+        if law is None:
+            return None
+        motion_deg = self.engagements[0].motion_deg
+        return self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
+
+    def shown_deg(self, input_deg: float) -> float:
+        """An input angle as it is shown: between -180 and 180 from the machine's mid-motion.
+
+        Over a period of several turns it is counted from the first engagement's entry.
+        """
+        whole = 360.0 * self.spec.drive.turns
+        if whole == 360.0:
+            return math.remainder(input_deg, whole)
+        entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
+        # What rounding put before the entry is at it.
+        periods = math.floor((input_deg - entry + ROUNDING_DEG) / whole)
+        return max(input_deg - periods * whole, entry)
+
+    def index_deg(self, i: int) -> float:
+        """The wheel's step at an engagement."""
+        return self.spec.wheel.index_deg(i)
+
+    def dwell_deg(self, i: int) -> float:
+        """Input angle from engagement i's exit to the next entry."""
+        here = self.engagements[i]
+        after = self.engagements[(i + 1) % len(self.engagements)]
+        turns = self.period_deg if i + 1 == len(self.engagements) else 0.0
+        dwell = turns + (after.mid_deg + after.entry_deg) - (here.mid_deg + here.exit_deg)
+        # Rollers may follow each other without a pause; what is left then is rounding.
+        return dwell if abs(dwell) > 1e-9 else 0.0
+
+
+def build(spec: Spec) -> Mechanism:
+    """The mechanism of a spec.
+
+    Raises GenevaError, naming the key, where the values do not make a machine together.
+    """
+    compatible.refuse(spec)
+    plan = spec.drive.plan(spec)
+    refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
+    return Mechanism(spec, *plan)

@@ -1,0 +1,41 @@
+"""Path and motion are known, and give the slot: a curved one."""
+
+from __future__ import annotations
+
+from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, in_wheel
+from geneva_cli.machine.law_motion import LawMotion
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.numerics.jet import Coefficient, Jet
+
+
+class MiddlePath:
+    """The pin's path, written about mid-motion alone."""
+
+    def __init__(self, middle: Anchor) -> None:
+        self.middle = middle
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin on its circle."""
+        return self.middle.place(input_deg, order)
+
+
+class SolvedSlot(Slot):
+    """The path rotated back by the motion."""
+
+    curved = True
+
+    def __init__(self, path: Path, motion: Motion) -> None:
+        self.path, self.motion = path, motion
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin in the wheel's frame."""
+        return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
+
+
+def engagement(
+    mid_deg: float, motion_deg: float, half_step: float, law: Law, middle: Anchor
+) -> Engagement:
+    """The engagement of a curved slot whose motion lies evenly about the line of centres."""
+    half = 0.5 * motion_deg
+    path, motion = MiddlePath(middle), LawMotion(-half, half, half_step, law)
+    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion)

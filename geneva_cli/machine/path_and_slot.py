@@ -1,0 +1,218 @@
+"""Path and straight slot are known, and give the motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Protocol
+
+from geneva_cli.machine.engagement import (
+    Anchor,
+    Axis,
+    Body,
+    Engagement,
+    Known,
+    Motion,
+    PeakKnown,
+    Slot,
+    is_mirrored,
+)
+from geneva_cli.machine.wheels import classic
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+NEAR_END = 0.75  # share of the way to an end from the last anchor before it; beyond, its own serves
+END_DEG = 0.05  # closer than this to entry or exit, relative accuracy is kept too
+
+
+class AnchoredPath:
+    """A pin's path written about entry, mid-motion, exit and what is between, each where nearest.
+
+    ``ahead`` is the direction of the middle anchor's ray from the line of centres.
+    """
+
+    def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
+        self.anchors, self.ahead = anchors, ahead
+        self.middle = anchors[len(anchors) // 2]
+        # Each anchor serves what is near it; entry and exit, only where the motion goes to zero.
+        first, *inner, last = [a.input_deg for a in anchors]
+        self.cuts = [
+            inner[0] + NEAR_END * (first - inner[0]),
+            *[0.5 * (a + b) for a, b in pairwise(inner)],
+            inner[-1] + NEAR_END * (last - inner[-1]),
+        ]
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin on its path, from mid-motion."""
+        along, across = self.middle.place(input_deg, order)
+        return turned(along, across, self.ahead)
+
+
+class RadialSlot(Slot):
+    """A straight slot towards the wheel's centre."""
+
+    def __init__(self, path: AnchoredPath) -> None:
+        self.path = path
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin runs along the slot's straight axis."""
+        depth = self._depth(input_deg, order)
+        return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
+
+    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
+        depth = self._depth(input_deg, order + 1)
+        return Axis(Jet(depth.c[:-1]), depth.derivative())
+
+    def _depth(self, input_deg: Coefficient, order: int) -> Jet:
+        x, y = self.path.middle.place(input_deg, order)
+        return sqrt(x * x + y * y)
+
+
+class Level(Protocol):
+    """A place along the wheel's axis, as the input turns."""
+
+    def __call__(self, tau: Coefficient, order: int) -> Jet:
+        """``tau`` input radians after mid-motion."""
+
+
+class MeridianSlot(Slot):
+    """A spherical wheel's slot, a meridian; the path is the pin's projection along the axis.
+
+    Its pitch curve is given in the flat development, along which lengths on the sphere are kept,
+    from the wheel's pole.
+    """
+
+    def __init__(self, path: AnchoredPath, height: Level) -> None:
+        self.path = path
+        self.height = height  # input angle, radians -> the pin's place along the wheel's axis
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin's polar angle on the wheel, in radians: arc length over the sphere's radius."""
+        x, y = self.path(input_deg, order)
+        polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
+        return polar, polar * 0.0
+
+    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+        """The lever is the pin's distance from the wheel's axis."""
+        polar = self(input_deg, order + 1)[0]
+        return Axis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
+
+    def upright(self, input_deg: Coefficient, order: int = 0) -> Jet:
+        """The roller's axis passes the sphere's centre, at the polar angle of the pin."""
+        return sin_cos(self(input_deg, order)[0])[1]
+
+
+class Followed(Motion):
+    """The motion of a wheel whose straight slot follows the pin.
+
+    ``mirrored`` is False where the path's two halves differ; ``peaks_known`` tells peaks
+    that are had without a search.
+    """
+
+    peaks_known: PeakKnown | None = None
+
+    def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
+        super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
+        self.path, self.mirrored = path, mirrored
+
+    def known(self, quantity: str) -> Known | None:
+        """The greatest size of a quantity, where there is a quicker way to it."""
+        return self.peaks_known(quantity) if self.peaks_known else None
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether path and slot have a mirror image about mid-motion."""
+        return self.mirrored and super().symmetric
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+        """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""
+
+        def about(anchor: Anchor) -> Callable[[Coefficient], Jet]:
+            def solve(x: Coefficient) -> Jet:
+                along, across = anchor.place(x, order)
+                return atan2(across, along) + anchor.wheel
+
+            return solve
+
+        return piecewise(input_deg, self.path.cuts, [about(a) for a in self.path.anchors])
+
+
+class Classic(Followed):
+    """A straight radial slot on a plain crank: closed forms beside the anchors.
+
+    ``sign`` is +1 outside, -1 inside, l = sin b and ``rest`` = 1 - l.
+    """
+
+    def __init__(
+        self, path: AnchoredPath, half_step: float, sign: float, l: float, rest: float
+    ) -> None:
+        super().__init__(path, half_step)
+        self.sign, self.l, self.rest = sign, l, rest
+
+    def known(self, quantity: str) -> Known | None:
+        """The peaks of velocity and acceleration."""
+        outside = self.sign > 0.0
+        if quantity == "velocity":
+            return Known(classic.velocity_peak(self.l, self.rest if outside else 1.0 + self.l), 0.0)
+        if quantity != "acceleration":
+            return None
+        if not outside:  # the jump at entry
+            return Known(abs(self(self.entry_deg, 2).derivatives()[2]), self.entry_deg)
+        size, at_deg = classic.acceleration_peak(self.l, self.rest)
+        return Known(size, -at_deg)
+
+    def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
+        """As of any motion, in closed form.
+
+        Near the ends angle and velocity are written from there, and keep their relative accuracy.
+        """
+        from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
+
+        arrays = ClassicArrays(self.sign, self.l, self.rest)
+        out = arrays.derivatives(input_deg, orders, is_mirrored(input_deg))
+        first = int(input_deg.searchsorted(self.entry_deg + END_DEG))
+        last = int(input_deg.searchsorted(self.exit_deg - END_DEG))
+        for part, side in ((slice(0, first), -1.0), (slice(last, None), 1.0)):
+            for k, o in zip(orders, out, strict=True):
+                if k < 2 and len(o[part]):
+                    o[part] = self._near_end(input_deg[part], side, k)
+        return out
+
+    def _near_end(self, input_deg: Array, side: float, order: int) -> Array:
+        """Angle or velocity near exit (side 1) or entry (-1), from there."""
+        import numpy as np
+
+        tau = radians(self.exit_deg - side * input_deg)
+        along = self.path.anchors[0].along - self.sign * self.l * np.sin(tau)
+        across = 2.0 * self.l * np.sin(0.5 * tau) ** 2
+        if order == 0:
+            angle: Array = side * (self.half_step - np.arctan2(across, along))
+            return angle
+        half = radians(self.exit_deg) - 0.5 * tau
+        speed = 2.0 * self.l * np.sin(0.5 * tau) * np.sin(half)
+        velocity: Array = speed / (along * along + across * across)
+        return velocity
+
+
+def engagement(
+    mid_deg: float,
+    path: AnchoredPath,
+    motion: Followed,
+    crank_sense: float = 0.0,
+    body: Body | None = None,
+) -> Engagement:
+    """The engagement of a radial slot in a plane."""
+    return Engagement(mid_deg, path, RadialSlot(path), motion, crank_sense, body=body)
+
+
+def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:
+    """A vector turned by a fixed angle in radians."""
+    if angle == 0.0:
+        return x, y
+    s, c = math.sin(angle), math.cos(angle)
+    return x * c - y * s, x * s + y * c

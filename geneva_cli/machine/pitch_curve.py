@@ -1,0 +1,88 @@
+"""The slot at one input angle: tangent, curvature and pressure angle of its pitch curve.
+
+Written for jets of floats and of arrays alike. Lengths are in units of the centre distance L.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.jet import Coefficient, library
+
+# the columns of a table of a pitch curve with a wall on either side
+WALLED = (
+    "x_mm",
+    "y_mm",
+    "left_x_mm",
+    "left_y_mm",
+    "right_x_mm",
+    "right_y_mm",
+    "pressure_deg",
+    "curvature_radius_mm",
+)
+RETRACE = 1e-9  # |M'| at mid-motion, below which the pin leaves on the way it came
+
+
+class Pitch(NamedTuple):
+    """The pitch curve M at one or many input angles.
+
+    ``tangent`` is the direction of travel of the pin in the wheel; ``turning`` the rate at which
+    it turns left, radians per input radian; ``speed`` is |M'|. The curvature is turning / speed.
+    """
+
+    x: Coefficient
+    y: Coefficient
+    tangent_x: Coefficient
+    tangent_y: Coefficient
+    speed: Coefficient
+    turning: Coefficient
+    pressure: Coefficient  # radians, 0 to pi/2
+
+
+def retraces(engagement: Engagement) -> bool:
+    """Whether the pin stops in the wheel at mid-motion and leaves on the way it came.
+
+    True for straight slots and at the mid condition; otherwise the pin passes mid-motion across
+    the slot's radius, and the pressure angle is 90 degrees there.
+    """
+    x, y = engagement.slot(0.0, 1)
+    return bool(abs(x.c[1]) + abs(y.c[1]) < RETRACE)
+
+
+def pitch(engagement: Engagement, input_deg: Coefficient) -> Pitch:
+    """Everything about the pitch curve at input angles other than a retracing mid-motion."""
+    x, y = engagement.slot(input_deg, 2)
+    m = library(x.c[0])
+    (x0, x1, x2), (y0, y1, y2) = x.derivatives(), y.derivatives()
+    speed = m.hypot(x1, y1)
+    return Pitch(
+        x0,
+        y0,
+        x1 / speed,
+        y1 / speed,
+        speed,
+        (x1 * y2 - y1 * x2) / (speed * speed),
+        m.atan2(abs(x0 * y1 - y0 * x1), abs(x0 * x1 + y0 * y1)),
+    )
+
+
+def pitch_at_retrace(engagement: Engagement) -> Pitch:
+    """The limit at mid-motion of a pin that retraces, seen from the way in.
+
+    There M' = 0 and M moves as M'' t²/2 + M''' t³/6: it stops along M'', and turns at
+    M'' x M''' / (2 |M''|²) on both sides.
+    """
+    x, y = engagement.slot(0.0, 3)
+    m = library(x.c[0])
+    (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()
+    size = m.hypot(x2, y2)
+    return Pitch(
+        x0,
+        y0,
+        -x2 / size,
+        -y2 / size,
+        0.0,
+        (x2 * y3 - y2 * x3) / (2.0 * size * size),
+        m.atan2(abs(x0 * y2 - y0 * x2), abs(x0 * x2 + y0 * y2)),
+    )

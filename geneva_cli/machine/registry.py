@@ -1,0 +1,72 @@
+"""The kinds that a spec may name: wheels, drives and laws, each loaded when it is asked for.
+
+A new kind is one file and one line here.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.machine.wheels.gearing import Gearing
+
+GEARINGS = {
+    "external": "wheels.external:External",
+    "internal": "wheels.internal:Internal",
+    "spherical": "wheels.spherical:Spherical",
+}
+DRIVES = {
+    "crank": "drives.crank:Crank",
+    "side-crank": "drives.side_crank:SideCrank",
+    "elliptical-gears": "drives.elliptical_gears:EllipticalGears",
+    "noncircular-gears": "drives.noncircular_gears:NoncircularGears",
+    "geneva-pair": "drives.geneva_pair:GenevaPair",
+    "four-bar": "drives.four_bar:FourBar",
+    "slider-crank": "drives.slider_crank:SliderCrank",
+    "epicyclic": "drives.epicyclic:Epicyclic",
+    "gear-sector": "drives.gear_sector:GearSector",
+    "cam": "drives.cam:Cam",
+}
+LAWS = {
+    "harmonic": "laws.standard:Harmonic",
+    "cycloidal": "laws.standard:Cycloidal",
+    "modified-trapezoid": "laws.standard:ModifiedTrapezoid",
+    "modified-sine": "laws.standard:ModifiedSine",
+    "3-4-5": "laws.standard:Polynomial345",
+    "4-5-6-7": "laws.standard:Polynomial4567",
+    "sine-group": "laws.standard:SineGroup",
+    "table": "laws.table:TableLaw",
+}
+# those that are laws without more being said: not a user's own
+STANDARD_LAWS = tuple(name for name, path in LAWS.items() if path.startswith("laws.standard:"))
+
+
+def gearing(name: str) -> type[Gearing]:
+    """The class of a wheel. Raises GenevaError, naming the key, for one that is not known."""
+    found: type[Gearing] = _found(GEARINGS, name, ("wheel", "gearing"))
+    return found
+
+
+def drive(name: str) -> type[Drive]:
+    """The class of a drive. Raises GenevaError, naming the key, for one that is not known."""
+    found: type[Drive] = _found(DRIVES, name, ("drive", "kind"))
+    return found
+
+
+def law(name: str) -> type[Law]:
+    """The class of a motion law. Raises GenevaError, naming the key, for one that is not known."""
+    found: type[Law] = _found(LAWS, name, ("motion", "law"))
+    return found
+
+
+def _found(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
+    if not isinstance(name, str) or name not in kinds:
+        said = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
+        known = ", ".join(f'"{kind}"' for kind in kinds)
+        hint = nearest(name, kinds) if isinstance(name, str) else ""
+        raise GenevaError(f"{key[1]} must be one of {known}, not {said}{hint}", key)
+    module, _, cls = kinds[name].partition(":")
+    return vars(importlib.import_module(f"geneva_cli.machine.{module}"))[cls]

@@ -1,0 +1,70 @@
+"""Which roller moves the wheel when: the rollers on the crank, and the steps that they make."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.wheels.classic import refuse_jam
+from geneva_cli.machine.wheels.gearing import Place
+from geneva_cli.machine.wheels.poses import Step
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
+
+
+def places(spec: Spec) -> list[Place]:
+    """The rollers of a machine with straight slots, in the order in which they move the wheel.
+
+    Rollers that move the wheel alike are given once. Raises GenevaError where they would jam.
+    """
+    wheel, drive = spec.wheel, spec.drive
+    L, m = spec.given_distance_mm, drive.rollers
+    if wheel.steps:
+        return _unequal(spec, wheel.steps)
+    one = wheel.place(wheel.step, L)
+    if drive.roller_angles_deg:
+        return _at_angles(drive.roller_angles_deg, one)
+    refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)
+    return [one._replace(crank_deg=360.0 * j / m) for j in range(1 if drive.ALIKE else m)]
+
+
+def _at_angles(angles: tuple[float, ...], one: Place) -> list[Place]:
+    """Rollers at given angles: each gap must leave room for half of both motions beside it."""
+    key = ("drive", "roller_angles_deg")
+    if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
+        raise GenevaError("roller_angles_deg must rise from 0 to below 360", key)
+    motion = 2.0 * one.half_motion_deg
+    for a, b in zip(angles, (*angles[1:], 360.0), strict=True):
+        if b - a < motion:
+            raise GenevaError(
+                f"the rollers at {a:g} and {b % 360.0:g} deg jam: their motions take "
+                f"{motion:.6g} deg, and there are {b - a:.6g} between them",
+                key,
+            )
+    if motion * len(angles) >= 360.0:
+        raise GenevaError(f"{len(angles)} motions of {motion:.6g} deg leave no dwell at all", key)
+    return [one._replace(crank_deg=a) for a in angles]
+
+
+def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[Place]:
+    """Rollers of different arms, R_i = L sin b_i, with equal dwells between their motions."""
+    found = []
+    for degrees in steps:
+        p, q = degrees.as_integer_ratio()
+        found.append(spec.wheel.place(Step(p, 360 * q), spec.given_distance_mm))
+    total = math.fsum(2.0 * f.half_motion_deg for f in found)
+    if not total < 360.0:
+        raise GenevaError(
+            f"the {len(steps)} motions take {total:.6g} deg of a turn together and leave no dwell; "
+            "fewer rollers (a shorter pattern), or fewer slots, are needed",
+            ("wheel", "steps_deg"),
+        )
+    dwell = (360.0 - total) / len(steps)
+    out, at = [], 0.0
+    for i, place in enumerate(found):
+        if i:
+            at += found[i - 1].half_motion_deg + dwell + place.half_motion_deg
+        out.append(place._replace(crank_deg=at))
+    return out

@@ -1,0 +1,72 @@
+"""Sizes with which there is no machine at all: refused where it is built, for every command.
+
+Only what no choice of the other sizes could mend is refused here: a roller as large as its crank,
+a hub inside its bore. Whether the parts that remain are well made is for ``sizes`` and the checks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.spec import Spec
+
+
+class Bound(NamedTuple):
+    """A size in mm that must be below another, and what that is."""
+
+    key: str
+    value: float
+    below: float
+    what: str
+
+
+def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
+    size = spec.size
+    for one in _bounds(spec, L, ratio):
+        if not one.value < one.below:
+            raise GenevaError(
+                f"{one.key} = {one.value:g}: it must be below {one.below:.6g}, {one.what}",
+                ("size", one.key),
+            )
+    for part in ("wheel", "crank"):
+        bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
+        if bore is not None and hub and hub < bore:
+            raise GenevaError(
+                f"{part}_hub_mm = {hub:g}: a hub is larger than its bore; it must be at least "
+                f"{part}_bore_mm = {bore:g}, or 0 for none",
+                ("size", f"{part}_hub_mm"),
+            )
+
+
+def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
+    size, r = spec.size, spec.roller_radius_mm(L)
+    ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps] or [ratio]
+    short, long = L * min(ratios), L * max(ratios)
+    narrow, what = short, "the crank's arm"
+    if not spec.drive.ONE_ARM:
+        short = long = narrow = L  # a roller whose arm changes has no one length
+        what = "the centre distance"
+    elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
+        narrow, what = min(short, L - long), "the crank's arm and what it leaves of the wheel"
+    given = [
+        ("roller_radius_mm", narrow, what),
+        ("slot_clearance_mm", narrow, what),
+        ("lock_radius_mm", short, "the roller's way"),
+        ("lock_clearance_mm", short, "the roller's way"),
+        ("slot_bottom_clearance_mm", L, "the centre distance"),
+        ("relief_clearance_mm", L, "the centre distance"),
+        ("wheel_radius_mm", L + long, "where a roller is farthest from the wheel's axis"),
+        ("wheel_bore_mm", 2.0 * L, "twice the centre distance"),
+        ("wheel_hub_mm", 2.0 * L, "twice the centre distance"),
+        ("crank_bore_mm", 2.0 * short, "twice the roller's way"),
+        ("crank_hub_mm", 2.0 * short, "twice the roller's way"),
+        ("pin_mm", 2.0 * r, "the roller's diameter"),
+    ]
+    for key, below, what in given:
+        value = getattr(size, key)
+        if value:
+            yield Bound(key, value, below, what)

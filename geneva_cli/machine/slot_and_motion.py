@@ -1,0 +1,100 @@
+"""Straight slot and motion are known, and give the path: the roller slides along the crank.
+
+A fixed groove guides it. With the wheel at psi and the crank at phi the law of sines gives the
+roller's distance from the crank's axis, R = L sin psi / sin(phi + psi), and from the wheel's,
+rho = L sin phi / sin(phi + psi) (an internal wheel: phi - psi).
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.machine.engagement import Axis, Slot
+from geneva_cli.machine.law_motion import LawMotion
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sin_cos
+
+# Where psi and phi nearly vanish together, a series of psi / phi: within these angles its first
+# terms are exact to a double (a spline's series ends at its fifth).
+NEAR_DEG, TERMS = 3.0, 15
+NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
+
+
+class SolvedPath:
+    """The roller's path in the fixed frame; ``sign`` is +1 outside, -1 inside."""
+
+    def __init__(self, motion: LawMotion, sign: float) -> None:
+        self.motion, self.sign = motion, sign
+
+    def distances(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The roller's distance from the wheel's axis and from the crank's, in units of L."""
+        near = NEAR_DEG if self.motion.law.ANALYTIC else NEAR_SPLINE_DEG
+
+        def whole(x: Coefficient) -> Jet:
+            return _stacked(*self._by_sines(x, order))
+
+        def middle(x: Coefficient) -> Jet:
+            return _stacked(*self._by_series(x, order))
+
+        both = piecewise(input_deg, (-near, near), (whole, middle, whole)).c
+        return Jet(both[: order + 1]), Jet(both[order + 1 :])
+
+    def _by_sines(self, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+        phi, psi = Jet.variable(radians(x), order), self.motion(x, order)
+        below = sin_cos(phi + psi * self.sign)[0]
+        return sin_cos(phi)[0] / below, sin_cos(psi)[0] / below
+
+    def _by_series(self, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """Near mid-motion both sines vanish: each is divided by phi first, as a series of it."""
+        t = Jet.variable(radians(x), order)
+        c = self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
+        slope = t * 0.0
+        for a in reversed(c[1:]):
+            slope = slope * t + a  # psi / phi
+        psi = slope * t
+        angle = slope * self.sign + 1.0  # (phi +- psi) / phi
+        below = angle * _sinc(angle * t)
+        return _sinc(t) / below, slope * _sinc(psi) / below
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The roller in its straight slot, which stands at the wheel's angle."""
+        rho, _ = self.distances(input_deg, order)
+        s, c = sin_cos(self.motion(input_deg, order))
+        return rho * c, rho * s
+
+    def groove(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The fixed groove's pitch curve, the crank's axis being the origin."""
+        _, R = self.distances(input_deg, order)
+        s, c = sin_cos(Jet.variable(radians(input_deg), order))
+        # The crank points at the wheel's axis at mid-motion (outside), or away from it (inside).
+        return R * c * -self.sign, R * s
+
+
+class RadialSlot(Slot):
+    """The straight radial slot in which the path is solved for."""
+
+    def __init__(self, path: SolvedPath) -> None:
+        self.path = path
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin runs along the slot's straight axis."""
+        rho, _ = self.path.distances(input_deg, order)
+        return rho, rho * 0.0
+
+    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+        """The lever is the pin's distance from the wheel's axis."""
+        rho, _ = self.path.distances(input_deg, order + 1)
+        return Axis(Jet(rho.c[:-1]), rho.derivative())
+
+
+def _stacked(a: Jet, b: Jet) -> Jet:
+    return Jet((*a.c, *b.c))
+
+
+def _sinc(x: Jet) -> Jet:
+    """sin x / x for small x: eight terms of the series are exact to a double up to 1/10."""
+    square = x * x
+    total = x * 0.0
+    for k in range(8, -1, -1):
+        total = total * square + (-1.0) ** k / math.factorial(2 * k + 1)
+    return total

@@ -1,0 +1,147 @@
+"""A whole spec: the wheel, its drive, its motion, and the tables of sizes, loads and limits."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar, Self
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.spec.rules import FINITE, Range, Words
+from geneva_cli.spec.schema import Table, fields, unknown
+from geneva_cli.spec.tables import DISTANCE_MM, Z_DRAWN, Limits, Load, Size
+
+LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  # limits on loads
+
+
+@dataclass(frozen=True)
+class Motion(Table):
+    """``[motion]``: present when the motion is given and the slots are solved for."""
+
+    TABLE: ClassVar[str] = "motion"
+    law: Law
+    alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
+    ratio: Annotated[
+        float | str | None,
+        Words(Range(0.0, 1.0, "()"), ("matched",)),
+        'R/L of curved slots, or "matched"',
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _refuse_other(self, "law", Law, "Cycloidal()")
+
+    def with_key(self, key: str, value: Any) -> Self:
+        """The same with one key of the motion or of its law changed; None: its default."""
+        law, own = ([f.key for f in fields(type(part))] for part in (self.law, self))
+        if key in law:
+            return self.but(law=self.law.with_key(key, value))
+        if key not in own:
+            raise unknown(key, self.TABLE, (*law, *own))
+        return super().with_key(key, value)
+
+
+def _refuse_other(of: Any, name: str, kind: type, example: str) -> None:
+    """A Python user may give the word of a file, or a class, for the object that it stands for."""
+    given = getattr(of, name)
+    if not isinstance(given, kind):
+        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(given))}")
+
+
+@dataclass(frozen=True)
+class Spec:
+    """All that a machine is built from, as it was given.
+
+    ``path`` is the spec's file, for messages; ``files`` those that its points were read from.
+    """
+
+    wheel: Gearing
+    drive: Drive = field(default_factory=Crank)
+    motion: Motion | None = None
+    size: Size = field(default_factory=Size)
+    load: Load = field(default_factory=Load)
+    limits: Limits = field(default_factory=Limits)
+    title: str = ""
+    path: str = ""
+    files: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        _refuse_other(self, "wheel", Gearing, "External(6)")
+        _refuse_other(self, "drive", Drive, "Crank(n_rpm=60)")
+        if self.motion is not None:
+            _refuse_other(self, "motion", Motion, "Motion(Cycloidal())")
+        _refuse_other(self, "size", Size, "Size(center_distance_mm=100)")
+        _refuse_other(self, "load", Load, "Load(torque_Nm=5)")
+        _refuse_other(self, "limits", Limits, "Limits(velocity_max=1)")
+        if self.limits.contact_stress_max_MPa is not None and self.size.face_width_mm is None:
+            raise GenevaError(
+                "contact_stress_max_MPa needs the length of the line of contact: set face_width_mm "
+                "in [size]",
+                ("limits", "contact_stress_max_MPa"),
+            )
+
+        if not (self.load.inertia_kgm2 or self.load.torque_Nm):
+            for key in LOADED:
+                if getattr(self.limits, key) is not None:
+                    raise GenevaError(
+                        f"{key} needs a load, and without one there is nothing to limit: set "
+                        "inertia_kgm2 or torque_Nm in [load]",
+                        ("limits", key),
+                    )
+
+    def but(self, **changes: Any) -> Self:
+        """The same with some of its tables changed."""
+        return dataclasses.replace(self, **changes)
+
+    def table(self, name: str) -> dict[str, Any]:
+        """The values of a table by their keys; of ``motion`` its law's too."""
+        if name == "motion":
+            return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
+        tables: dict[str, Table] = {
+            "wheel": self.wheel,
+            "drive": self.drive,
+            "size": self.size,
+            "load": self.load,
+            "limits": self.limits,
+        }
+        return tables[name].as_dict()
+
+    def with_(self, key: str, value: Any) -> Self:
+        """The same with one key changed, written ``table.key`` as in the file; None: its default.
+
+        Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
+        """
+        table, _, name = key.partition(".")
+        part = {
+            "wheel": self.wheel,
+            "drive": self.drive,
+            "motion": self.motion,
+            "size": self.size,
+            "load": self.load,
+            "limits": self.limits,
+        }.get(table)
+        if part is None:
+            raise GenevaError(f"{key}: this spec has no [{table}]", (table, name))
+        if part is self.motion:
+            return self.but(motion=self.motion.with_key(name, value))
+        return self.but(**{table: part.with_key(name, value)})
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether wheel and crank are flat outlines, of a wheel that can be cut."""
+        return self.wheel.FLAT and self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
+
+    def roller_radius_mm(self, center_distance_mm: float) -> float:
+        """The roller's radius r, by default L/20."""
+        given = self.size.roller_radius_mm
+        return center_distance_mm / 20.0 if given is None else given
+
+    @property
+    def given_distance_mm(self) -> float:
+        """The centre distance L, where the machine does not solve for it."""
+        given = self.size.center_distance_mm
+        return DISTANCE_MM if given is None else given

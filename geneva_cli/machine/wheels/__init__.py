@@ -1,0 +1,1 @@
+"""The gearings: wheels outside, inside and on a sphere, and their closed forms."""

@@ -1,0 +1,59 @@
+"""The classic wheels in closed form: straight radial slots, a plain crank.
+
+b = pi p/q is half the index angle (p/q = 1/z for equal steps), l = R/L = sin b the crank radius.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
+
+
+def half_motion_deg(sign: float, p: int, q: int) -> float:
+    """Crank angle from entry to the line of centres: 90° - b outside, 90° + b inside."""
+    return 90.0 * (q - 2 * int(sign) * p) / q
+
+
+def gap(sign: float, p: int, q: int) -> float:
+    """Least distance of the pin from the wheel's centre in units of L: 1 - l, inside 1 + l."""
+    return 1.0 + sin_cos_pi(p, q)[0] if sign < 0.0 else one_minus_sin_pi(p, q)
+
+
+def rollers_max(motion_deg: float) -> int:
+    """The most evenly spaced rollers that leave some dwell: m * motion < 360 degrees."""
+    return math.ceil(360.0 / motion_deg) - 1
+
+
+def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
+    """Raise GenevaError where so many rollers would leave no dwell."""
+    most = rollers_max(motion_deg)
+    if rollers > most:
+        why = (
+            "an internal wheel's crank carries one roller only"
+            if inside and motion_deg > 180.0
+            else f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
+        )
+        raise GenevaError(
+            f"rollers = {cut(rollers)} jam: {why}; at most {most}", ("drive", "rollers")
+        )
+
+
+def velocity_peak(l: float, gap: float) -> float:
+    """At mid-motion: l/(1 - l) outside, l/(1 + l) inside."""
+    return l / gap
+
+
+def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
+    """Peak acceleration of an external wheel and its angle from mid-motion, degrees.
+
+    psi3 = 0 is a quadratic in cos a; with s = 1 - cos a and B = 1 + 4 l + l² its root is
+    s = 2 (1-l)² / (B + sqrt(B² - 8 l (1-l)²)), free of cancellation up to l = 1. (An internal
+    wheel's peak is its jump at entry, tan b.)
+    """
+    big = 1.0 + 4.0 * l + l * l
+    s = 2.0 * gap * gap / (big + math.sqrt(big * big - 8.0 * l * gap * gap))
+    d = gap * gap + 2.0 * l * s
+    size = l * gap * (1.0 + l) * math.sqrt(s * (2.0 - s)) / (d * d)
+    return size, math.degrees(2.0 * math.asin(math.sqrt(0.5 * s)))

@@ -1,0 +1,116 @@
+"""What a gearing is: where the crank turns, seen from the wheel, and what follows from it."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.wheels.poses import Pose, Step
+from geneva_cli.machine.wheels.skew import Skew
+from geneva_cli.spec.rules import Z_MAX, OneOf, Range
+from geneva_cli.spec.schema import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Body, Displacement, Slot
+
+
+class Place(NamedTuple):
+    """One roller: the crank angle at which it crosses the line of centres, and its passage.
+
+    ``poses`` are entry, middle and exit on its circle, as it would pass with its own crank angle
+    at 0; ``ratio`` is its arm over the centre distance. ``skew`` is an offset slot's; on a sphere
+    ``height`` is the pin's place along the wheel's axis: (top, fall) for top - fall (1 - cos a),
+    and ``cone`` the cosine of the pin's cone.
+    """
+
+    step: Step
+    half_motion_deg: float
+    poses: tuple[Pose, Pose, Pose]
+    ratio: float
+    skew: Skew | None = None
+    crank_deg: float = 0.0
+    height: tuple[float, float] | None = None
+    cone: float = 1.0
+
+    @property
+    def reach_deg(self) -> float:
+        """Farthest from the line of centres that its crank moves the wheel."""
+        return max(-self.poses[0].crank_deg, self.poses[2].crank_deg)
+
+
+@dataclass(frozen=True)
+class Gearing(Table):
+    """A wheel. Its fields are the keys of ``[wheel]``. Raises GenevaError where it cannot be."""
+
+    TABLE: ClassVar[str] = "wheel"
+    NAME: ClassVar[str]
+    # +1 where the crank's axis is outside the wheel's reach, -1 inside
+    SIGN: ClassVar[float] = 1.0
+    # whether wheel and crank are flat parts, on parallel shafts
+    FLAT: ClassVar[bool] = True
+    z: Annotated[int, Range(3, Z_MAX), "number of slots"]
+    held_by: Annotated[
+        str | None,
+        OneOf(("brake", "detent", "pin")),
+        "what holds the wheel at rest, where no locking disc does",
+    ] = field(default=None, kw_only=True)
+
+    @property
+    def step(self) -> Step:
+        """Half of an equal step, exactly."""
+        return Step(1, self.z)
+
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """The repeating pattern of unequal steps, degrees; empty where all are equal."""
+        return ()
+
+    @property
+    def radial(self) -> bool:
+        """Whether all slots are radial and alike, which a drive or a law may need."""
+        return True
+
+    @property
+    def own_sizes(self) -> dict[str, float]:
+        """What a report shows of this kind of wheel alone, by name."""
+        return {}
+
+    def index_deg(self, i: int) -> float:
+        """The wheel's step at its i-th engagement."""
+        return self.steps[i] if self.steps else 360.0 / self.z
+
+    @abstractmethod
+    def half_motion_deg(self, step: Step) -> float:
+        """Crank angle from entry to the line of centres, for a slot entered without shock."""
+
+    @abstractmethod
+    def place(self, step: Step, center_distance_mm: float) -> Place:
+        """A roller's passage through a straight slot. Raises GenevaError where there is none."""
+
+    def rest(self, ratio: float) -> float:
+        """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
+        return 1.0 - self.SIGN * ratio
+
+    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+        """The straight slot in which a roller's path runs, and the motion that the two give.
+
+        ``turn`` is the crank's from mid-motion.
+        """
+        return RadialSlot(path), Followed(path, place.step.b)
+
+    def body(self, place: Place, turn: Displacement) -> Body | None:
+        """What carries the roller, where the crank's arm in the plane of the wheel does not."""
+        return None
+
+    def closed_form(self, place: Place) -> tuple[float, float, float] | None:
+        """Sign, l and 1 - l of the closed forms that hold on a plain crank, where there are any."""
+        return None
+
+    def matched_ratio(self, v: float) -> float | None:
+        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
+
+        ``v`` is the wheel's speed over the crank's. None where no R/L below 1 does.
+        """
+        return None

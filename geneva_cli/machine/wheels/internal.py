@@ -1,0 +1,35 @@
+"""Internal wheels: the crank turns inside the ring of slots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from geneva_cli.machine.wheels import classic, poses
+from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.poses import Step
+
+
+@dataclass(frozen=True)
+class Internal(Gearing):
+    """The crank turns inside the wheel: more motion than dwell, and no peak inside the motion."""
+
+    NAME: ClassVar[str] = "internal"
+    SIGN: ClassVar[float] = -1.0
+
+    def half_motion_deg(self, step: Step) -> float:
+        """Crank angle from entry to the line of centres: 90° + b."""
+        return classic.half_motion_deg(self.SIGN, *step)
+
+    def place(self, step: Step, center_distance_mm: float) -> Place:
+        """A roller's passage through a radial slot."""
+        all_three = poses.radial(self.SIGN, step)
+        return Place(step, self.half_motion_deg(step), all_three, step.sin_cos[0])
+
+    def closed_form(self, place: Place) -> tuple[float, float, float] | None:
+        """Of radial slots."""
+        return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
+
+    def matched_ratio(self, v: float) -> float | None:
+        """psi1(0) = l/(1+l) f1(0), with f1 the transmission's ratio."""
+        return v / (1.0 - v) if 0.0 < v < 0.5 else None

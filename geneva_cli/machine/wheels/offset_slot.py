@@ -1,0 +1,95 @@
+"""The slot of offset e and the motion that it gives: see skew.py for its proportions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from geneva_cli.machine.engagement import Anchor, Axis, Slot
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
+from geneva_cli.machine.wheels.skew import Skew
+from geneva_cli.numerics.jet import Coefficient, Jet, integral, library, piecewise, sqrt
+
+
+class OffsetSlot(Slot):
+    """A straight slot whose axis misses the wheel's centre."""
+
+    def __init__(self, path: AnchoredPath, skew: Skew) -> None:
+        self.path, self.skew, self.offset = path, skew, skew.e
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+        """The pin runs along the slot's straight axis."""
+        depth = self._depth(input_deg, order)
+        return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
+
+    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
+        depth = self._depth(input_deg, order + 1)
+        return Axis(Jet(depth.c[:-1]), depth.derivative())
+
+    def _depth(self, input_deg: Coefficient, order: int) -> Jet:
+        return _depth(self.skew, self.path.middle.way(input_deg, order)[0])[0]
+
+
+class OffsetFollowed(Followed):
+    """The motion of a wheel whose offset slot follows the pin."""
+
+    def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
+        super().__init__(path, half_step)
+        self.skew = skew
+
+    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+        """The slot's direction, taken from the nearest anchor: exactly at rest at both ends."""
+        anchors, cuts = self.path.anchors, self.path.cuts
+        first, last = (self._from_end(anchors[i], order) for i in (0, -1))
+        return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order), last])
+
+    def _from_end(self, anchor: Anchor, order: int) -> Callable[[Coefficient], Jet]:
+        """About entry or exit, where the pin is at (along, -e) in the slot's frame.
+
+        The slot's axis passes the pin at (s, -e) with s² = rho² - e². What s gains on ``along`` is
+        written so that it vanishes with ``across``, and the wheel's angle and speed with both.
+        """
+        e = self.skew.e
+
+        def solve(x: Coefficient) -> Jet:
+            along, across = anchor.place(x, order)
+            more = across * (across - 2.0 * e)  # s² - along²
+            square = along * along + more
+            s = sqrt(square)
+            gain = more / (s + along)
+            a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
+            value = library(a).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
+            return _turning(along, across, gain * e, square + e * e, value)
+
+        return solve
+
+    def _inside(self, x: Coefficient, order: int) -> Jet:
+        """About mid-motion: the pin's direction, and less what the slot's gains on it."""
+        e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
+        toward, across = mid.way(x, order)
+        s, rho2 = _depth(self.skew, toward)
+        along = toward + mid.along
+        m, u, depth = library(across.c[0]), toward.c[0], s.c[0]
+        value = m.atan2(across.c[0], along.c[0]) + mid.wheel
+        # atan2(e, deepest) - atan2(e, s)
+        value -= m.atan2(2.0 * u / (depth + deepest) * e, depth * deepest + e * e)
+        return _turning(along, across, s * e, rho2, value)
+
+
+def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
+    """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
+
+    From mid-motion the pin goes by u = l (1 - cos a) along the line of centres, and there
+    s² = deepest² + 2 u, a sum of positive terms.
+    """
+    square = toward * 2.0 + skew.deepest**2
+    return sqrt(square), square + skew.e**2
+
+
+def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet, value: Coefficient) -> Jet:
+    """A wheel's angle from its rate, (x y' - y x' - e s') / rho², for ``lever`` = e s."""
+    if not x.order:
+        return Jet((value,))
+    low_x, low_y, low_rho2 = Jet(x.c[:-1]), Jet(y.c[:-1]), Jet(rho2.c[:-1])
+    across = low_x * y.derivative() - low_y * x.derivative()
+    return integral((across - lever.derivative()) / low_rho2, value)

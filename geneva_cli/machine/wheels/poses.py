@@ -1,0 +1,71 @@
+"""The pin's circle as the wheel sees it, for external and internal wheels.
+
+The wheel's axis is the origin, the crank's axis at (1, 0): lengths are in units of the centre
+distance L. b = pi/z is half the index angle, l = R/L the crank radius.
+
+A pose is one moment of the motion, described in the frame whose x axis is the ray from the
+wheel's centre to the pin at that moment. About it the pin moves by
+
+    sin(d) * slope + (1 - cos(d)) * bend        (d: crank angle since the pose)
+
+without cancellation: at entry and exit the pin moves along the ray only, so the part of the
+slope across it is exactly zero, and so are the wheel's angle and velocity there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.machine.wheels.classic import gap, half_motion_deg
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.jet import Jet
+
+
+class Pose(NamedTuple):
+    """One moment of the pin's turn on its circle; vectors are (along the ray, across it)."""
+
+    crank_deg: float
+    wheel: float  # wheel angle, radians
+    along: float  # distance of the pin from the wheel's centre
+    slope: tuple[float, float]  # d(position)/d(crank angle)
+    bend: tuple[float, float]  # second derivative
+
+    def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """The pin's way since the pose, after the crank has turned by d: sin d and 1 - cos d."""
+        u = sine * self.slope[0] + versine * self.bend[0]
+        v = sine * self.slope[1] + versine * self.bend[1]
+        return u, v
+
+
+class Step(NamedTuple):
+    """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z."""
+
+    p: int
+    q: int
+
+    @property
+    def b(self) -> float:
+        """Half the index angle, radians."""
+        return math.pi * self.p / self.q
+
+    @property
+    def sin_cos(self) -> tuple[float, float]:
+        """sin b and cos b."""
+        return sin_cos_pi(self.p, self.q)
+
+
+def middle(sign: float, l: float, gap: float) -> Pose:
+    """The pin on the line of centres, ``gap`` from the wheel's, for a crank of any radius l."""
+    return Pose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
+
+
+def radial(sign: float, step: Step) -> tuple[Pose, Pose, Pose]:
+    """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
+    l, cos_b = step.sin_cos
+    half = half_motion_deg(sign, *step)
+    return (
+        Pose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
+        middle(sign, l, gap(sign, *step)),
+        Pose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
+    )

@@ -1,0 +1,64 @@
+"""Straight slots whose axes miss the wheel's centre by e, in units of the centre distance L.
+
+Shockless at both ends where the slot's axis is tangent to the crank's circle: l = sin b cos d with
+d = asin(e / cos b). The crank's angle of motion stays 180° - 2b and the two ends trade their jumps:
+entry l / cos(b - d), exit l / cos(b + d). At |e| = cos² b, where b + |d| = 90°, the gentler of the
+slot's ends would meet the wheel's centre line: all that is small there is written as a product with
+the distance to that limit, which is taken once, exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.machine.wheels.classic import gap, half_motion_deg
+from geneva_cli.machine.wheels.poses import Pose, Step, middle
+from geneva_cli.numerics.angles import cos_squared_less, sin_cos_pi
+
+
+class Skew(NamedTuple):
+    """Proportions of an offset slot."""
+
+    e: float
+    tilt: float  # d, radians: the slot against the line of centres, half-way through the step
+    deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
+    poses: tuple[Pose, Pose, Pose]
+    # at both ends in the slot's own frame, whose axis runs at -e beside the ray from the wheel's
+    # centre; in the middle in that of the line of centres
+
+
+def skew(step: Step, e: float) -> Skew:
+    """The slot of offset e for half an index angle b. Raises ValueError unless |e| < cos² b."""
+    spare = cos_squared_less(*step, abs(e))
+    if not spare > 0.0:
+        raise ValueError
+    sin_b, cos_b = step.sin_cos
+    less = 2.0 * sin_cos_pi(step.p, 2 * step.q)[0] ** 2  # 1 - cos b
+    size = abs(e) / cos_b  # |sin d|
+    # cos b - |e| = (cos² b - |e|) + cos b (1 - cos b)
+    cos_d = math.sqrt((spare + cos_b * less) * (cos_b + abs(e))) / cos_b
+    d = math.atan2(size, cos_d)
+    wide = cos_b * cos_d + sin_b * size  # cos(b - |d|), a sum of positive terms
+    near = spare / cos_b * (cos_b + size)  # cos² b - sin² d
+    narrow = near / wide  # cos(b + |d|)
+    deepest = near / (cos_d + sin_b)  # cos d - sin b
+    least = gap(1.0, *step) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
+    l = sin_b * cos_d
+    long = half_motion_deg(1.0, *step) + math.degrees(d)
+    short = math.degrees(math.atan2(narrow, sin_b * cos_d + cos_b * size))
+    turn = math.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
+    mid = middle(1.0, l, least)
+    if e > 0.0:
+        poses = (
+            Pose(-long, -step.b, wide, (-l, 0.0), (0.0, l)),
+            mid._replace(wheel=turn),
+            Pose(short, step.b, narrow, (l, 0.0), (0.0, -l)),
+        )
+    else:
+        poses = (
+            Pose(-short, -step.b, narrow, (-l, 0.0), (0.0, l)),
+            mid._replace(wheel=-turn),
+            Pose(long, step.b, wide, (l, 0.0), (0.0, -l)),
+        )
+    return Skew(e, math.copysign(d, e), deepest, poses)

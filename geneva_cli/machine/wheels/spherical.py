@@ -1,0 +1,153 @@
+"""Spherical wheels: shafts that meet at an angle, slots on meridians of a sphere."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
+from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.poses import Pose, Step
+from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2
+from geneva_cli.spec.rules import Range
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Displacement, Slot
+
+AXES_MIN = 1e-6  # degrees
+
+
+@dataclass(frozen=True)
+class Spherical(Gearing):
+    """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal."""
+
+    NAME: ClassVar[str] = "spherical"
+    FLAT: ClassVar[bool] = False
+    axes_deg: Annotated[
+        float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"
+    ] = 90.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not AXES_MIN <= self.axes_deg <= 180.0 - AXES_MIN:
+            raise GenevaError(
+                f"axes_deg = {self.axes_deg:g}: the shafts are parallel but for rounding; it must "
+                f"be at least {AXES_MIN:g} away from 0 and 180, or the gearing "
+                '"external" or "internal"',
+                ("wheel", "axes_deg"),
+            )
+
+    @property
+    def own_sizes(self) -> dict[str, float]:
+        """The angle of the shafts."""
+        return {"axes_deg": self.axes_deg}
+
+    def half_motion_deg(self, step: Step) -> float:
+        """Crank angle from entry to mid-motion."""
+        return sphere(step, self.axes_deg).half_motion_deg
+
+    def place(self, step: Step, center_distance_mm: float) -> Place:
+        """A roller's passage through a meridian slot; its arm is over the sphere's radius."""
+        ball = sphere(step, self.axes_deg)
+        top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
+        fall = ball.sin_S * ball.sin_th
+        return Place(
+            step,
+            ball.half_motion_deg,
+            poses(step, ball),
+            ball.sin_th,
+            height=(top, fall),
+            cone=ball.cos_th,
+        )
+
+    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+        """The meridian, along which the pin's place on the wheel's axis tells the polar angle."""
+        assert place.height is not None  # it is a place on a sphere
+        return MeridianSlot(path, Height(*place.height, turn)), Followed(path, place.step.b)
+
+    def body(self, place: Place, turn: Displacement) -> Cone:
+        """The crank, whose axis is not the roller's."""
+        return Cone(turn, place.cone)
+
+
+class Cone(NamedTuple):
+    """The crank of a sphere, which carries its roller on a cone: its turning about the roller."""
+
+    turn: Displacement
+    cos_th: Coefficient
+
+    def __call__(self, tau: Coefficient, order: int) -> Jet:
+        """Positive with the wheel, ``tau`` input radians after mid-motion."""
+        sine, versine = self.turn(tau, order + 1)
+        out: Jet = atan2(sine, 1.0 - versine).derivative() * -self.cos_th
+        return out
+
+
+class Height(NamedTuple):
+    """The pin's place along the wheel's axis: top - fall (1 - cos a)."""
+
+    top: Coefficient
+    fall: Coefficient
+    turn: Displacement
+
+    def __call__(self, tau: Coefficient, order: int) -> Jet:
+        """``tau`` input radians after mid-motion."""
+        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
+        return out
+
+
+class Sphere(NamedTuple):
+    """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
+
+    sin th = sin S sin b, so that the pin enters its meridian slot along it. Seen along the wheel's
+    axis the pin runs on an ellipse, (sin S - tan th cos S cos a, tan th sin a) times cos th.
+    """
+
+    sin_S: float
+    cos_S: float
+    sin_th: float
+    cos_th: float
+    cos_a: float  # of the half motion angle: tan th / tan S
+    sin_a: float
+
+    @property
+    def half_motion_deg(self) -> float:
+        """Crank angle from entry to mid-motion."""
+        return math.degrees(math.atan2(self.sin_a, self.cos_a))
+
+
+def sphere(step: Step, axes_deg: float) -> Sphere:
+    """The proportions of a spherical wheel with shafts at ``axes_deg``."""
+    sin_b, cos_b = step.sin_cos
+    sin_S, cos_S = sin_cos_deg(axes_deg)
+    sin_th = sin_S * sin_b
+    # cos² th = cos² S + sin² S cos² b: a sum of positive terms
+    cos_th = math.hypot(cos_S, sin_S * cos_b)
+    return Sphere(sin_S, cos_S, sin_th, cos_th, sin_b * cos_S / cos_th, cos_b / cos_th)
+
+
+def poses(step: Step, ball: Sphere) -> tuple[Pose, Pose, Pose]:
+    """Entry, middle and exit of a spherical wheel's pin, in its projection along the wheel's axis.
+
+    Lengths are in units of the sphere's radius.
+    """
+    sin_b, cos_b = step.sin_cos
+    half = ball.half_motion_deg
+    # derivatives of the pin's place at the crank angle a, by it
+    across, along = ball.sin_th * ball.cos_S, ball.sin_th
+    mouth = math.hypot(ball.sin_S * ball.cos_th - across * ball.cos_a, along * ball.sin_a)
+    slope = across * ball.sin_a * cos_b + along * ball.cos_a * sin_b
+    inward = across * ball.cos_a * cos_b - along * ball.sin_a * sin_b
+    aside = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
+    # sin(S - th), where both are positive as sin² S cos² b / sin(S + th)
+    middle_ = ball.sin_S * ball.cos_th - across
+    if across > 0.0:
+        middle_ = (ball.sin_S * cos_b) ** 2 / (ball.sin_S * ball.cos_th + across)
+    return (
+        Pose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
+        Pose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),
+        Pose(half, step.b, mouth, (slope, 0.0), (inward, -aside)),
+    )

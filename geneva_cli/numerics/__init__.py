@@ -1,0 +1,1 @@
+"""Jets, roots and angles."""

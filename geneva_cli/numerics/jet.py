@@ -1,0 +1,202 @@
+"""Jets: numbers that carry their first derivatives (truncated Taylor arithmetic).
+
+A jet of order n holds the Taylor coefficients c[0..n] of a function of one
+variable at a point, c[k] = f^(k)/k!. Coefficients are floats, or NumPy arrays
+of one shape; the same formula then runs on one angle through ``math``, without
+NumPy being imported, or on a million through ``numpy``.
+
+The recurrences are the classical ones of automatic differentiation
+(Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2).
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    Array: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+    Number: TypeAlias = float | Array
+
+# Number is float | ndarray for the reader; arithmetic mixes them freely, which
+# is beyond what the type checker follows, so coefficients are Any inside.
+Coefficient: TypeAlias = Any
+
+_FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
+
+
+def library(x: Coefficient) -> Any:
+    """The module whose sin and cos suit x: ``math`` for a number, ``numpy`` for an array."""
+    if isinstance(x, (float, int)):
+        return math
+    import numpy
+
+    return numpy
+
+
+def choose(condition: Any, yes: Coefficient, no: Coefficient) -> Coefficient:
+    """One of two values, for a truth value, or element by element for an array of them."""
+    if isinstance(condition, bool):
+        return yes if condition else no
+    import numpy
+
+    return numpy.where(condition, yes, no)
+
+
+class Jet:
+    """Taylor coefficients of a function at a point (float) or at many (arrays)."""
+
+    __slots__ = ("c",)
+
+    def __init__(self, coefficients: Sequence[Coefficient]) -> None:
+        self.c = tuple(coefficients)
+
+    @staticmethod
+    def variable(x: Coefficient, order: int) -> Jet:
+        """The independent variable itself at x."""
+        return Jet((x, 1.0, *[0.0] * (order - 1))[: order + 1])
+
+    @property
+    def order(self) -> int:
+        """The highest derivative carried."""
+        return len(self.c) - 1
+
+    def derivatives(self) -> tuple[Coefficient, ...]:
+        """Value, first derivative, second, ... up to the order."""
+        return tuple(c if k < 2 else c * _FACTORIAL[k] for k, c in enumerate(self.c))
+
+    def derivative(self) -> Jet:
+        """The jet of the derivative, one order lower."""
+        return Jet([k * c for k, c in enumerate(self.c) if k])
+
+    def __add__(self, other: Jet | Coefficient) -> Jet:
+        if isinstance(other, Jet):
+            return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
+        return Jet((self.c[0] + other, *self.c[1:]))
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Jet:
+        return Jet([-a for a in self.c])
+
+    def __sub__(self, other: Jet | Coefficient) -> Jet:
+        if isinstance(other, Jet):
+            return Jet([a - b for a, b in zip(self.c, other.c, strict=True)])
+        return Jet((self.c[0] - other, *self.c[1:]))
+
+    def __rsub__(self, other: Coefficient) -> Jet:
+        return Jet((other - self.c[0], *[-a for a in self.c[1:]]))
+
+    def __mul__(self, other: Jet | Coefficient) -> Jet:
+        if not isinstance(other, Jet):
+            return Jet([a * other for a in self.c])
+        a, b = self.c, other.c
+        return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Jet | Coefficient) -> Jet:
+        if not isinstance(other, Jet):
+            return Jet([a / other for a in self.c])
+        b = other.c
+        q: list[Coefficient] = []
+        for k, a in enumerate(self.c):
+            q.append((a - sum(q[i] * b[k - i] for i in range(k))) / b[0])
+        return Jet(q)
+
+    def __rtruediv__(self, other: Coefficient) -> Jet:
+        return Jet((other, *[0.0] * self.order)) / self
+
+
+def _convolve(a: Sequence[Coefficient], b: Sequence[Coefficient], k: int, first: int) -> Any:
+    total = a[first] * b[k - first]
+    for i in range(first + 1, k + 1):
+        total = total + a[i] * b[k - i]
+    return total
+
+
+def sin_cos(x: Jet) -> tuple[Jet, Jet]:
+    """Sine and cosine together; each one's recurrence needs the other."""
+    m = library(x.c[0])
+    return _circle([k * a for k, a in enumerate(x.c)], m.sin(x.c[0]), m.cos(x.c[0]))
+
+
+def _circle(
+    slope: Sequence[Coefficient], sine: Coefficient, cosine: Coefficient
+) -> tuple[Jet, Jet]:
+    """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
+    s, c = [sine], [cosine]
+    for k in range(1, len(slope)):
+        s.append(_convolve(slope, c, k, 1) / k)
+        c.append(-_convolve(slope, s, k, 1) / k)
+    return Jet(s), Jet(c)
+
+
+def sine_versine(x: Jet) -> tuple[Jet, Jet]:
+    """sin x and 1 - cos x, the latter without cancellation."""
+    s, c = sin_cos(x)
+    half = library(x.c[0]).sin(0.5 * x.c[0])
+    return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
+
+
+def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+    """The same of the direction of the vector (x, y), which turns at ``rate``."""
+    length = library(x + y).hypot(x, y)
+    sine, cosine = y / length, x / length
+    # 1 - cos = sin²/(1 + cos), or as it stands where the cosine is negative
+    ahead = 0.5 * (1.0 + library(x + y).copysign(1.0, x))
+    versine = ahead * sine * sine / (1.0 + abs(cosine)) + (1.0 - ahead) * (1.0 - cosine)
+    s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
+    return s, Jet((versine, *[-a for a in c.c[1:]]))
+
+
+def sqrt(x: Jet) -> Jet:
+    """Square root of a positive jet."""
+    q = [library(x.c[0]).sqrt(x.c[0])]
+    for k in range(1, len(x.c)):
+        q.append((x.c[k] - sum(q[i] * q[k - i] for i in range(1, k))) / (2 * q[0]))
+    return Jet(q)
+
+
+def integral(slope: Jet, value: Coefficient) -> Jet:
+    """The jet, one order higher, whose derivative is ``slope`` and whose value is ``value``."""
+    return Jet((value, *[c / (k + 1) for k, c in enumerate(slope.c)]))
+
+
+def atan2(y: Jet, x: Jet) -> Jet:
+    """Angle of the vector (x, y), from its rate (x y' - y x') / (x² + y²)."""
+    value = library(y.c[0] + x.c[0]).atan2(y.c[0], x.c[0])
+    if y.order == 0:
+        return Jet((value,))
+    low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
+    rate = (low_x * y.derivative() - low_y * x.derivative()) / (low_x * low_x + low_y * low_y)
+    return integral(rate, value)
+
+
+def piecewise(
+    x: Coefficient, cuts: Sequence[float], pieces: Sequence[Callable[[Coefficient], Jet]]
+) -> Jet:
+    """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
+
+    x is a float or a one-dimensional array; each piece sees only its own part.
+    """
+    if isinstance(x, float):
+        return pieces[bisect_left(cuts, x)](x)
+    import numpy as np
+
+    if not x.size:
+        return pieces[0](x)
+    index = np.searchsorted(cuts, x)
+    out: list[Coefficient] = []
+    for i in np.unique(index):
+        where = index == i
+        jet = pieces[i](x[where])
+        if not out:
+            out = [np.empty(x.shape) for _ in jet.c]
+        for total, part in zip(out, jet.c, strict=True):
+            total[where] = part
+    return Jet(out)

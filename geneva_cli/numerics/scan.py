@@ -1,0 +1,134 @@
+"""Looking over whole functions at once: sampled until nothing is stepped over.
+
+Several functions of one variable are sampled together, as arrays, on several spans. A span is
+halved where the cubic through two neighbours' values and slopes does not predict the middle, as in
+``roots.extrema``; it begins with places that crowd towards both its ends, where mechanisms have
+their narrowest features.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+    Mask: TypeAlias = np.ndarray[Any, np.dtype[np.bool_]]
+    Whole: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
+
+# places and the numbers of their spans -> values and slopes, a row for each function
+Functions: TypeAlias = "Callable[[Array, Whole], tuple[Array, Array]]"
+
+ROUNDING = 1e-12  # share of a value that no sampling makes any surer
+CROWDED = 16  # places towards each end, each four times as near to it as the one before
+
+
+class Scan(NamedTuple):
+    """Samples in order of span and place; rows of ``value`` and ``slope`` are the functions'."""
+
+    x: Array
+    span: Whole
+    value: Array
+    slope: Array
+
+    @property
+    def joined(self) -> Mask:
+        """For each sample but the last: whether the next one is of the same span."""
+        same: Mask = self.span[1:] == self.span[:-1]
+        return same
+
+    def changes(self, row: int) -> Whole:
+        """The samples after which a function has the other sign."""
+        negative = np.signbit(self.value[row])
+        return np.flatnonzero((negative[:-1] != negative[1:]) & self.joined)
+
+
+def scan(functions: Functions, spans: Sequence[tuple[float, float]]) -> Scan:
+    """Samples so near that a cubic between neighbours is within a share of each function's range.
+
+    A value that is not finite marks a place where the function has none: nothing is asked of it.
+    """
+    near = 0.25 ** np.arange(2, 2 + CROWDED)
+    unit = np.unique(np.concatenate((np.arange(SCAN + 1) / SCAN, near, 1.0 - near)))
+    a, b = (np.array(side)[:, None] for side in zip(*spans, strict=True))
+    x = a + (b - a) * unit
+    x[:, -1:] = b
+    span = np.repeat(np.arange(len(spans)), len(unit))
+    with np.errstate(all="ignore"):
+        return _refined(functions, x.ravel(), span)
+
+
+def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
+    value, slope = functions(x, span)
+    every = [(x, span, value, slope)]
+    same: Mask = span[1:] == span[:-1]
+    left = _taken((x[:-1], span[:-1], value[:, :-1], slope[:, :-1]), same)
+    right = _taken((x[1:], span[1:], value[:, 1:], slope[:, 1:]), same)
+    low, high = _range(value)
+    for _ in range(DEEPEST):
+        ask()
+        x = 0.5 * (left[0] + right[0])
+        open_: Mask = (x > left[0]) & (x < right[0])
+        if not open_.any():
+            break
+        x, left, right = x[open_], _taken(left, open_), _taken(right, open_)
+        value, slope = functions(x, left[1])
+        middle = (x, left[1], value, slope)
+        every.append(middle)
+        least, most = _range(value)
+        low, high = np.fmin(low, least), np.fmax(high, most)
+        predicted = 0.5 * (left[2] + right[2]) + (right[0] - x) * (left[3] - right[3]) / 4.0
+        bar = PREDICTED * (high - low) + ROUNDING * np.fmax(np.abs(high), np.abs(low))
+        missed = np.any(np.abs(value - predicted) > bar, axis=0)
+        here = _taken(middle, missed)
+        left, right = (
+            _joined(_taken(left, missed), here),
+            _joined(here, _taken(right, missed)),
+        )
+    whole = [np.concatenate(parts, axis=-1) for parts in zip(*every, strict=True)]
+    order = np.lexsort((whole[0], whole[1]))
+    return Scan(*(part[..., order] for part in whole))
+
+
+_Part: TypeAlias = "tuple[Array, Whole, Array, Array]"
+
+
+def _taken(part: _Part, where: Mask) -> _Part:
+    x, span, value, slope = part
+    return x[where], span[where], value[:, where], slope[:, where]
+
+
+def _joined(one: _Part, two: _Part) -> _Part:
+    x, span, value, slope = (np.concatenate(p, axis=-1) for p in zip(one, two, strict=True))
+    return x, span, value, slope
+
+
+def _range(value: Array) -> tuple[Array, Array]:
+    """The least and the greatest finite value of each row, as columns."""
+    finite = np.isfinite(value)
+    low = np.where(finite, value, np.inf).min(axis=1, keepdims=True)
+    high = np.where(finite, value, -np.inf).max(axis=1, keepdims=True)
+    return low, high
+
+
+def hopeful(found: Scan, row: int) -> list[int]:
+    """Samples after which a function may reach a maximum that no sample is far above.
+
+    The function rises there and falls at the next sample. What it may reach between is bounded by
+    the cubic's slopes, and by what the scan lets a cubic miss.
+    """
+    value, slope = found.value[row], found.slope[row]
+    if not np.isfinite(value).any():
+        return []
+    low, high = (float(side[row, 0]) for side in _range(found.value))
+    with np.errstate(invalid="ignore"):
+        turns = (slope[:-1] > 0.0) & (slope[1:] <= 0.0) & found.joined
+        rise = np.diff(found.x) * (slope[:-1] - slope[1:]) * (4.0 / 27.0)
+        reach = np.maximum(value[:-1], value[1:]) + rise + 4.0 * PREDICTED * (high - low)
+        return [int(i) for i in np.flatnonzero(turns & (reach >= high))]

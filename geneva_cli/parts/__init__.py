@@ -1,0 +1,1 @@
+"""What is cut: sizes, walls, outlines, and the proof that they turn."""

@@ -1,0 +1,182 @@
+"""A machine in its own plane: where wheel, crank and rollers stand through a whole cycle.
+
+What outlines and the full turn are made from. Lengths in millimetres, angles in radians, the
+wheel's axis the origin and the crank's at (L, 0). A drive in front of the crank changes only when
+the crank is where, so behind one the crank itself is turned.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.slot_and_motion import SolvedPath
+from geneva_cli.spec.tables import Z_DRAWN
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+
+class Plane(NamedTuple):
+    """The machine as its outlines see it.
+
+    ``rollers`` has for each roller its engagement and the input angle, degrees, by which its
+    mid-motion follows the first roller's; ``slots`` for each slot of the wheel, counterclockwise
+    from the first, its engagement and direction; ``rests`` the directions of the crank's axis while
+    the wheel rests, seen from the wheel, each half-way between two slots.
+    """
+
+    mechanism: Mechanism
+    L: float
+    sign: float  # +1 external, -1 internal
+    turn_deg: float  # input angle in a whole turn of the crank
+    rollers: tuple[tuple[Engagement, float], ...]
+    slots: tuple[tuple[Engagement, float], ...]
+    rests: tuple[float, ...]
+    given: Mechanism  # as it was, with what drives its crank
+    to_input: Callable[[float], float]  # input angle, degrees, of ``given`` for one of here
+
+    def shown_deg(self, input_deg: float) -> float:
+        """An input angle of here as every command shows it: that of the machine's own input."""
+        return self.given.shown_deg(self.to_input(input_deg))
+
+    def place_deg(self, shown_deg: float) -> float:
+        """The input angle of here that is shown so, to a hundredth of a degree."""
+        low, high = self.start_deg, self.start_deg + self.turn_deg
+        whole = 360.0 * self.given.spec.drive.turns
+        best = low
+        for _ in range(3):
+            grid = np.linspace(low, high, 361)
+            off = [abs(math.remainder(self.to_input(x) - shown_deg, whole)) for x in grid]
+            best = float(grid[int(np.argmin(off))])
+            step = (high - low) / 180.0
+            low, high = best - step, best + step
+        return best
+
+    def pin(self, number: int, input_deg: Array) -> Array:
+        """A roller's centre at input angles, (n, 2)."""
+        engagement, behind = self.rollers[number]
+        at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
+        if engagement.groove is not None:
+            return self.L * _on_cam(engagement.groove, at)
+        x, y = engagement.path(at, 0)
+        return self.L * np.column_stack((x.c[0], y.c[0]))
+
+    def crank(self, input_deg: Array) -> Array:
+        """The direction of the crank in the fixed frame, that of its first roller at input 0."""
+        engagement = self.rollers[0][0]
+        if engagement.crank_sense:
+            return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
+        x, y = (self.pin(0, input_deg) - (self.L, 0.0)).T
+        angle: Array = np.arctan2(y, x)
+        return angle
+
+    @property
+    def _ahead(self) -> float:
+        """Where the crank points at input 0: at the wheel's axis outside, away from it inside."""
+        return math.pi if self.sign > 0.0 else 0.0
+
+    def lock(self, input_deg: float) -> float:
+        """Where on the crank the line of centres is: the direction that locks the wheel."""
+        return self._ahead - float(self.crank(np.array([input_deg]))[0])
+
+    def wheel(self, input_deg: Array) -> Array:
+        """The wheel's angle at input angles of a whole turn from the first entry on."""
+        out = np.empty(len(input_deg))
+        turned = 0.0
+        for i, (engagement, mid) in enumerate(self.rollers):
+            begins = mid + engagement.entry_deg
+            after = self.rollers[i + 1] if i + 1 < len(self.rollers) else None
+            ends = after[1] + after[0].entry_deg if after else np.inf
+            here = (input_deg >= begins) & (input_deg < ends)
+            at = np.minimum(input_deg[here] - mid, engagement.exit_deg)
+            out[here] = turned + engagement.motion(at, 0).c[0]
+            turned += engagement.half_step + (after[0].half_step if after else 0.0)
+        return out
+
+    @property
+    def kinds(self) -> tuple[Engagement, ...]:
+        """The kinds of slots, each once: most wheels have one."""
+        return tuple(dict.fromkeys(engagement for engagement, _ in self.slots))
+
+    @property
+    def start_deg(self) -> float:
+        """Input angle of the first engagement's entry, from which a whole turn is counted."""
+        return self.rollers[0][0].entry_deg
+
+
+def plane(mechanism: Mechanism) -> Plane:
+    """The plane of a mechanism.
+
+    Raises GenevaError for a machine whose parts are not flat outlines.
+    """
+    spec = mechanism.spec
+    if not spec.wheel.FLAT:
+        raise GenevaError(
+            'gearing = "spherical": its parts are not flat; as tables (-o FILE.csv) `--part wheel` '
+            "writes the slots on the sphere, and `--part slot` the flat development of one",
+            ("wheel", "gearing"),
+        )
+    if not spec.drive.OUTLINED:
+        raise GenevaError(
+            f'kind = "{spec.drive.NAME}": its toothed sectors are no outline to cut; `--part slot` '
+            "writes its slots as a table (-o FILE.csv)",
+            ("drive", "kind"),
+        )
+    if spec.wheel.z > Z_DRAWN:
+        raise GenevaError(
+            f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
+        )
+    given = mechanism
+    to_input: Callable[[float], float] = _same
+    if mechanism.law is None and spec.drive.CRANKED:
+        to_input = spec.drive.input_deg
+        keep = spec.drive
+        crank = Crank(
+            n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
+        )
+        mechanism = build(spec.but(drive=crank))
+    turn = 360.0 * mechanism.spec.drive.turns
+    each = round(turn / mechanism.period_deg)
+    rollers = tuple(
+        (engagement, engagement.mid_deg + k * mechanism.period_deg)
+        for k in range(each)
+        for engagement in mechanism.engagements
+    )
+    L = mechanism.center_distance_mm
+    sign = spec.wheel.SIGN
+    return Plane(mechanism, L, sign, turn, rollers, *_around(mechanism), given, to_input)
+
+
+def _same(input_deg: float) -> float:
+    return input_deg
+
+
+def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...], tuple[float, ...]]:
+    """Slots and rests around the wheel, counterclockwise: those that come later lie behind."""
+    engagements, z = mechanism.engagements, mechanism.spec.wheel.z
+    steps = mechanism.spec.wheel.steps
+    kinds_ = [engagements[k % len(engagements)] if steps else engagements[0] for k in range(z)]
+    slots, rests, at = [], [], 0.0
+    for k, engagement in enumerate(kinds_):
+        slots.append((engagement, at % math.tau))
+        rests.append((at - engagement.half_step) % math.tau)
+        at -= engagement.half_step + kinds_[(k + 1) % z].half_step
+    order = sorted(range(z), key=lambda k: slots[k][1])
+    return tuple(slots[k] for k in order), tuple(sorted(rests))
+
+
+def _on_cam(groove: SolvedPath, input_deg: Array) -> Array:
+    """The roller of a cam-Geneva, in units of L: its groove closed on the way back."""
+    from geneva_cli.parts.groove import distance
+
+    R = distance(groove, input_deg)
+    angle = np.radians(input_deg)
+    return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))

@@ -1,0 +1,88 @@
+"""The parts that ``geneva profile`` writes: as tables of points, and as drawings to cut.
+
+A new part is one function and one line here.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.outlines import Outlines
+
+
+class Part(NamedTuple):
+    """Who makes a part, as ``module:function``."""
+
+    table: str | None = None  # its points, where no drawing is asked for
+    drawing: str | None = None
+    sphere: str | None = None  # its points where the wheel is a sphere's
+
+
+PARTS = {
+    "slot": Part("slot_profile:profile_table", "drawings:slot"),
+    "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table"),
+    "crank": Part(drawing="drawings:crank"),
+    "assembly": Part(drawing="drawings:assembly"),
+    "gears": Part("gear_curves:gears_table"),
+    "groove": Part("groove:groove_table", "drawings:groove"),
+}
+DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
+SAMPLES_MAX = 1_000_000
+
+
+def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
+    """Whether a part is written as a table; ``drawn`` where the format is a drawing's.
+
+    Raises GenevaError for a part that is not known, or is no drawing.
+    """
+    if part not in PARTS:
+        raise GenevaError(
+            f"--part {cut(part)}: it must be one of {', '.join(PARTS)}{nearest(part, PARTS)}"
+        )
+    if drawn and part not in DRAWINGS:
+        raise GenevaError(
+            f"--part {part} is a table of points; write it as .csv or .json, and "
+            f"{', '.join(DRAWINGS)} as drawings"
+        )
+    return not drawn and _table(mechanism, part) is not None
+
+
+def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
+    """A part's points: for a chord tolerance, or ``samples`` evenly in the input angle.
+
+    Raises GenevaError for a part that the machine does not have.
+    """
+    if samples is not None and not 2 <= samples <= SAMPLES_MAX:
+        raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
+    if not is_table(mechanism, part, drawn=False):
+        raise GenevaError(f"--part {part} is drawn; write it as .dxf or .svg")
+    made: Table = _made(_table(mechanism, part))(mechanism, tolerance_mm, samples)
+    return made
+
+
+def part_drawing(found: Outlines, part: str, tolerance_mm: float, curves: str) -> Drawing:
+    """A part as contours of lines and arcs, or ("cubics") of lines, arcs and cubics.
+
+    Raises GenevaError for a part that is not drawn, or that the machine does not have.
+    """
+    is_table(found.plane.mechanism, part, drawn=True)
+    made: Drawing = _made(PARTS[part].drawing)(found, tolerance_mm, curves)
+    return made
+
+
+def _table(mechanism: Mechanism, part: str) -> str | None:
+    table, _, sphere = PARTS[part]
+    return table if mechanism.spec.wheel.FLAT else sphere or table
+
+
+def _made(by: str | None) -> Any:
+    assert by is not None  # is_table says which parts are tables, and which are drawn
+    module, _, function = by.partition(":")
+    return vars(importlib.import_module(f"geneva_cli.parts.{module}"))[function]

@@ -1,0 +1,237 @@
+"""The crank's outline in the wheel's plane: the locking disc and its relief.
+
+In the crank's frame: its axis the origin, x through the first roller at mid-motion. The disc is
+whole where it locks, and relieved where a roller moves the wheel.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Segment, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.sizes import Sizes
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+    Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
+
+LAYER = "CRANK"
+EDGE = 0.035  # radians, two degrees: how far a sector's edge reaches
+TINY = 1e-9
+THIN = 0.1  # of the disc's radius: a locking sector is no thinner
+POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
+SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
+SAME = 1e-9  # radians: directions nearer to each other are one
+
+
+class Relief(NamedTuple):
+    """Where the disc is relieved, as directions on the crank, radians, counterclockwise."""
+
+    start: float
+    end: float
+    roller: int  # whose motion it is for
+
+    @property
+    def half(self) -> float:
+        """Half of its width."""
+        return 0.5 * (self.end - self.start)
+
+
+def reliefs(plane: Plane) -> list[Relief]:
+    """The reliefs around the crank: where the line of centres is on it while the wheel moves."""
+    found = []
+    for i, (engagement, behind) in enumerate(plane.rollers):
+        ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
+        start, end = sorted(_lock_directions(plane, behind, ends))
+        found.append(Relief(start, end, i))
+    first = found[0].start
+    out = []
+    for one in found:
+        start = first + (one.start - first + SAME) % math.tau - SAME
+        out.append(one._replace(start=start, end=start + one.end - one.start))
+    return sorted(out)
+
+
+def _lock_directions(plane: Plane, middle: float, ends: list[float]) -> list[float]:
+    """The directions at some input angles, unwound about the one at mid-motion."""
+    centre = plane.lock(middle)
+    return [centre + math.remainder(plane.lock(end) - centre, math.tau) for end in ends]
+
+
+def crank_contours(
+    plane: Plane, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
+) -> list[Contour]:
+    """The locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
+
+    ``swept(i)`` is where the wheel comes within the disc in the i-th motion: distances from the
+    crank's axis and directions. Where the wheel sweeps over that axis, as inside it does, what is
+    left are the locking sectors, carried by the crank beside the wheel's plane; they keep
+    ``spare`` mm more from it.
+    """
+    around = reliefs(plane)
+    if not is_whole(plane, sizes):
+        return _rings(plane, sizes, around, swept, spare)
+    if relief == "sector":
+        around = _merged([_widened(sizes, one, swept) for one in around])
+    cut = _arc if relief == "arc" else _sector
+    if sum(one.end - one.start for one in around) > math.tau - SAME:
+        raise GenevaError(
+            "nothing is left of the locking disc: its reliefs go all the way round; a smaller "
+            f"roller than {sizes.roller:g} mm, or fewer, leave some",
+            ("size", "roller_radius_mm"),
+        )
+    found: list[Segment] = []
+    for one, after in _followed(around):
+        found += cut(plane, sizes, one)
+        if after - one.end > SAME:
+            found.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
+    return [closed(LAYER, found)]
+
+
+def is_whole(plane: Plane, sizes: Sizes) -> bool:
+    """Whether something of the disc is left at the crank's axis."""
+    return plane.sign > 0.0 and plane.L - sizes.rim > sizes.relief
+
+
+def without_lock(plane: Plane) -> bool:
+    """Whether one motion follows another without a dwell, so that no disc is left between them."""
+    return any(after - one.end <= SAME for one, after in _followed(reliefs(plane)))
+
+
+def _followed(around: list[Relief]) -> list[tuple[Relief, float]]:
+    """Each relief with where the next one starts; between them the disc locks."""
+    starts = [one.start for one in around[1:]] + [around[0].start + math.tau]
+    return list(zip(around, starts, strict=True))
+
+
+def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
+    """A relief as wide as the wheel needs it: offset slots turn their horns past its edge."""
+    _, direction = swept(one.roller)
+    middle = 0.5 * (one.start + one.end)
+    off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
+    spare = sizes.relief / sizes.lock
+    low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
+    start = middle + low - spare if low < -one.half - SAME else one.start
+    end = middle + high + spare if high > one.half + SAME else one.end
+    return one._replace(start=start, end=end)
+
+
+def _rings(
+    plane: Plane, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
+) -> list[Contour]:
+    """Locking sectors without a middle: outside of what the wheel sweeps in all motions."""
+    points = [swept(i) for i in range(len(plane.rollers))]
+    radius = np.concatenate([p[0] for p in points])
+    direction = np.concatenate([p[1] for p in points])
+    found = []
+    for one, after in _followed(around):
+        if after - one.end <= SAME:
+            continue
+        whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
+        off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
+        for share in SHARES:
+            half = share * whole
+            edge, floor = _floor(sizes, half, radius, off, spare)
+            if max(edge, floor) < (1.0 - THIN) * sizes.lock:
+                found.append(_ring(sizes, middle, half, edge, floor))
+                break
+        else:
+            raise GenevaError(
+                "the wheel sweeps over the whole locking sector: another lock_radius_mm than "
+                f"{sizes.lock:.6g}, or a smaller roller, may leave room for one; 0 leaves it out, "
+                "where the wheel is held in another way",
+                ("size", "lock_radius_mm"),
+            )
+    return found
+
+
+def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:
+    low, high = middle - half, middle + half
+    outer = about((0.0, 0.0), sizes.lock, low, 2.0 * half)
+    start = edge * math.cos(high), edge * math.sin(high)
+    end = edge * math.cos(low), edge * math.sin(low)
+    bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
+    return closed(
+        LAYER, [outer, Line(outer.end, start), Arc(start, end, bulge), Line(end, outer.start)]
+    )
+
+
+def _floor(
+    sizes: Sizes, half: float, radius: Array, off: Array, more: float
+) -> tuple[float, float]:
+    """The inner arc of a locking sector: its distance at the edges and in the middle.
+
+    ``off`` is the direction of the swept points from the sector's middle. Through each of them
+    goes one circle that meets both edges where this arc does; the farthest in the middle clears.
+    """
+    inside = np.abs(off) < half
+    radius, off = radius[inside], off[inside]
+    at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
+    spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
+    edge = max(at_edge + spare, POINTED * sizes.lock)
+    ex, ey = edge * math.cos(half), edge * math.sin(half)
+    x, y = radius * np.cos(off), radius * np.sin(off)
+    beyond = np.abs(x - ex) > TINY * edge
+    x, y = x[beyond], y[beyond]
+    centre = (x * x + y * y - edge * edge) / (2.0 * (x - ex))
+    reach = np.copysign(np.hypot(ex - centre, ey), x - ex)
+    return edge, float((centre + reach).max(initial=0.0)) + spare
+
+
+def _merged(around: list[Relief]) -> list[Relief]:
+    """Reliefs with nothing between them as one."""
+    found = around[:1]
+    for one in around[1:]:
+        if one.start - found[-1].end > SAME:
+            found.append(one)
+        else:
+            found[-1] = found[-1]._replace(end=max(one.end, found[-1].end))
+    if len(found) > 1 and found[0].start + math.tau - found[-1].end <= SAME:
+        found = [found[0]._replace(start=found[-1].start - math.tau), *found[1:-1]]
+    return found
+
+
+def crank_circles(plane: Plane, sizes: Sizes) -> list[Circle]:
+    """Rollers, pins and bore."""
+    found = []
+    for number, (_, behind) in enumerate(plane.rollers):
+        at = np.array([behind])
+        x, y = (plane.pin(number, at) - (plane.L, 0.0))[0]
+        angle = math.atan2(y, x) - float(plane.crank(at)[0])
+        reach = math.hypot(x, y)
+        centre = reach * math.cos(angle), reach * math.sin(angle)
+        found += [Circle("ROLLER", centre, sizes.roller)]
+        found += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
+    if sizes.crank_bore:
+        found.append(Circle("BORE", (0.0, 0.0), sizes.crank_bore))
+    return found
+
+
+def _arc(plane: Plane, sizes: Sizes, relief: Relief) -> list[Segment]:
+    """One arc that meets the disc at right angles at both ends.
+
+    For a radial slot entered without shock it is the triangle of wheel, crank and roller at
+    entry, scaled down to the disc: centre L rk/R from the axis, radius L cos b rk/R.
+    """
+    middle = 0.5 * (relief.start + relief.end)
+    away, radius = sizes.lock / math.cos(relief.half), sizes.lock * math.tan(relief.half)
+    centre = away * math.cos(middle), away * math.sin(middle)
+    half = math.pi / 2.0 - relief.half
+    return [about(centre, radius, middle + math.pi + half, -2.0 * half)]
+
+
+def _sector(plane: Plane, sizes: Sizes, relief: Relief) -> list[Segment]:
+    """The whole sector, down to where the wheel never comes: L - rim less a clearance."""
+    floor = plane.L - sizes.rim - sizes.relief
+    width = relief.end - relief.start
+    bottom = about((0.0, 0.0), floor, relief.start, width)
+    start = (sizes.lock * math.cos(relief.start), sizes.lock * math.sin(relief.start))
+    end = (sizes.lock * math.cos(relief.end), sizes.lock * math.sin(relief.end))
+    return [Line(start, bottom.start), bottom, Line(bottom.end, end)]

@@ -1,0 +1,140 @@
+"""Drawings of the parts, each in its own frame, and of the machine put together.
+
+Layers: WHEEL, CRANK, GROOVE are cut; ROLLER and BORE are circles; PITCH is where rollers run.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geneva_cli.curves import fit
+from geneva_cli.curves.measure import mapped, turned
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Drawing,
+    Line,
+    Segment,
+    Shape,
+    closed,
+    joined,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.crank import crank_circles
+from geneva_cli.parts.outlines import Outlines, slot_walls
+from geneva_cli.parts.walls.ways import beside
+from geneva_cli.parts.wheel import wheel_circles, wheel_contour
+
+PITCH = "PITCH"
+
+
+def wheel(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The wheel: its axis the origin, the first slot ahead."""
+    return Drawing(_title(found, "wheel"), tuple(_wheel(found, tolerance, curves)))
+
+
+def crank(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The crank: its axis the origin, the first roller ahead; what lies in the wheel's plane."""
+    return Drawing(_title(found, "crank"), tuple(_crank(found)))
+
+
+def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The first slot, closed along the rim, and the roller's way in it."""
+    engagement = found.plane.slots[0][0]
+    walls = slot_walls(found.plane, found.sizes, engagement, tolerance, curves)
+    start, end = walls.segments[0].start, walls.segments[-1].end
+    back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
+    level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.plane.L
+    rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
+    pitch = _pitch(found.plane, engagement, tolerance, curves)
+    return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), pitch))
+
+
+def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The machine at input angle 0: the wheel's axis the origin, the crank's on the x axis."""
+    plane = found.plane
+    at = np.zeros(1)
+    psi, angle = float(plane.wheel(at)[0]), float(plane.crank(at)[0])
+    shapes: list[Shape] = [turned(s, psi) for s in _wheel(found, tolerance, curves)]
+    shapes += [mapped(turned(s, angle), lambda p: (p[0] + plane.L, p[1])) for s in _crank(found)]
+    shapes += _ways(found, psi, tolerance, curves)
+    return Drawing(_title(found, ""), tuple(shapes), scale_bar=True)
+
+
+def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The fixed groove of a cam-Geneva, both flanks all round, about the crank's axis."""
+    guide = found.plane.rollers[0][0].groove
+    if guide is None:
+        kind = found.plane.mechanism.spec.drive.NAME
+        raise GenevaError(f'--part groove: kind = "{kind}" has none; kind = "cam" has')
+    from geneva_cli.parts.groove import groove_curve
+
+    motion = guide.motion
+    ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
+    shapes = []
+    for layer, side in (("GROOVE", 1.0), ("GROOVE", -1.0), (PITCH, 0.0)):
+        curve = groove_curve(guide, found.plane.L, side * found.sizes.half_width)
+        pieces: list[Segment] = []
+        for a, b in zip(ends, ends[1:], strict=False):
+            pieces += fit.KINDS[curves](curve, a, b, tolerance)
+        shapes.append(closed(layer, pieces))
+    return Drawing(_title(found, "groove"), tuple(shapes))
+
+
+def _title(found: Outlines, part: str) -> str:
+    spec = found.plane.mechanism.spec
+    name = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    return f"{name}: {part}" if part else name
+
+
+def _wheel(found: Outlines, tolerance: float, curves: str) -> list[Shape]:
+    plane, sizes = found.plane, found.sizes
+    return [_outline(found, tolerance, curves), *wheel_circles(plane, sizes)]
+
+
+def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
+    """The wheel's outline: the one that was turned, unless other curves or finer ones are asked."""
+    if curves == "arcs" and tolerance == found.fine:
+        return found.wheel
+    walls = {s: slot_walls(found.plane, found.sizes, s, tolerance, curves) for s in found.slots}
+    return wheel_contour(found.plane, found.sizes, walls)
+
+
+def _crank(found: Outlines) -> list[Shape]:
+    return [*found.crank, *crank_circles(found.plane, found.sizes)]
+
+
+def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
+    """The line of centres, and where the rollers run: on their circles and in their slots."""
+    plane = found.plane
+    shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (plane.L, 0.0)),), closed=False)]
+    arms = set()
+    for number, (engagement, behind) in enumerate(plane.rollers):
+        if not engagement.crank_sense and engagement.groove is None:
+            x, y = plane.pin(number, np.array([behind]))[0]
+            arms.add(round(math.hypot(x - plane.L, y), 9))
+    shapes += [Circle(PITCH, (plane.L, 0.0), arm) for arm in sorted(arms)]
+    pitches = {s: _pitch(plane, s, tolerance, curves) for s in found.slots}
+    shapes += [
+        turned(pitches[engagement], direction + psi) for engagement, direction in plane.slots
+    ]
+    return shapes
+
+
+def _pitch(plane: Plane, engagement: Engagement, tolerance: float, curves: str) -> Contour:
+    """The slot's pitch curve, the first half of the way where the roller comes back on it."""
+    at = np.array([engagement.entry_deg, 0.0])
+    x, y = engagement.slot(at, 0)
+    if not engagement.slot.curved:
+        mouth, end = plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
+        ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
+        return Contour(PITCH, (Line(*ends),), closed=False)
+    pieces: list[Segment] = []
+    for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
+        pieces += fit.KINDS[curves](beside(plane, engagement, 0.0, b > 0.0), a, b, tolerance)
+    return Contour(PITCH, joined(pieces), closed=False)

@@ -1,0 +1,98 @@
+"""Pitch curves of the gears in front of a crank, and whether they can be cut.
+
+With the ratio i = crank speed / input speed and the axes C apart, the pitch curves meet on the line
+of centres at r1 = C i/(1+i) from the driver and r2 = C/(1+i) from the driven gear. They are convex,
+and so can be hobbed, where 1 + 1/i + (1/i)'' > 0 on the driver and 1 + i + (i i'' - i'²)/i³ > 0 on
+the driven gear, derivatives by the driver's angle.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.drive import Gears
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.table import Table
+
+NAMES = (
+    "input_deg",
+    "crank_deg",
+    "ratio",
+    "driver_radius_mm",
+    "driver_x_mm",
+    "driver_y_mm",
+    "driven_radius_mm",
+    "driven_x_mm",
+    "driven_y_mm",
+    "driver_convexity",
+    "driven_convexity",
+)
+SAMPLES = 721
+
+
+class Convexity(NamedTuple):
+    """The least of both convexity conditions over a turn; not above 0 where a gear is hollow."""
+
+    driver: float
+    driven: float
+
+
+def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """Both pitch curves, each in its own gear's frame, x along the line of centres at input 0.
+
+    The driver is given as it is cut, so its angle runs against the input; likewise the driven.
+    """
+    drive = mechanism.spec.drive
+    gears = drive.gears
+    if gears is None:
+        geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
+        raise GenevaError(
+            f'--part gears: kind = "{drive.NAME}" has none; {" or ".join(geared)} has'
+        )
+    phi = np.linspace(-np.pi, np.pi, samples or SAMPLES)
+    turn, ratio = _ratio(gears, phi)
+    C, i = gears.distance_mm, ratio.c[0]
+    r1, r2 = C * i / (1.0 + i), C / (1.0 + i)
+    driver, driven = _convexities(ratio)
+    columns = [
+        np.degrees(phi),
+        np.degrees(turn),
+        i,
+        r1,
+        r1 * np.cos(phi),
+        -r1 * np.sin(phi),
+        r2,
+        -r2 * np.cos(turn),
+        -r2 * np.sin(turn),
+        driver,
+        driven,
+    ]
+    return Table(NAMES, columns)
+
+
+def convexity(gears: Gears) -> Convexity:
+    """The least convexity of both gears over a turn."""
+    _, ratio = _ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))
+    driver, driven = _convexities(ratio)
+    return Convexity(float(driver.min()), float(driven.min()))
+
+
+def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
+    """The crank's angle and the ratio with two derivatives, over a turn of the input."""
+    sine, versine = gears.advance(phi, 3)
+    cosine = 1.0 - versine
+    turn = np.unwrap(np.arctan2(sine.c[0], cosine.c[0]))
+    turn = turn - turn[len(turn) // 2]
+    low_cosine, low_sine = Jet(cosine.c[:-1]), Jet(sine.c[:-1])
+    return turn, sine.derivative() * low_cosine + versine.derivative() * low_sine
+
+
+def _convexities(ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
+    i, i1, i2 = ratio.derivatives()
+    inverse = (1.0 / ratio).derivatives()
+    return 1.0 + inverse[0] + inverse[2], 1.0 + i + (i * i2 - i1 * i1) / i**3

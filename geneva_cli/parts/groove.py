@@ -1,0 +1,162 @@
+"""The fixed groove of a cam-Geneva: its pitch curve, both flanks, pressure angle and curvature."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.pitch_curve import WALLED
+from geneva_cli.machine.slot_and_motion import SolvedPath
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+NAMES = ("input_deg", "radius_mm", *WALLED)
+SAMPLES = 721
+LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
+HALVINGS = 50
+EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
+
+
+def distance(groove: SolvedPath, input_deg: Array) -> Array:
+    """The roller's distance from the crank's axis over a whole turn, in units of L."""
+    return _distances(groove, input_deg)[0]
+
+
+def groove_curve(
+    groove: SolvedPath, L: float, offset: float
+) -> Callable[[Array], tuple[Array, Array]]:
+    """The groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
+
+    By the input angle over a whole turn, in the frame of the groove's table.
+    """
+
+    def curve(t: Array) -> tuple[Array, Array]:
+        R, slope, _ = _distances(groove, t)
+        c, s = -groove.sign * np.cos(np.radians(t)), np.sin(np.radians(t))
+        x1, y1 = slope * c + groove.sign * R * s, slope * s - groove.sign * R * c
+        tangents = np.column_stack((x1, y1)) / np.hypot(x1, y1)[:, None]
+        normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
+        return L * np.column_stack((R * c, R * s)) + offset * normals, tangents
+
+    return curve
+
+
+def _distances(groove: SolvedPath, input_deg: Array) -> list[Array]:
+    """The roller's distance from the crank's axis, with two derivatives by the input in radians.
+
+    In the dwell the slope fades over EASED_DEG beyond either end, and the groove is an arc about
+    the crank's axis between; where the two ends lead to different arcs, a 3-4-5 curve joins them.
+    Its second derivative is continuous all round.
+    """
+    at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
+    moving = at <= groove.motion.exit_deg
+    out = [np.empty(len(at)) for _ in range(3)]
+    if moving.any():
+        found = groove.distances(at[moving], 2)[1].derivatives()
+        for column, values in zip(out, found, strict=True):
+            column[moving] = values
+    for column, values in zip(out, _back(groove, at[~moving]), strict=True):
+        column[~moving] = values
+    return out
+
+
+def _back(groove: SolvedPath, input_deg: Array) -> list[Array]:
+    """As ``_distances``, at input angles in the dwell after the motion."""
+    span = math.radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
+    eased = min(math.radians(EASED_DEG), span / 3.0)
+    t = np.radians(input_deg - groove.motion.exit_deg)
+    after = _eased(groove.distances(groove.motion.exit_deg, 2)[1].derivatives(), eased, t, 1.0)
+    entry = groove.distances(groove.motion.entry_deg, 2)[1].derivatives()
+    before = _eased(entry, eased, span - t, -1.0)
+    # Each is constant where the other begins; the step goes from one level to the other.
+    length, rise = span - 2.0 * eased, before[3] - after[3]
+    u = np.clip((t - eased) / length, 0.0, 1.0)
+    step = (
+        u**3 * (10.0 - 15.0 * u + 6.0 * u * u),
+        30.0 * (u * (1.0 - u)) ** 2 / length,
+        60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / length**2,
+    )
+    out = [a + b + rise * s for a, b, s in zip(after[:3], before[:3], step, strict=True)]
+    out[0] -= before[3]
+    return out
+
+
+def _eased(
+    end: tuple[float, ...], length: float, t: Array, sense: float
+) -> tuple[Array, Array, Array, float]:
+    """Distance and two derivatives ``t`` beyond an end, and the distance it fades to.
+
+    The slope is the cubic that has the end's value and derivative, and none of both at ``length``.
+    """
+    R, slope, bend = end[0], sense * end[1], end[2]
+    u = np.minimum(t / length, 1.0)
+    m = bend * length
+    run = slope * (u - u**3 + 0.5 * u**4) + m * (0.5 * u**2 - 2.0 / 3.0 * u**3 + 0.25 * u**4)
+    rate = slope * (1.0 - u) ** 2 * (1.0 + 2.0 * u) + m * u * (1.0 - u) ** 2
+    turn = (-6.0 * slope * u * (1.0 - u) + m * (1.0 - u) * (1.0 - 3.0 * u)) / length
+    level = R + length * (0.5 * slope + m / 12.0)
+    return R + length * run, sense * rate, turn, level
+
+
+def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
+    """The greatest pressure angle of the groove all round, degrees, and its input angle.
+
+    tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
+    """
+    grid = groove.motion.entry_deg + 360.0 * np.arange(LOOKS + 1) / LOOKS
+    R, slope, _ = _distances(groove, grid)
+    i = int(np.argmax(np.abs(slope) / R))
+    low, high = grid[max(i - 1, 0)], grid[min(i + 1, LOOKS)]
+    sense = math.copysign(1.0, slope[i])
+    for _ in range(HALVINGS):  # beside a corner of the groove the greatest is at it
+        middle = 0.5 * (low + high)
+        here = _distances(groove, np.array([middle]))
+        r, dr, ddr = (float(c[0]) for c in here)
+        low, high = (middle, high) if sense * (r * ddr - dr * dr) > 0.0 else (low, middle)
+    return math.degrees(math.atan(abs(dr) / r)), float(middle)
+
+
+def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """The groove over the motion, evenly in the input angle, the crank's axis being the origin.
+
+    x points away from the wheel's axis; left and right are the flanks as the roller travels. The
+    pressure angle is the one between the groove's normal and the crank's arm, atan(R'/R).
+    """
+    groove = mechanism.engagements[0].groove
+    if groove is None:
+        raise GenevaError(
+            f'--part groove: kind = "{mechanism.spec.drive.NAME}" has none; kind = "cam" has'
+        )
+    size = mechanism.spec.size
+    L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + size.slot_clearance_mm
+    x = np.linspace(groove.motion.entry_deg, groove.motion.exit_deg, samples or SAMPLES)
+    R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
+    px, py = groove.groove(x, 2)
+    (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
+    speed = np.hypot(x1, y1)
+    turning = x1 * y2 - y1 * x2
+    with np.errstate(divide="ignore"):
+        # The roller enters along the slot, while the wheel still stands: a straight line.
+        straight = np.abs(turning) < 1e-12 * speed * speed
+        radius = np.where(straight, np.inf, L * speed**3 / turning)
+    nx, ny = -y1 / speed * offset, x1 / speed * offset
+    columns = [
+        x,
+        R,
+        L * x0,
+        L * y0,
+        L * x0 + nx,
+        L * y0 + ny,
+        L * x0 - nx,
+        L * y0 - ny,
+        np.degrees(np.arctan2(np.abs(slope), R)),
+        radius,
+    ]
+    return Table(NAMES, columns)

@@ -1,0 +1,126 @@
+"""The outlines of a machine's parts, and the relief of the crank that clears the wheel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.assembly import Plane, plane
+from geneva_cli.parts.crank import crank_contours, is_whole, without_lock
+from geneva_cli.parts.sizes import Sizes, sizes
+from geneva_cli.parts.turn.gaps import Clash
+from geneva_cli.parts.walls.curved import curved_walls
+from geneva_cli.parts.walls.straight import straight_walls
+from geneva_cli.parts.wheel import wheel_contour
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+EXACT = 1e-9  # of the centre distance: rounding of outlines that are lines and arcs by nature
+CURVED = 2e-6  # of the centre distance: how nearly curved walls are known
+# Of the centre distance, 0.2 um in 100 mm: parts that overlap by less touch each other. No cutter
+# and no roller is as true as that, and curved walls are known no better.
+CONTACT = CURVED
+TRIES = 5
+SPARE = 3.0  # times an overlap that was found, kept more from the wheel
+SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
+
+
+class Outlines(NamedTuple):
+    """Wheel and crank, ready to be drawn and to be turned against each other.
+
+    ``slots`` has the walls of each kind of slot; ``close`` is the overlap in mm that is rounding,
+    or the walls' tolerance.
+    """
+
+    plane: Plane
+    sizes: Sizes
+    slots: dict[Engagement, Contour]
+    wheel: Contour
+    crank: list[Contour]
+    relief: str
+    clash: Clash
+    close: float
+    fine: float  # mm, the tolerance that curved walls are fitted to
+
+    @property
+    def contact(self) -> float:
+        """The overlap, mm, that is contact and no jam."""
+        return CONTACT * self.plane.L
+
+
+def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
+    """The outlines in lines and arcs, within ``tolerance`` mm: what the full turn is made with.
+
+    A finer tolerance than the walls are known to is taken as that. The crank's is exact.
+    Raises GenevaError where the machine has no flat parts, or its sizes leave none.
+    """
+    where = plane(mechanism)
+    size = sizes(where)
+    curved = any(engagement.slot.curved for engagement in where.kinds)
+    fine = max(0.5 * CURVED * where.L, tolerance)
+    walls = {engagement: slot_walls(where, size, engagement, fine) for engagement in where.kinds}
+    close = (CURVED if curved else EXACT) * where.L
+    wheel = wheel_contour(where, size, walls)
+    crank, relief, clash = _relieved(Clash(where, size, wheel, []), wheel, close)
+    return Outlines(where, size, walls, wheel, crank, relief, clash, close, fine)
+
+
+def _sweep(bare: Clash) -> Callable[[int], tuple[Array, Array]]:
+    return lambda i: bare.swept(i, SWEPT_DEG)
+
+
+def slot_walls(
+    plane: Plane, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
+) -> Contour:
+    """The walls of one slot, straight or curved; see ``curved_walls`` for ``curves``."""
+    if engagement.slot.curved:
+        return curved_walls(plane, sizes, engagement, tolerance, curves)
+    return straight_walls(plane, sizes, engagement)
+
+
+def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour], str, Clash]:
+    """The crank with the relief that the spec asks for, or else the first that clears the wheel.
+
+    The arc leaves the most of the disc and is one cut; where it collides, as at many slots, the
+    whole sector is cut down to where the wheel never comes.
+    """
+    plane, sizes, swept = bare.plane, bare.sizes, _sweep(bare)
+    if not sizes.lock:
+        return [], "none", bare
+    asked = plane.mechanism.spec.size.relief
+    arcs = is_whole(plane, sizes) and not without_lock(plane)
+    kinds = [asked] if asked else ["arc", "sector"] if arcs else ["sector"]
+    for kind in kinds:
+        crank = crank_contours(plane, sizes, kind, swept)
+        clash = Clash(plane, sizes, wheel, crank)
+        overlap = _overlap(clash)
+        if overlap <= close:
+            return crank, kind, clash
+    spare = 0.0
+    for _ in range(0 if is_whole(plane, sizes) else TRIES):
+        # Between two of the places that were looked at the wheel came nearer still.
+        spare += SPARE * overlap + 10.0 * close
+        crank = crank_contours(plane, sizes, kind, swept, spare)
+        clash = Clash(plane, sizes, wheel, crank)
+        overlap = _overlap(clash)
+        if overlap <= close:
+            break
+    return crank, kind, clash
+
+
+def _overlap(clash: Clash) -> float:
+    """By how much the crank and the wheel overlap at most in all motions."""
+    least = 0.0
+    for engagement, behind in clash.plane.rollers:
+        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+        at = (
+            behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
+        )
+        least = min(least, float(clash.locking(clash.pose(at)).min()))
+    return -least

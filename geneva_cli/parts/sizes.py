@@ -1,0 +1,253 @@
+"""Every size of the parts, in millimetres: as the spec gives it, or a default that works.
+
+The rim ends where the roller enters: a smaller wheel loses it, a larger one is fouled by it. The
+locking disc reaches past the rim, or it could not lock, and leaves a horn beside the slot.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.parts.assembly import Plane
+from geneva_cli.spec.tables import Size
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
+    from geneva_cli.numerics.jet import Array
+
+TURN = 720  # input angles at which a roller's path is looked at
+
+
+class Sizes(NamedTuple):
+    """Lengths and radii; also the bores and hubs are radii here, 0 where there is none."""
+
+    roller: float
+    half_width: float  # of the slot: roller and clearance
+    rim: float  # of the wheel, inside: of its opening
+    outer: float  # of an internal wheel; 0 outside
+    slot_bottom: float  # clearance between the deepest roller and a straight slot's end
+    slot_end: float  # distance of the slot's bottom from the wheel's axis
+    arm: float  # least distance of a roller's path from the crank's axis
+    lock: float  # locking disc
+    recess: float  # in the wheel: lock and clearance
+    relief: float  # clearance between wheel and relief
+    wall_min: float
+    wheel_bore: float
+    wheel_hub: float
+    crank_bore: float
+    crank_hub: float
+    pin: float
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess, thinnest at the mouth."""
+        return self.arm - self.half_width - self.recess
+
+
+def sizes(plane: Plane) -> Sizes:
+    """The sizes of a machine's parts.
+
+    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
+    """
+    spec, L = plane.mechanism.spec, plane.L
+    given, r = spec.size, plane.mechanism.roller_radius_mm
+    w = r + given.slot_clearance_mm
+    outside = plane.sign > 0.0
+    rim = _or(given.wheel_radius_mm, max(mouth(plane, s, r) for s in plane.kinds))
+    bottom = _or(given.slot_bottom_clearance_mm, max(given.slot_clearance_mm, r / 20.0))
+    end = min(_end(plane, s, w, bottom) * plane.sign for s in plane.kinds) * plane.sign
+    arm = min(_arm(plane), *[_to_slot(plane, s) for s in plane.kinds])
+    lock = _lock(plane, arm, w, rim)
+    depth = abs(L - rim)
+    relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
+    room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
+    bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
+    wall_min = _or(given.wall_min_mm, L / 200.0)
+    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall_min, given.wheel_hub_mm, L))
+    wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
+    out = Sizes(
+        roller=r,
+        half_width=w,
+        rim=rim,
+        outer=0.0 if outside else _or(given.wheel_outer_radius_mm, end + max(r, L / 20.0)),
+        slot_bottom=bottom,
+        slot_end=end,
+        arm=arm,
+        lock=lock,
+        recess=lock + given.lock_clearance_mm if lock else 0.0,
+        relief=relief,
+        wall_min=wall_min,
+        wheel_bore=wheel_bore,
+        wheel_hub=_or(_half(given.wheel_hub_mm), _even(min(1.6 * wheel_bore, 0.75 * end))),
+        crank_bore=bore,
+        crank_hub=_or(_half(given.crank_hub_mm), _even(1.5 * bore)),
+        pin=_or(_half(given.pin_mm), r / 2.0),
+    )
+    _refuse(plane, out)
+    return out
+
+
+def mouth(plane: Plane, engagement: Engagement, r: float) -> float:
+    """Radius at which the wheel ends where a roller of radius r enters and leaves a slot.
+
+    There the roller touches the wall that faces the crank's axis, at the foot of the
+    perpendicular from it.
+    """
+    x, y = engagement.slot(engagement.entry_deg, 0)
+    if not engagement.slot.offset:
+        return math.hypot(plane.L * math.hypot(x.c[0], y.c[0]), r)
+    return max(math.hypot(*corner(plane, engagement, end, r)) for end in (-1.0, 1.0))
+
+
+def corner(plane: Plane, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
+    """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
+    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
+    px, py = plane.L * x.c[0], plane.L * y.c[0]
+    cx, cy = rest(plane, engagement, end)
+    share = r / math.dist((px, py), (cx, cy))
+    return px + share * (cx - px), py + share * (cy - py)
+
+
+def rest(plane: Plane, engagement: Engagement, end: float) -> tuple[float, float]:
+    """The crank's axis in the wheel's frame before (-1) and after (1) an engagement's motion."""
+    b = -end * engagement.half_step
+    return plane.L * math.cos(b), plane.L * math.sin(b)
+
+
+def _or(given: float | None, default: float) -> float:
+    return default if given is None else given
+
+
+def _half(diameter: float | None) -> float | None:
+    return None if diameter is None else 0.5 * diameter
+
+
+def _bore(end: float, wall: float, hub: float | None, L: float) -> float:
+    """A bore of the wheel that leaves a wall to the slots' ends, inside a hub that is given."""
+    return _even(min(L / 12.0, 0.4 * end, end - wall, *([0.4 * hub] if hub else [])))
+
+
+def _crank_bore(given: Size, room: float, L: float) -> float:
+    """Half the room between axis and relief; too thin a shaft ends below the wheel instead."""
+    if given.crank_bore_mm is not None:
+        return 0.5 * given.crank_bore_mm
+    within = 0.4 * given.crank_hub_mm if given.crank_hub_mm else math.inf
+    return _even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
+
+
+def _even(radius: float) -> float:
+    """A radius of which the diameter has two digits, rounded down; 0 where nothing is left."""
+    if radius <= 0.0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(2.0 * radius)) - 1)
+    return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
+
+
+def _pitch(plane: Plane, engagement: Engagement) -> Array:
+    """Points of a slot's pitch curve, (n, 2)."""
+    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
+    return plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+
+
+def _end(plane: Plane, engagement: Engagement, w: float, bottom: float) -> float:
+    """How near to the wheel's axis the slot is cut (inside: how far from it)."""
+    reach = np.hypot(*_pitch(plane, engagement).T)
+    if engagement.slot.curved:
+        return float(reach.min() - w if plane.sign > 0.0 else reach.max() + w)
+    return float(reach.min() - bottom - w if plane.sign > 0.0 else reach.max() + bottom + w)
+
+
+def _arm(plane: Plane) -> float:
+    """Least distance of the rollers from the crank's axis."""
+    turn = np.linspace(0.0, plane.turn_deg, TURN, endpoint=False)
+    far = [plane.pin(i, turn) - (plane.L, 0.0) for i in range(len(plane.rollers))]
+    return float(min(np.hypot(*p.T).min() for p in far))
+
+
+def _to_slot(plane: Plane, engagement: Engagement) -> float:
+    """Distance of the slots beside it from the crank's axis, while the wheel rests."""
+    points = _pitch(plane, engagement)
+    return float(min(np.hypot(*(points - rest(plane, engagement, e)).T).min() for e in (-1.0, 1.0)))
+
+
+def _lock(plane: Plane, arm: float, w: float, rim: float) -> float:
+    """The locking disc's radius: a horn as thick as the roller's radius, or a fifth of the room.
+
+    0 for none: linkages hold their wheel in other ways.
+    """
+    spec, size = plane.mechanism.spec, plane.mechanism.spec.size
+    if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
+        return 0.0
+    room = arm - w - size.lock_clearance_mm
+    least, r = max(plane.L - rim, 0.0), plane.mechanism.roller_radius_mm
+    if room <= least:
+        raise GenevaError(
+            f"no room for a locking disc: it would have to reach {least:.4g} mm, to the rim, and "
+            f"arm less roller and clearances is {room:.4g} mm; "
+            + (f"a roller below {r + room - least:.4g} mm, or " if r + room > least else "")
+            + "lock_radius_mm = 0, where the wheel is held in another way",
+            ("size", "lock_radius_mm"),
+        )
+    if size.lock_radius_mm is None:
+        return max(room - min(r, room / 5.0), 0.5 * (room + least))
+    if not least < size.lock_radius_mm < room:
+        raise GenevaError(
+            f"lock_radius_mm = {size.lock_radius_mm:g}: it must be above {least:.6g}, to reach "
+            f"into the rim, and below {room:.6g}, to leave a horn beside the slot; or 0 for none",
+            ("size", "lock_radius_mm"),
+        )
+    return size.lock_radius_mm
+
+
+def _refuse(plane: Plane, found: Sizes) -> None:
+    outside = plane.sign > 0.0
+    if found.lock and not abs(plane.L - found.rim) < found.recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {found.rim:g}: the rim lies beyond the locking disc, which opens "
+            f"it only where it is below {plane.L + found.recess:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
+    if outside and found.slot_end <= 0.0:
+        raise GenevaError(
+            "the slots meet in the wheel's centre: roller_radius_mm, slot_clearance_mm and "
+            f"slot_bottom_clearance_mm must together be less by more than {-found.slot_end:.4g} mm",
+            ("size", "roller_radius_mm"),
+        )
+    if outside and found.wheel_bore >= found.slot_end:
+        raise GenevaError(
+            f"wheel_bore_mm = {2.0 * found.wheel_bore:g}: the slots reach down to "
+            f"{found.slot_end:.6g} mm; it must be below {2.0 * found.slot_end:.6g}",
+            ("size", "wheel_bore_mm"),
+        )
+    if not outside and found.wheel_bore > 0.0:
+        raise GenevaError(
+            "wheel_bore_mm: an internal wheel is open in the middle; remove it, or set 0",
+            ("size", "wheel_bore_mm"),
+        )
+    if found.lock and found.crank_bore >= found.lock:
+        raise GenevaError(
+            f"crank_bore_mm = {2.0 * found.crank_bore:g}: it must be below the locking disc's "
+            f"{2.0 * found.lock:.6g}",
+            ("size", "crank_bore_mm"),
+        )
+    if found.pin >= found.roller:
+        raise GenevaError(
+            f"pin_mm = {2.0 * found.pin:g}: it must be below the roller's {2.0 * found.roller:g}",
+            ("size", "pin_mm"),
+        )
+    if not outside and found.outer <= max(found.slot_end, plane.L + found.recess):
+        raise GenevaError(
+            f"wheel_outer_radius_mm = {found.outer:g}: the slots reach {found.slot_end:.6g} mm; it "
+            "must be larger",
+            ("size", "wheel_outer_radius_mm"),
+        )
+    if outside and plane.mechanism.spec.size.wheel_outer_radius_mm is not None:
+        raise GenevaError(
+            "wheel_outer_radius_mm is for internal wheels; here wheel_radius_mm is the outside",
+            ("size", "wheel_outer_radius_mm"),
+        )

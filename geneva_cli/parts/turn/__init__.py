@@ -1,0 +1,1 @@
+"""The full turn: parts against each other at every position."""

@@ -1,0 +1,208 @@
+"""The proof that a machine turns: its outlines through a whole turn of the crank.
+
+The wheel is turned as the mechanism says, and pushed back and on from there as far as slot and
+lock let it: its play. No parts may overlap, in every dwell something must hold the wheel, and
+where the roller comes to a wheel that stands off by its play, it must push it into line and not
+against itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.turn.play import NEAR, Play, edges, play_of, push_deg, search_deg, windows
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
+POSITIONS = 4000  # at most
+NO_PLAY = 1e-6  # degrees: a play as small as this is rounding
+SAME = 1e-7  # of a play: how nearly it is known
+DIP = 1e-9  # mm: a gap that is less by less is not
+DIPS = 12  # smallest gaps that are looked at more closely
+FINER = 9  # positions put around each of them, each time
+ROUNDS = 6
+CHANGE_DEG = 15.0  # of the input, on either side of entry and exit,
+ENDS = 24  # there are that many positions
+
+
+class Gap(NamedTuple):
+    """The smallest gap between two parts, mm, negative where they overlap, and where it is."""
+
+    mm: float
+    at_deg: float  # input angle
+    parts: str
+
+
+class Most(NamedTuple):
+    """The greatest of an angle, degrees, and the input angle where it is."""
+
+    deg: float
+    at_deg: float
+
+
+class FullTurn(NamedTuple):
+    """What a whole turn shows; input angles as ``Mechanism.shown_deg`` says.
+
+    ``dwell`` is the wheel's play, either way, in the middle of a dwell, where the lock holds it
+    best; ``hand_over`` the largest where no roller is in its slot; ``motion`` where one is, and
+    both ways: a slot that drives from one wall alone is not held to be loose. There ``ahead`` and
+    ``behind`` are what the wheel is free one way, whatever the other. ``push`` is the
+    largest pressure angle at which a roller pushes the wheel into line. A play as large as
+    ``free_deg``, half a step, is none: nothing holds the wheel.
+    """
+
+    driving: Gap
+    idle: Gap | None
+    lock: Gap | None
+    dwell: Most
+    hand_over: Most
+    motion: Most
+    ahead: Most
+    behind: Most
+    push: Most
+    free_deg: float
+    play: Play
+
+    @property
+    def smallest(self) -> Gap:
+        """The smallest gap of all."""
+        return min((g for g in (self.driving, self.idle, self.lock) if g), key=lambda g: g.mm)
+
+    @property
+    def holds(self) -> bool:
+        """Whether crank and rollers hold the wheel in the middle of every dwell."""
+        return self.dwell.deg < self.free_deg * (1.0 - SAME)
+
+
+def full_turn(outlines: Outlines) -> FullTurn:
+    """Turn the outlines of a machine through a whole turn of its crank.
+
+    Raises NotProved where that takes more than ``clash.WORK``.
+    """
+    outlines.clash.begin()
+    driving, idle, lock = _smallest(outlines, positions(outlines))
+    play = play_of(outlines)
+    most = search_deg(outlines)
+    middles = np.array([0.5 * (w.start + w.end) for w in windows(outlines) if w.rests])
+    dwell = np.degrees(np.maximum(*edges(outlines, middles))) if len(middles) else np.zeros(0)
+    push = push_deg(outlines, play)
+    place = outlines.plane.shown_deg
+    led = play.input_deg[play.guided]
+    return FullTurn(
+        _placed(driving, place),
+        _placed(idle, place) if idle else None,
+        _placed(lock, place) if outlines.crank else None,
+        _most(dwell, middles, place),
+        _most(play.either[~play.guided], play.input_deg[~play.guided], place),
+        _most(play.both[play.guided], led, place),
+        _most(play.on[play.guided], led, place),
+        _most(play.back[play.guided], led, place),
+        _most(push, play.input_deg[:-1], place),
+        most,
+        play,
+    )
+
+
+def _placed(gap: Gap, place: Callable[[float], float]) -> Gap:
+    return gap._replace(at_deg=place(gap.at_deg))
+
+
+def _most(values: Array, at: Array, place: Callable[[float], float]) -> Most:
+    """The greatest and its place: the middle of the first, where it stays as great for a while."""
+    if not len(values) or not values.max() > NO_PLAY:
+        return Most(0.0, 0.0)
+    same = values >= values.max() * (1.0 - SAME)
+    first = int(np.argmax(same))
+    after = int(np.argmin(np.append(same[first:], False)))
+    return Most(float(values.max()), place(float(at[first + (after - 1) // 2])))
+
+
+def positions(outlines: Outlines) -> Array:
+    """Input angles of one turn, between which no part moves by much of the thinnest feature."""
+    plane, sizes = outlines.plane, outlines.sizes
+    grid = np.linspace(plane.start_deg, plane.start_deg + plane.turn_deg, 721)
+    crank = np.unwrap(plane.crank(grid))
+    way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(plane.wheel(grid)))
+    feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
+    total = np.concatenate(([0.0], np.cumsum(way)))
+    count = min(math.ceil(total[-1] / feature), POSITIONS)
+    found = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
+    # A rim that is too large is fouled for less than a degree about entry and exit.
+    ends = np.array([b + e for s, b in plane.rollers for e in (s.entry_deg, s.exit_deg)])
+    beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
+    near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
+    near = plane.start_deg + (near - plane.start_deg) % plane.turn_deg
+    return np.unique(np.concatenate((found, near)))
+
+
+def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
+    """The smallest gaps: of rollers at their own slots, of others meanwhile, of the crank."""
+    clash = outlines.clash
+
+    def rollers(x: Array, idle: bool) -> Array:
+        drives = _drives(outlines, x)
+        meanwhile = drives.any(axis=1, keepdims=True) & ~drives
+        out: Array = np.where(meanwhile == idle, clash.rollers(clash.pose(x)), np.inf).min(axis=1)
+        return out
+
+    def crank(x: Array) -> Array:
+        return clash.locking(clash.pose(x))
+
+    own, others = partial(rollers, idle=False), partial(rollers, idle=True)
+
+    several = len(outlines.plane.rollers) > 1
+    return (
+        _least(own, at, outlines.close, "roller and slot"),
+        _least(others, at, outlines.close, "idle roller and wheel") if several else None,
+        _least(
+            lambda x: clash.locking(clash.pose(x)), at, outlines.close, "locking disc and wheel"
+        ),
+    )
+
+
+def _drives(outlines: Outlines, x: Array) -> NDArray[np.bool_]:
+    """Which rollers move the wheel at input angles, (n, m)."""
+    plane = outlines.plane
+    half = 0.5 * plane.turn_deg
+    columns = []
+    for engagement, behind in plane.rollers:
+        away = (x - behind + half) % plane.turn_deg - half
+        columns.append((away >= engagement.entry_deg - NEAR) & (away <= engagement.exit_deg + NEAR))
+    return np.column_stack(columns)
+
+
+def _least(gap: Callable[[Array], Array], at: Array, close: float, parts: str) -> Gap:
+    """The smallest gap over a turn: around each place where it is smallest, ever closer."""
+    values = gap(at)
+    best = int(np.argmin(values))
+    found = float(values[best]), float(at[best])
+    inner = np.arange(1, len(at) - 1)
+    dips = inner[
+        (values[1:-1] < values[:-2] - DIP) & (values[1:-1] <= values[2:])
+        | (values[1:-1] <= values[:-2]) & (values[1:-1] < values[2:] - DIP)
+    ]
+    # Only where it comes near to the smallest can a smaller one lie between.
+    dips = dips[np.argsort(values[dips])][:DIPS]
+    low, high = at[dips - 1], at[dips + 1]
+    for _ in range(ROUNDS if len(dips) else 0):
+        x = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINER)
+        v = gap(x.ravel()).reshape(x.shape)
+        i = np.argmin(v, axis=1)
+        rows = np.arange(len(x))
+        if v[rows, i].min() < found[0]:
+            row = int(np.argmin(v[rows, i]))
+            found = float(v[row, i[row]]), float(x[row, i[row]])
+        low, high = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, FINER - 1)]
+    # A gap that stays the same for a while is said to be where it begins.
+    early = np.flatnonzero(values <= found[0] + close)
+    return Gap(found[0], float(at[early[0]]) if len(early) else found[1], parts)

@@ -1,0 +1,238 @@
+"""Gaps between the parts at given positions: rollers against the wheel, the crank against it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Contour, backwards
+from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.budget import ask
+from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.contacts import candidates
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+NEAR = 0.02  # of the centre distance: wider gaps are not told apart; they are given as this
+SAGITTA = 2e-6  # of the centre distance: how far an arc's samples may miss it
+SAME = 1e-9  # of the centre distance: corners nearer to each other are one
+STEP = 1e-7  # of the centre distance: over which a normal is taken
+TOUCH = 1e-7  # of the locking disc: what lies in it by less touches it
+WORK = 1e8  # distances between points and pieces in a full turn, at most: about 5 s
+LONGEST = 0.02  # of the centre distance, between samples of a line
+
+
+class NotProved(GenevaError):
+    """A full turn that would take too long."""
+
+
+class Pose(NamedTuple):
+    """Where a machine's parts stand at n input angles."""
+
+    wheel: Array  # (n,) radians
+    crank: Array  # (n,) radians
+    pins: Array  # (n, m, 2) of the m rollers, mm
+
+    def at(self, which: NDArray[np.intp]) -> Pose:
+        """Some of them."""
+        return Pose(self.wheel[which], self.crank[which], self.pins[which])
+
+
+class Clash:
+    """The parts of one machine, ready to be turned against each other."""
+
+    def __init__(self, plane: Plane, sizes: Sizes, wheel: Contour, crank: list[Contour]):
+        self.plane, self.sizes = plane, sizes
+        self.wheel = Polyarc([wheel if plane.sign > 0.0 else backwards(wheel)])
+        self.near = NEAR * plane.L
+        self.left = math.inf
+        self._sector()
+        sagitta, longest = SAGITTA * plane.L, LONGEST * plane.L
+        self.crank = Polyarc(crank) if crank else None
+        self.wheel_points = self.wheel.samples(sagitta, longest)
+
+    def begin(self) -> None:
+        """From here on no more than WORK is done: NotProved is raised in its place."""
+        self.left = WORK
+
+    def _work(self, count: int) -> None:
+        ask()
+        self.left -= count
+        if self.left < 0.0:
+            raise NotProved(
+                f"that it turns is not proved within {WORK:.0e} distances between its parts, which "
+                "take some seconds: they have very many pieces, or very small features; a larger "
+                "roller, or horn, takes less"
+            )
+
+    def _sector(self) -> None:
+        """Where the outline repeats itself, one slot and its neighbours stand for the wheel."""
+        self.pitch = math.tau / len(self.plane.slots) if self._repeats() else 0.0
+        middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
+        reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
+        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
+        self.around = self.wheel.subset(keep) if self.pitch else self.wheel
+
+    def _repeats(self) -> bool:
+        """Whether the wheel's outline is the same from slot to slot: its corners and its arcs."""
+        wheel, count = self.wheel, len(self.plane.slots)
+        if len(wheel) % count:
+            return False
+        each = len(wheel) // count
+        angle = math.tau / count * self.plane.sign  # inside, the outline runs clockwise
+        corners = np.column_stack((wheel.x0, wheel.y0))
+        after = turned_points(np.roll(corners, each, axis=0), np.full(len(wheel), angle))
+        same = np.abs(after - corners).max() < SAME * self.plane.L
+        bends = np.column_stack((wheel.sense, wheel.cos_half))
+        return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME)
+
+    def _to_wheel(self, points: Array, reach: float) -> Array:
+        """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""
+        whole, at = self.wheel, points
+        if self.pitch:
+            slot = np.round(np.arctan2(points[:, 1], points[:, 0]) / self.pitch)
+            whole, at = self.around, turned_points(points, -self.pitch * slot)
+        near = whole.near(at, reach)
+        self._work(len(at) * len(near))
+        out = near.signed(at)
+        # Farther than that the nearest piece may be one that was left out, and the side wrong.
+        far = np.abs(out) > reach
+        if far.any():
+            self._work(int(far.sum()) * len(whole))
+            out[far] = whole.signed(at[far])
+        return out
+
+    def pose(self, input_deg: Array) -> Pose:
+        """Where everything stands at input angles."""
+        pins = [self.plane.pin(i, input_deg) for i in range(len(self.plane.rollers))]
+        return Pose(
+            self.plane.wheel(input_deg), self.plane.crank(input_deg), np.stack(pins, axis=1)
+        )
+
+    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
+        """The smallest gap of all, (n,), with the wheel turned on by ``lead``; see ``rollers``."""
+        out: Array = np.minimum(
+            self.locking(pose, lead, near), self.rollers(pose, lead, near).min(axis=1)
+        )
+        return out
+
+    def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
+        """The gap of each roller, (n, m), in n poses with the wheel turned on by ``lead``.
+
+        ``lead`` is in radians; gaps wider than ``near``, NEAR * L as a rule, are given as that.
+        """
+        near = self.near if near is None else near
+        turn = -(pose.wheel + lead)
+        columns: list[Array] = [
+            self._roller(turned_points(pose.pins[:, i], turn), near)
+            for i in range(len(self.plane.rollers))
+        ]
+        out: Array = np.column_stack(columns)
+        return out
+
+    def _roller(self, centres: Array, near: float) -> Array:
+        """The gap of a roller at places in the wheel's frame."""
+        r, sign = self.sizes.roller, self.plane.sign
+        far = sign * (np.hypot(*centres.T) - self.sizes.rim) - r
+        out: Array = np.minimum(far, near)
+        close = far < near
+        if close.any():
+            out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
+        return out
+
+    def pressure(self, pose: Pose, lead: Array) -> Array:
+        """The pressure angle, radians, (n,), of the roller that is nearest to the wheel.
+
+        Between their common normal and the way of the wheel's nearest point about its axis.
+        """
+        turn = -(pose.wheel + lead)
+        places = np.stack(
+            [turned_points(pose.pins[:, i], turn) for i in range(pose.pins.shape[1])], axis=1
+        )
+        nearest = self.rollers(pose, lead).argmin(axis=1)
+        at = places[np.arange(len(turn)), nearest]
+        step, far = STEP * self.plane.L, self.near + self.sizes.roller
+        x, y = np.array((step, 0.0)), np.array((0.0, step))
+        slope = [self._to_wheel(at + d, far) - self._to_wheel(at - d, far) for d in (x, y)]
+        normal = np.column_stack(slope) / (2.0 * step)
+        touch = at - normal * self._to_wheel(at, far)[:, None]
+        lever = normal[:, 1] * touch[:, 0] - normal[:, 0] * touch[:, 1]
+        size = np.hypot(*normal.T) * np.hypot(*touch.T)
+        out: Array = np.arccos(np.minimum(np.abs(lever) / np.maximum(size, 1e-300), 1.0))
+        return out
+
+    def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
+        """The gap between the crank's outline and the wheel's, (n,); see ``rollers``."""
+        near = self.near if near is None else near
+        if self.crank is None:
+            return np.full(len(pose.wheel), near)
+        turn = pose.wheel + lead
+        # The wheel's points against the crank ...
+        axis = self._axis(turn)
+        self._work(len(axis) * len(self.wheel))
+        owner, points = candidates(
+            self.wheel, self.crank, axis, pose.crank - turn, self.sizes.lock + near
+        )
+        seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
+        self._work(len(seen) * len(self.crank))
+        out = _least(len(turn), owner, self.crank.signed(seen), near)
+        # ... and the crank's corners against the wheel.
+        x, y = self.crank.x0, self.crank.y0
+        angle = pose.crank - turn
+        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
+        inward = self.plane.sign * (np.hypot(qx, qy) - self.sizes.rim)
+        owner, which = np.nonzero(inward < near)
+        points = np.column_stack((qx[owner, which], qy[owner, which]))
+        if len(points):
+            signed = self._to_wheel(points, near)
+            out = np.minimum(out, _least(len(turn), owner, signed, near))
+        return out
+
+    def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
+        """Where on the crank the wheel's points come within the locking disc in one motion.
+
+        Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
+        """
+        engagement, behind = self.plane.rollers[number]
+        count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
+        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+        turn, pose = self.plane.wheel(at), self.plane.crank(at)
+        _, seen = self._on_crank(turn, pose, self.sizes.lock * (1.0 - TOUCH))
+        return np.hypot(*seen.T), np.arctan2(seen[:, 1], seen[:, 0])
+
+    def _on_crank(self, turn: Array, pose: Array, reach: float) -> tuple[NDArray[np.intp], Array]:
+        """The wheel's points within reach of the crank's axis, in the crank's frame.
+
+        With the wheel and the crank at n angles; which of the n each point is for comes first.
+        """
+        axis, (px, py) = self._axis(turn), self.wheel_points.T
+        inside = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < reach * reach
+        owner, which = np.nonzero(inside)
+        return owner, turned_points(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+
+    def _axis(self, turn: Array) -> Array:
+        """The crank's axis in the wheel's frame, (n, 2)."""
+        out: Array = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
+        return out
+
+
+def turned_points(points: Array, angle: Array) -> Array:
+    """Points (n, 2), each turned about the origin by its own angle, radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack(
+        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
+    )
+
+
+def _least(count: int, owner: NDArray[np.intp], values: Array, most: float) -> Array:
+    out = np.full(count, most)
+    np.minimum.at(out, owner, values)
+    return out

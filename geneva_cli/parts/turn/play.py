@@ -1,0 +1,280 @@
+"""The wheel's play through a turn: how far it can be turned from its place until parts touch.
+
+Slot and lock hold the wheel in turn. Where they change over, and in a slot that is wider than its
+roller, the wheel is free for a little; it must not be free for more, and what stands off by its
+play must be pushed into line and not against itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.turn.gaps import Pose, turned_points
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+NEAR = 1e-9  # degrees: positions nearer to each other are one
+CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and roller change over
+ENDS = 24  # positions there,
+DWELL = 5  # in the rest of a dwell, and
+MOTION = 15  # in the rest of a motion; odd, so that mid-motion is one
+STEP = 1e-3  # radians, of the wheel: a roller of r mm reaches (L STEP)^2 / (8 r) into such a step
+EXACT = 1e-10  # radians: a play is found to this,
+SHARE = 1e-7  # or to this share of it
+ROUNDS = 40  # in which it is found
+AROUND = 5  # parts into which an interval is cut about a peak
+CLOSER = 9  # times; 5**-9 of some degrees is a millionth
+SMALL = 1e-3  # degrees: over which a roller's speed is taken
+NARROW = 1e-6  # degrees: shorter intervals are not cut
+NEARLY = 0.8  # of the greatest: what is less has no greater beside it
+MOST = 4  # intervals that are cut in a round for one peak
+JUMP = 30.0  # times the roller's way: a rim that is moved by more is not pushed by it
+
+
+class Play(NamedTuple):
+    """How far the wheel can be turned back and on at ascending input angles, degrees.
+
+    ``resting`` says where the wheel rests, ``guided`` where a roller is in its slot: its centre
+    past the mouth's corners. ``speed`` is the roller's in the wheel's frame, mm per degree. The
+    pushes are pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
+    """
+
+    input_deg: Array
+    back: Array
+    on: Array
+    resting: NDArray[np.bool_]
+    guided: NDArray[np.bool_]
+    speed: Array
+    back_push: Array
+    on_push: Array
+
+    @property
+    def both(self) -> Array:
+        """The smaller of both: more on one side alone is a slot that drives from one wall."""
+        out: Array = np.minimum(self.back, self.on)
+        return out
+
+    @property
+    def either(self) -> Array:
+        """The larger of both."""
+        out: Array = np.maximum(self.back, self.on)
+        return out
+
+
+class Window(NamedTuple):
+    """A motion or a dwell: the input angles at its ends, and the roller that moves the wheel."""
+
+    start: float
+    end: float
+    roller: int
+    rests: bool
+
+
+def search_deg(outlines: Outlines) -> float:
+    """A play as large as this is none: half a step on, the wheel's place is lost."""
+    return math.degrees(min(engagement.half_step for engagement, _ in outlines.plane.rollers))
+
+
+def windows(outlines: Outlines) -> Iterator[Window]:
+    """The motions and dwells of a turn."""
+    plane, rollers = outlines.plane, outlines.plane.rollers
+    for i, (engagement, behind) in enumerate(rollers):
+        after, later = rollers[(i + 1) % len(rollers)]
+        turns = plane.turn_deg if i + 1 == len(rollers) else 0.0
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        following = later + turns + after.entry_deg
+        yield Window(entry, exit_, i, False)
+        if following - exit_ > NEAR:
+            yield Window(exit_, following, i, True)
+
+
+def play_of(outlines: Outlines) -> Play:
+    """The play over a turn, ever closer where it is greatest and where it closes fastest."""
+    found = _measured(outlines, _places(outlines))
+    for _ in range(CLOSER):
+        more = np.unique(np.concatenate([*_peaks(outlines, found), *_closing(outlines, found)]))
+        if not len(more):
+            break
+        found = _merged(found, _measured(outlines, more))
+    return found
+
+
+def edges(outlines: Outlines, at: Array) -> tuple[Array, Array]:
+    """How far the wheel can be turned back and on at input angles, radians, until parts touch."""
+    count = len(at)
+    pose = outlines.clash.pose(at)
+    both = np.concatenate((np.arange(count), np.arange(count)))
+    found = _edge(outlines, pose.at(both), np.repeat((-1.0, 1.0), count))
+    return found[:count], found[count:]
+
+
+def push_deg(outlines: Outlines, play: Play) -> Array:
+    """The pressure angle at which the wheel is pushed into line between positions; 0 if it is not.
+
+    While the play becomes less as the crank turns, something pushes the wheel. Where that is a
+    roller at the mouth of its slot, it is the angle between their common normal and the way of the
+    wheel's corner. A play that ends all at once is a corner in the way: 90 degrees.
+    """
+    step = np.diff(play.input_deg)
+    moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
+    free = ~(play.guided[:-1] | play.guided[1:])
+    found = np.zeros(len(step))
+    for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
+        closing = outlines.sizes.rim * np.radians(-np.diff(edge))
+        angle = np.where(closing > JUMP * moved, 90.0, push[1:])
+        known = np.radians(edge[:-1]) > touching(outlines)
+        found = np.maximum(found, np.where(free & known & (closing > 0.0), angle, 0.0))
+    return found
+
+
+def touching(outlines: Outlines) -> float:
+    """A play, radians, that is none: parts that touch along their way part so slowly.
+
+    Two circles of the rim's radius that overlap by ``close`` are told apart no better.
+    """
+    return math.sqrt(2.0 * outlines.close / outlines.sizes.rim)
+
+
+def _places(outlines: Outlines) -> Array:
+    """Input angles of a turn, closely where lock and roller change over."""
+    close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
+    found = []
+    for a, b, _, rests in windows(outlines):
+        near = close * min(CHANGE_DEG, 0.5 * (b - a))
+        found += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
+    return np.unique(np.concatenate(found))
+
+
+def _measured(outlines: Outlines, at: Array) -> Play:
+    plane, sizes = outlines.plane, outlines.sizes
+    back, on = edges(outlines, at)
+    pushes = [_pressure(outlines, at, lead) for lead in (-back, on)]
+    resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
+    speed = np.zeros(len(at))
+    # Level with the mouth's corners: half a slot's width beside its middle, on the rim.
+    level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
+    last = plane.start_deg + plane.turn_deg
+    for a, b, roller, rests in windows(outlines):
+        here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
+        x = at[here]
+        low, high = np.maximum(x - SMALL, plane.start_deg), np.minimum(x + SMALL, last)
+        moved = _in_wheel(outlines, roller, high) - _in_wheel(outlines, roller, low)
+        speed[here] = np.maximum(speed[here], np.hypot(*moved.T) / (high - low))
+        if rests:
+            resting[here] = True
+        else:
+            far = np.hypot(*plane.pin(roller, x).T)
+            guided[here] |= plane.sign * (level - far) > -NEAR * plane.L
+    return Play(at, np.degrees(back), np.degrees(on), resting, guided & ~resting, speed, *pushes)
+
+
+def _in_wheel(outlines: Outlines, roller: int, at: Array) -> Array:
+    """A roller's centre in the wheel's frame, (n, 2)."""
+    plane = outlines.plane
+    return turned_points(plane.pin(roller, at), -plane.wheel(at))
+
+
+def _merged(a: Play, b: Play) -> Play:
+    order = np.argsort(np.concatenate((a.input_deg, b.input_deg)), kind="stable")
+    return Play(*[np.concatenate(both)[order] for both in zip(a, b, strict=True)])
+
+
+def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
+    """Places that cut intervals, told by their first positions, into equal parts."""
+    last = len(play.input_deg) - 2
+    i = np.unique(intervals[(intervals >= 0) & (intervals <= last)])
+    low, high = play.input_deg[i], play.input_deg[i + 1]
+    wide = (high - low > NARROW)[:, None]
+    share = np.arange(1, AROUND) / AROUND
+    found: Array = (low[:, None] + (high - low)[:, None] * share)[wide.ravel()].ravel()
+    return found
+
+
+def _peaks(outlines: Outlines, play: Play) -> Iterator[Array]:
+    """Places beside the greatest plays, in slots and elsewhere."""
+    least, most = math.degrees(touching(outlines)), search_deg(outlines)
+    for edge in (play.back, play.on, play.both):
+        for where in (play.guided, ~play.guided):
+            value = np.where(where & (edge < most) & (edge > least), edge, -1.0)
+            before, after = np.append(-1.0, value[:-1]), np.append(value[1:], -1.0)
+            top = np.flatnonzero(
+                (value > 0.0)
+                & (value >= before)
+                & (value >= after)
+                & (value > NEARLY * value.max())
+            )
+            top = top[np.argsort(-value[top], kind="stable")][:MOST]
+            yield _cut(play, np.concatenate((top - 1, top)))
+
+
+def _closing(outlines: Outlines, play: Play) -> Iterator[Array]:
+    """Places where the wheel's play closes fastest."""
+    angle = push_deg(outlines, play)
+    if angle.max() > 0.0:
+        top = np.argsort(-angle, kind="stable")[:MOST]
+        yield _cut(play, np.concatenate((top - 1, top, top + 1)))
+
+
+def _pressure(outlines: Outlines, at: Array, lead: Array) -> Array:
+    """Pressure angles, degrees, of rollers that stop the wheel at its play ``lead``, radians."""
+    clash, out = outlines.clash, np.zeros(len(at))
+    here = np.flatnonzero(np.abs(lead) > touching(outlines))
+    if len(here):
+        pose, lead = clash.pose(at[here]), lead[here]
+        stops = clash.rollers(pose, lead).min(axis=1) <= clash.locking(pose, lead)
+        out[here] = np.where(stops, np.degrees(clash.pressure(pose, lead)), 0.0)
+    return out
+
+
+def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
+    """How far the wheel can be turned one way in each pose: first to where it is stopped.
+
+    No point of the wheel moves farther than the gap in a step, or than a step in which what is
+    stepped over is less deep than the parts are known.
+    """
+    most = math.radians(search_deg(outlines))
+    count, clash, close = len(way), outlines.clash, outlines.close
+    low, high = np.zeros(count), np.full(count, np.inf)
+    g_low = clash.gap(pose, low, clash.near) + close
+    g_high = np.full(count, -1.0)
+    here = np.flatnonzero(g_low >= 0.0)  # where parts overlap as it stands there is no play
+    high[g_low < 0.0] = 0.0
+    while len(here):
+        x = np.minimum(low[here] + np.maximum(g_low[here] / _reach(outlines), STEP), most)
+        g = clash.gap(pose.at(here), way[here] * x, clash.near) + close
+        free = g >= 0.0
+        low[here[free]], g_low[here[free]] = x[free], g[free]
+        high[here[~free]], g_high[here[~free]] = x[~free], g[~free]
+        here = here[free & (x < most)]
+    # Illinois' rule: the secant, and half the value of an end that stays.
+    here = np.flatnonzero((high < np.inf) & (high > 0.0))
+    kept = np.zeros(count, dtype=int)
+    for _ in range(ROUNDS):
+        width = high[here] - low[here]
+        here = here[width > np.maximum(EXACT, SHARE * high[here])]
+        if not len(here):
+            break
+        a, b = low[here], high[here]
+        x = a + (b - a) * np.clip(g_low[here] / (g_low[here] - g_high[here]), 0.02, 0.98)
+        near = min(_reach(outlines) * float((b - a).max()), clash.near)
+        g = clash.gap(pose.at(here), way[here] * x, near) + close
+        free = g >= 0.0
+        g_high[here[free & (kept[here] == 1)]] *= 0.5
+        g_low[here[~free & (kept[here] == -1)]] *= 0.5
+        kept[here] = np.where(free, 1, -1)
+        low[here[free]], g_low[here[free]] = x[free], g[free]
+        high[here[~free]], g_high[here[~free]] = x[~free], g[~free]
+    return low
+
+
+def _reach(outlines: Outlines) -> float:
+    """The wheel's points are no farther from its axis."""
+    return max(outlines.sizes.rim, outlines.sizes.outer)

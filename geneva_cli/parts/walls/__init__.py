@@ -1,0 +1,1 @@
+"""The walls of a slot, straight and curved."""

@@ -1,0 +1,127 @@
+"""Where one wall of a slot ends and the next begins: their crossing, or where they run together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.parts.walls.ways import Wall
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+WINDOW = 80  # samples among which the crossing of two walls is looked for
+REACH = 3  # samples within which two walls meet
+PARALLEL = 1e-7  # the sine below which two walls do not cross but run into each other
+MET = 1e-7  # of a point's distance: nearer points are one
+
+
+class Place(NamedTuple):
+    """A sample on a wall and the direction of travel, in which its index rises or falls."""
+
+    wall: Wall
+    i: int
+    way: int
+
+
+def joint(last: Place, following: Place) -> tuple[float, float]:
+    """The parameters on both walls of the point where they meet."""
+    a, b = float(last.wall.t[last.i]), float(following.wall.t[following.i])
+    at_ends = all(p.i in (0, len(p.wall.t) - 1) for p in (last, following))
+    p, q = point(last.wall, a), point(following.wall, b)
+    if at_ends and math.dist(p, q) < 1e-6 * max(1.0, math.hypot(*p)):
+        return a, b
+    met = _crossing(last, following)
+    if met is not None:
+        return met
+    # They run into each other: on from the point of the one to the nearest free one of the other.
+    low, high = _free_run(following)
+    for _ in range(8):
+        q, v = _at(following.wall, b)
+        step = (p[0] - q[0]) * v[0] + (p[1] - q[1]) * v[1]
+        b = min(max(_within(following, b + step / _speed(following, b)), low), high)
+    return a, b
+
+
+def _free_run(place: Place) -> tuple[float, float]:
+    """The parameters at both ends of the free stretch that a sample is in."""
+    start, end = next((a, b) for a, b in runs(place.wall) if a <= place.i <= b)
+    return float(place.wall.t[start]), float(place.wall.t[end])
+
+
+def _crossing(last: Place, following: Place) -> tuple[float, float] | None:
+    """The parameters of the point where two walls cross near these samples, if they do."""
+    start = _polylines_cross(last, following)
+    if start is None:
+        return None
+    last, following = start
+    a, b = float(last.wall.t[last.i]), float(following.wall.t[following.i])
+    for _ in range(50):
+        p, u = _at(last.wall, a)
+        q, v = _at(following.wall, b)
+        x, y = q[0] - p[0], q[1] - p[1]
+        cross = u[0] * v[1] - u[1] * v[0]
+        if math.hypot(x, y) < 1e-12 * math.hypot(*p) or abs(cross) < PARALLEL:
+            break
+        a = _within(last, a + (x * v[1] - y * v[0]) / cross / _speed(last, a))
+        b = _within(following, b + (x * u[1] - y * u[0]) / cross / _speed(following, b))
+    return (a, b) if math.hypot(x, y) < MET * math.hypot(*p) else None
+
+
+def _polylines_cross(last: Place, following: Place) -> tuple[Place, Place] | None:
+    """The samples before the crossing of two walls: the last on the one, the first on the other."""
+    one = _window(last, -WINDOW, REACH)
+    two = _window(following, -REACH, WINDOW)
+    p, q = last.wall.points[one], following.wall.points[two]
+    d, e = np.diff(p, axis=0), np.diff(q, axis=0)
+    off = q[None, :-1] - p[:-1, None]
+    cross = d[:, None, 0] * e[None, :, 1] - d[:, None, 1] * e[None, :, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = (off[..., 0] * e[None, :, 1] - off[..., 1] * e[None, :, 0]) / cross
+        t = (off[..., 0] * d[:, None, 1] - off[..., 1] * d[:, None, 0]) / cross
+    i, j = np.nonzero((s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0))
+    if not len(i):
+        return None
+    best = int(np.argmax(i))
+    return last._replace(i=int(one[i[best]])), following._replace(i=int(two[j[best]]))
+
+
+def _window(place: Place, behind: int, ahead: int) -> NDArray[np.intp]:
+    """Indices of samples around one, in the direction of travel."""
+    indices = place.i + place.way * np.arange(behind, ahead + 1)
+    out: NDArray[np.intp] = indices[(indices >= 0) & (indices < len(place.wall.t))]
+    return out
+
+
+def _within(place: Place, t: float) -> float:
+    """A parameter kept to the neighbourhood of a sample."""
+    grid, i = place.wall.t, place.i
+    return min(max(t, float(grid[max(i - REACH, 0)])), float(grid[min(i + REACH, len(grid) - 1)]))
+
+
+def _at(wall: Wall, t: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    points, tangents = wall.curve(np.array([t]))
+    return tuple(points[0].tolist()), tuple(tangents[0].tolist())
+
+
+def point(wall: Wall, t: float) -> tuple[float, float]:
+    """A wall's point at a parameter."""
+    return _at(wall, t)[0]
+
+
+def _speed(place: Place, t: float) -> float:
+    """How fast a wall's point moves with its parameter."""
+    step = 1e-6 * float(place.wall.t[-1] - place.wall.t[0])
+    low, high = _within(place, t - step), _within(place, t + step)
+    moved = math.dist(point(place.wall, low), point(place.wall, high))
+    return max(moved / (high - low), 1e-12)
+
+
+def runs(wall: Wall) -> Iterator[tuple[int, int]]:
+    """First and last index of every stretch of free samples."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], wall.free, [False])).astype(int)))
+    for start, end in zip(edges[::2], edges[1::2], strict=True):
+        yield int(start), int(end) - 1

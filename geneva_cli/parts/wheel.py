@@ -1,0 +1,136 @@
+"""The wheel's outline: slots, rim and recesses in one closed contour."""
+
+from __future__ import annotations
+
+import math
+from typing import NoReturn
+
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.sizes import Sizes
+
+LAYER = "WHEEL"
+SAME = 1e-9  # of the centre distance: radii nearer to each other are one
+# Of the way from where the recess touches it to the rim: how far out a low mouth is carried. It
+# gives the disc something to hold, and little that the relief must make room for.
+HELD = 0.2
+
+
+def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
+    """The wheel's contour, counterclockwise: outside its material's edge, inside its opening's.
+
+    ``slots`` has for each engagement the walls of its slot, from the corner on one side of the
+    mouth round the bottom to the other, in the wheel's frame with that slot ahead. Raises
+    GenevaError where a recess leaves no horn beside a slot.
+    """
+    found: list[Segment] = []
+    around = plane.slots
+    for i, (engagement, direction) in enumerate(around):
+        following, ahead = around[(i + 1) % len(around)]
+        found += turned(slots[engagement], direction).segments
+        next_start = turned(slots[following], ahead).segments[0].start
+        found += _rim(plane, sizes, found[-1].end, next_start, _between(plane, direction, ahead))
+    return closed(LAYER, found)
+
+
+def wheel_circles(plane: Plane, sizes: Sizes) -> list[Circle]:
+    """Bore and hub, and the outside of an internal wheel."""
+    found = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
+    if sizes.wheel_bore:
+        found.append(Circle("BORE", (0.0, 0.0), sizes.wheel_bore))
+    return found
+
+
+def _between(plane: Plane, start: float, end: float) -> float:
+    """The rest between two neighbouring slots, as an angle above the first one's."""
+    span = (end - start) % math.tau
+    return next(
+        start + off for at in plane.rests if (off := (at - start) % math.tau) < span or span == 0.0
+    )
+
+
+def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
+    """From one slot's corner along the rim, through the recess, to the next slot's corner.
+
+    Mouths of offset slots and of unequal steps end at different radii. One that the recess does
+    not reach is carried out to where it does, along the roller's circle about the crank's axis.
+    """
+    first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
+    if math.remainder(last - first, math.tau) <= 0.0:
+        raise GenevaError(
+            "the mouths of neighbouring slots cut each other; a smaller roller_radius_mm than "
+            f"{sizes.roller:g} leaves a rim between them",
+            ("size", "roller_radius_mm"),
+        )
+    last = first + (last - first) % math.tau
+    at = first + (at - first) % math.tau
+    axis = plane.L * math.cos(at), plane.L * math.sin(at)
+    beside = math.dist(start, axis), math.dist(end, axis)
+    if sizes.lock and min(beside) <= sizes.recess:
+        _refuse(sizes, min(beside))
+    own = math.hypot(*start), math.hypot(*end)
+    reach = plane.L - sizes.recess
+    least = reach + HELD * (sizes.rim - reach) if sizes.lock else max(own)
+    raised = [least > rim + SAME * plane.L and plane.sign > 0.0 for rim in own]
+    rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
+    found: list[Segment] = []
+    after: list[Segment] = []
+    if raised[0]:
+        first = at - opening(plane.L, rims[0], beside[0])
+        found.append(_about(axis, start, _on(rims[0], first), 1.0))
+    if raised[1]:
+        last = at + opening(plane.L, rims[1], beside[1])
+        after.append(_about(axis, _on(rims[1], last), end, 1.0))
+    if not sizes.lock:
+        return [*found, about((0.0, 0.0), rims[0], first, last - first), *after]
+    low, high = (
+        at + side * opening(plane.L, rim, sizes.recess)
+        for side, rim in zip((-1.0, 1.0), rims, strict=True)
+    )
+    return [
+        *found,
+        about((0.0, 0.0), rims[0], first, low - first),
+        _about(axis, _on(rims[0], low), _on(rims[1], high), -plane.sign),
+        about((0.0, 0.0), rims[1], high, last - high),
+        *after,
+    ]
+
+
+def _on(radius: float, angle: float) -> Point:
+    return radius * math.cos(angle), radius * math.sin(angle)
+
+
+def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
+    """An arc about the crank's axis, counterclockwise (+1) or clockwise (-1)."""
+    a, b = (math.atan2(y - axis[1], x - axis[0]) for x, y in (start, end))
+    sweep = sense * (sense * (b - a) % math.tau)
+    return Arc(start, end, math.tan(0.25 * sweep))
+
+
+def _refuse(sizes: Sizes, beside: float) -> NoReturn:
+    """Raise GenevaError: no horn is left beside a slot that begins so far from the axis."""
+    most = sizes.lock + beside - sizes.recess
+    raise GenevaError(
+        f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be below "
+        f"{most:.6g}, or the roller smaller",
+        ("size", "lock_radius_mm"),
+    )
+
+
+def opening(L: float, rim: float, radius: float) -> float:
+    """Half the angle over which a circle about the crank's axis opens the rim.
+
+    Raises GenevaError where the two circles do not meet.
+    """
+    cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
+    if not abs(cosine) < 1.0:
+        raise GenevaError(
+            f"wheel_radius_mm: a rim of {rim:.6g} mm does not meet the circle of {radius:.6g} mm "
+            f"about the crank's axis; it must be above {abs(L - radius):.6g} and below "
+            f"{L + radius:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
+    return math.acos(cosine)

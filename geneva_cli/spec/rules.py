@@ -1,0 +1,106 @@
+"""What a value in the spec may be, stated once beside its key."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+
+
+class Range(NamedTuple):
+    """Numbers from ``low`` to ``high``; a round bracket in ``ends`` leaves that end out."""
+
+    low: float
+    high: float = math.inf
+    ends: str = "[]"
+
+    def __contains__(self, x: object) -> bool:
+        if not isinstance(x, (int, float)):
+            return False
+        above = self.low < x if self.ends[0] == "(" else self.low <= x
+        return above and (x < self.high if self.ends[1] == ")" else x <= self.high)
+
+    def __str__(self) -> str:
+        if math.isinf(self.low) and math.isinf(self.high):
+            return "a finite number"
+        if 0.0 < self.low < 1e-6:  # a bound that is there only to keep the arithmetic finite
+            return f"above 0 ({self.low:g} to {self.high:g})"
+        low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
+        high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
+        return low if math.isinf(self.high) else high if math.isinf(self.low) else f"{low}, {high}"
+
+
+class OneOf(tuple[str, ...]):
+    """A word from a list."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return "one of " + ", ".join(f'"{word}"' for word in self)
+
+
+class Words(NamedTuple):
+    """A number in a range, or one of some words that stand for a number to be worked out."""
+
+    range: Range
+    words: tuple[str, ...]
+
+    def __contains__(self, x: object) -> bool:
+        return x in self.range
+
+    def __str__(self) -> str:
+        return f"{self.range}, or " + " or ".join(f'"{word}"' for word in self.words)
+
+
+class Csv(NamedTuple):
+    """Pairs from a CSV file, the first of each ascending; ``key`` names the file in the spec."""
+
+    key: str
+    x: str
+    y: str
+    step_min: float  # the least step of x: closer points make a spline of rounding errors
+    y_max: float  # the largest size of y
+    points_min: int
+
+    def __str__(self) -> str:
+        return 'such as "points.csv"'
+
+    def fault(self, pairs: Sequence[tuple[float, float]], i: int) -> str:
+        """What is wrong with the i-th pair, seen from the one before it; nothing if it is sound."""
+        x, y = pairs[i]
+        if not (math.isfinite(x) and abs(y) <= self.y_max):
+            return (
+                f"{self.x} and {self.y} must be finite, {self.y} from -{self.y_max:g} to "
+                f"{self.y_max:g}"
+            )
+        if i and x < pairs[i - 1][0] + self.step_min:
+            return (
+                f"{self.x} = {x:.12g} must be above the one before it, by {self.step_min:g} or "
+                "more: of closer points the derivatives are rounding; thin them out"
+            )
+        return ""
+
+    def check(
+        self, pairs: Sequence[tuple[float, float]], file: str, place: tuple[str, str]
+    ) -> None:
+        """Raise GenevaError for pairs that break the rule."""
+        name = file or place[1]
+        for i in range(len(pairs)):
+            fault = self.fault(pairs, i)
+            if fault:
+                raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
+        if len(pairs) < self.points_min:
+            raise GenevaError(
+                f"{name}: {len(pairs)} points; at least {self.points_min} are needed", place
+            )
+
+
+POSITIVE = Range(1e-12, 1e12)
+NOT_NEGATIVE = Range(0.0, 1e12)
+SPEED = Range(1e-9, 1e9)
+LENGTH = Range(-1e12, 1e12)
+FINITE = Range(-math.inf, math.inf, "()")
+
+Z_MAX = 1_000_000  # most slots (and rollers) that are computed

@@ -1,0 +1,221 @@
+"""Tables of a spec: frozen records whose fields are their keys, checked where they are made.
+
+A field is annotated with its type, its rule and its meaning, so that the reader, the writer, the
+template and a Python user all go by the same line:
+
+    A: Annotated[float, Range(-1.0, 1.0, "()"), "base offset / crank length"]
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from types import NoneType, UnionType
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    Self,
+    TypeAlias,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.spec.rules import Csv, OneOf, Words
+
+LIST: TypeAlias = tuple[float, ...]
+LIST_MAX = 1000
+EXACT = 2.0**53  # up to it, a float that is whole is that whole number
+REQUIRED = dataclasses.MISSING
+_NAMES: dict[Any, str] = {
+    LIST: "a list of numbers",
+    str: "text",
+    int: "a whole number",
+    float: "a number",
+}
+
+
+class Points(NamedTuple):
+    """Pairs that a spec gives in a CSV file: the file as the spec names it, and what is in it."""
+
+    pairs: tuple[tuple[float, float], ...]
+    file: str = ""
+
+
+class Field(NamedTuple):
+    """One key of a table: where its value is, and how it is checked."""
+
+    key: str  # in the file
+    attribute: str  # in Python
+    types: tuple[Any, ...]
+    rule: Any
+    default: Any  # REQUIRED where there is none
+    meaning: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """A table of the spec. Raises GenevaError, naming table and key, for a value it cannot have."""
+
+    TABLE: ClassVar[str] = ""  # its name in the file
+
+    def __post_init__(self) -> None:
+        for field in fields(type(self)):
+            value = getattr(self, field.attribute)
+            if value is not field.default:
+                value = checked(self.TABLE, field, value)
+                object.__setattr__(self, field.attribute, value)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The values by their keys."""
+        return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
+
+    def with_key(self, key: str, value: Any) -> Self:
+        """The same with one key, as it is written in the file, changed; None: its default."""
+        known = {field.key: field for field in fields(type(self))}
+        if key not in known:
+            raise unknown(key, self.TABLE, tuple(known))
+        field = known[key]
+        if value is None:
+            require(type(self), [k for k in known if k != key])
+            value = field.default
+        return self.but(**{field.attribute: value})
+
+    def but(self, **changes: Any) -> Self:
+        """The same with some of its fields changed, checked like any other."""
+        return dataclasses.replace(self, **changes)
+
+
+def fields(table: type[Table]) -> tuple[Field, ...]:
+    """The keys of a table, in their order."""
+    if table not in _FIELDS:
+        _FIELDS[table] = _fields(table)
+    return _FIELDS[table]
+
+
+_FIELDS: dict[type[Table], tuple[Field, ...]] = {}
+
+
+def _fields(table: type[Table]) -> tuple[Field, ...]:
+    hints = get_type_hints(table, include_extras=True)
+    out = []
+    for one in dataclasses.fields(table):
+        if get_origin(hints[one.name]) is not Annotated:
+            continue  # not a key: an object that has keys of its own, as a motion has its law
+        annotated, rule, meaning = get_args(hints[one.name])
+        # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
+        types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
+        key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
+        out.append(Field(key, one.name, types, rule, one.default, meaning))
+    return tuple(out)
+
+
+def checked(table: str, field: Field, value: Any) -> Any:
+    """A value of the field's type and in its range, as the table holds it."""
+    place = (table, field.key)
+    if value is None and NoneType in field.types:
+        return None
+    if isinstance(field.rule, Csv):
+        return _points(place, field, value)
+    numeric = [t for t in field.types if t in (int, float)]
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
+        return _number(place, field, value, whole=numeric[0] is int)
+    if isinstance(value, (list, tuple)) and LIST in field.types:
+        if not value or len(value) > LIST_MAX:
+            raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
+        one = field._replace(types=(float,))
+        return tuple(checked(table, one, v) for v in value)
+    if isinstance(value, str) and str in field.types:
+        return _word(place, field, value, numeric=bool(numeric))
+    wanted = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
+    raise GenevaError(f"{field.key} must be {wanted}, not {shown(value)}", place)
+
+
+def _number(place: tuple[str, str], field: Field, value: float, whole: bool) -> float:
+    if whole and not isinstance(value, int):
+        raise GenevaError(
+            f"{field.key} = {value!r} must be a whole number{_whole(value)} ({field.meaning})",
+            place,
+        )
+    if value not in field.rule:
+        raise GenevaError(
+            f"{field.key} = {shown(value)} must be {field.rule} ({field.meaning})", place
+        )
+    try:
+        return value if whole else float(value)
+    except OverflowError:
+        raise GenevaError(
+            f"{field.key} = {shown(value)} is too large a number ({field.meaning})", place
+        ) from None
+
+
+def _word(place: tuple[str, str], field: Field, value: str, numeric: bool) -> str:
+    words = field.rule.words if isinstance(field.rule, Words) else ()
+    if isinstance(field.rule, OneOf) and value not in field.rule:
+        raise GenevaError(
+            f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place
+        )
+    if numeric and value not in words:
+        said = " or ".join(f'"{w}"' for w in words)
+        raise GenevaError(f"{field.key} must be a number or {said}, not {shown(value)}", place)
+    return value
+
+
+def _points(place: tuple[str, str], field: Field, value: Any) -> Points:
+    """Pairs in ascending order within the rule's bounds; a Python user may give a list of them."""
+    points = value if isinstance(value, Points) else Points(_pairs(place, field, value))
+    field.rule.check(points.pairs, points.file, place)
+    return points
+
+
+def _pairs(place: tuple[str, str], field: Field, value: Any) -> tuple[tuple[float, float], ...]:
+    try:
+        return tuple((float(x), float(y)) for x, y in value)
+    except (TypeError, ValueError):
+        raise GenevaError(
+            f"{field.key}: points are pairs of numbers {field.rule.x},{field.rule.y}", place
+        ) from None
+
+
+def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
+    """What is said of a key that a table does not have."""
+    return GenevaError(
+        f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {', '.join(known)}",
+        (table, key),
+    )
+
+
+def require(table: type[Table], given: Sequence[str], why: str = "") -> None:
+    """Raise GenevaError where a key without a default is not given."""
+    for field in fields(table):
+        if field.default is REQUIRED and field.key not in given:
+            raise GenevaError(
+                f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}",
+                (table.TABLE,),
+            )
+
+
+def shown(value: Any) -> str:
+    """A wrong value, short enough for a message."""
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, (list, tuple)):
+        return "a list"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{cut(value)}"'
+    return f"{value:.12g}" if isinstance(value, float) else cut(value)
+
+
+def _whole(value: float) -> str:
+    """The whole numbers beside one that is not, as it must be written."""
+    if not abs(value) < EXACT:
+        return ""
+    if value == math.floor(value):
+        return f": write {value:.0f}"
+    return f", {math.floor(value)} or {math.ceil(value)}"

@@ -1,0 +1,47 @@
+"""Where in a spec's text a key is set: asked of the TOML reader itself."""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+from typing import Any
+
+import tomli
+
+TRIES = 10  # lines that look like setting a key, before its table is named instead
+
+
+def line_of(text: str, path: tuple[str, ...]) -> int:
+    """The line where a key (or, failing that, its table) is set; 0 if it is nowhere.
+
+    Asks the TOML reader itself: the key's line is the first after which the text so far parses
+    and holds the key. Only lines that look like setting it are tried.
+    """
+    lines = text.split("\n")
+    while path:
+        name = re.escape(path[-1])
+        sets = re.compile(rf"""(^|[\s.,{{\["']){name}["']?\s*[=.\]]""")
+        likely = (
+            i for i, x in enumerate(lines) if sets.search(x) and not x.lstrip().startswith("#")
+        )
+        for i in islice(likely, TRIES):
+            if _holds(lines, i + 1, path):
+                return i + 1
+        path = path[:-1]
+    return 0
+
+
+def _holds(lines: list[str], end: int, path: tuple[str, ...]) -> bool:
+    """Whether the first lines, up to the end of the value that line ``end`` begins, set the key."""
+    more = 0
+    while True:
+        try:
+            node: Any = tomli.loads("\n".join(lines[: end + more]))
+            break
+        except (ValueError, RecursionError):
+            if end + more >= len(lines):
+                return False
+            more = 2 * more + 1  # a value of many lines
+    for part in path:
+        node = node.get(part) if isinstance(node, dict) else None
+    return node is not None

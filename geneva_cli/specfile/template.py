@@ -1,0 +1,75 @@
+"""A commented spec to start from, made from the same keys that the reader knows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.drive import Drive, Example
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.spec.schema import REQUIRED, Field, fields
+from geneva_cli.specfile.writer import keys_of, quoted
+
+# what a plain crank drives
+CRANKED = {
+    "external": Example("an external wheel, straight slots", {"wheel": {"z": 6}}),
+    "internal": Example(
+        "an internal wheel: more motion than dwell",
+        {"wheel": {"z": 6, "gearing": "internal"}},
+    ),
+    "spherical": Example(
+        "a spherical wheel: shafts that meet, motion and dwell equal",
+        {"wheel": {"z": 6, "gearing": "spherical"}},
+    ),
+    "rollers": Example(
+        "several rollers: more indexes in a turn of the crank",
+        {"wheel": {"z": 4}, "drive": {"rollers": 3}},
+    ),
+    "curved": Example(
+        "curved slots for a given motion law, at the mid condition",
+        {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
+    ),
+}
+KINDS = (*CRANKED, *(name for name in registry.DRIVES if name != Crank.NAME))
+
+
+def template(kind: str) -> str:
+    """The text of a valid spec; every key that it can have is there, its default and its meaning.
+
+    Raises GenevaError for a kind that is not known.
+    """
+    if kind not in KINDS:
+        known = ", ".join(KINDS)
+        raise GenevaError(
+            f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of {known}'
+        )
+    drive: type[Drive] = Crank
+    if kind in CRANKED:
+        about, given = CRANKED[kind]
+    else:
+        drive = registry.drive(kind)
+        about, tables = drive.EXAMPLE
+        given = {**tables, "drive": {"kind": kind, **tables.get("drive", {})}}
+    lines = [
+        f"# A Geneva mechanism: {about}.",
+        "# Keys behind a # have the default shown, or none; remove the # to set them.",
+        f"title = {quoted(about)}",
+    ]
+    gearing = registry.gearing(given["wheel"].get("gearing", External.NAME))
+    # any law may be put in: a template shows the keys of all
+    law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
+    keys = keys_of(gearing, drive, law_keys)
+    for name, table in keys.items():
+        lines += ["", f"[{name}]", *[_line(field, given.get(name, {})) for field in table]]
+    return "\n".join(lines) + "\n"
+
+
+def _line(field: Field, values: dict[str, Any]) -> str:
+    rule = f"; {field.rule}" if field.rule is not None else ""
+    note = f"  # {field.meaning}{rule}"
+    if field.key in values:
+        return f"{field.key} = {quoted(values[field.key])}{note}"
+    default = "..." if field.default in (None, REQUIRED) else quoted(field.default)
+    return f"# {field.key} = {default}{note}"

@@ -1,0 +1,1 @@
+"""Many designs: the table of wheels, synthesis."""

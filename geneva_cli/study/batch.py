@@ -1,0 +1,103 @@
+"""Many specs judged side by side: one process for each of the computer's cores."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import build
+from geneva_cli.specfile.reader import read
+from geneva_cli.table import Table, rows_table
+from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.cautions import cautions
+from geneva_cli.verdict.checks import Check
+
+NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
+
+
+class Verdict(NamedTuple):
+    """What is to be said of one spec: its checks and cautions, or why it could not be read."""
+
+    path: str
+    files: tuple[str, ...] = ()  # that the design is read from
+    checks: tuple[Check, ...] = ()
+    cautions: tuple[str, ...] = ()
+    error: str = ""
+
+    @property
+    def passes(self) -> bool:
+        """Whether no check fails; what cannot be proved does not fail."""
+        return not self.error and all(c.passes is not False for c in self.checks)
+
+
+def verdict(path: str) -> Verdict:
+    """Judge one spec; a spec that cannot be read is a verdict too."""
+    try:
+        text = read(path)
+        spec = text.spec()
+        with text.located():
+            mechanism = build(spec)
+            told, proof = cautions(mechanism), None
+            if spec.is_flat:  # what has no flat parts is judged without NumPy
+                from geneva_cli.parts.proof import Proof
+                from geneva_cli.verdict.turn_cautions import turn_cautions
+
+                proof = Proof(mechanism)
+                told += turn_cautions(proof)
+            checks = tuple(judged(mechanism, proof))
+        return Verdict(spec.path, spec.files, checks, tuple(told))
+    except GenevaError as error:
+        return Verdict(path, error=str(error))
+
+
+def verdicts(paths: list[str]) -> Iterator[Verdict]:
+    """The verdicts on specs, in their order; standard input is read here, files anywhere."""
+    files = [path for path in paths if path != "-"]
+    workers = min(len(files), os.cpu_count() or 1)
+    if workers < 2:
+        yield from map(verdict, paths)
+        return
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
+    # A fork needs no second start of the program; where there is none, there is one.
+    methods = multiprocessing.get_all_start_methods()
+    context = multiprocessing.get_context("fork" if "fork" in methods else None)
+    with ProcessPoolExecutor(workers, context, _attend) as pool:
+        try:
+            found = pool.map(verdict, files)
+            for path in paths:
+                yield verdict(path) if path == "-" else next(found)
+        except BrokenProcessPool:
+            raise GenevaError(
+                "a process that checked some of the specs was ended from outside, or ran out of "
+                "memory; check fewer at a time"
+            ) from None
+
+
+def _attend() -> None:
+    """A worker ends with the program that started it, and by Ctrl-C, without a word of its own."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    threading.Thread(target=_leave, daemon=True).start()
+
+
+def _leave() -> None:
+    parent = multiprocessing.parent_process()
+    if parent:
+        parent.join()
+        os._exit(1)
+
+
+def checks_table(found: list[Verdict]) -> Table:
+    """One row a check, spec after spec."""
+    rows = [
+        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest)
+        for v in found
+        for c in v.checks
+    ]
+    return rows_table(NAMES, rows)

@@ -1,0 +1,141 @@
+"""The table of wheels: timing and peaks for each number of slots."""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.timing import Timing, timing
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.wheels import classic
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.spec.rules import SPEED, Z_MAX
+from geneva_cli.table import Table, rows_table
+
+NAMES = (
+    "z",
+    "gearing",
+    "rollers",
+    *Timing._fields,
+    "velocity_max",
+    "acceleration_max",
+    "acceleration_max_deg",
+    "acceleration_entry",
+    "jerk_entry",
+    "rollers_max",
+)
+SIGNS = {"external": 1.0, "internal": -1.0}  # the wheels with closed forms
+ROWS_MAX = 10_000
+SOLVED_MAX = 1_000  # of wheels without a closed form, whose peak is searched for: milliseconds each
+
+
+def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
+    """One row for each z in a text like ``6``, ``3..12`` or ``3,4,6``.
+
+    Raises GenevaError, naming the option, for a value out of its range.
+    """
+    if n_rpm not in SPEED:
+        raise GenevaError(f"--n {n_rpm:g}: the speed must be {SPEED}")
+    if not -1.0 < A < 1.0:
+        raise GenevaError(f"--A {A:g}: the side-crank's offset must be above -1 and below 1")
+    if rollers < 1:
+        raise GenevaError(f"--rollers {cut(rollers)}: a crank carries at least 1")
+    if rollers > 1 and A:
+        raise GenevaError(
+            "--rollers with --A: the engagements differ, so one row cannot describe them; write a "
+            'spec with kind = "side-crank" and use `geneva report`'
+        )
+    rows, wheels = [], parse_z(z)
+    solved = bool(A) or gearing not in SIGNS
+    if solved and len(wheels) > SOLVED_MAX:
+        what = "with --A" if A else "of spherical wheels"
+        raise GenevaError(
+            f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; ask for fewer"
+        )
+    for slots in wheels:
+        try:
+            if solved:
+                rows.append(_general(slots, gearing, n_rpm, rollers, A))
+            else:
+                rows.append(_classic(slots, gearing, SIGNS[gearing], n_rpm, rollers))
+        except GenevaError as error:
+            raise GenevaError(f"--z {slots}: {error}") from None
+    return rows_table(NAMES, rows)
+
+
+def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
+    """A row in closed form, without the machinery of motions."""
+    motion = 2.0 * classic.half_motion_deg(sign, 1, z)
+    classic.refuse_jam(rollers, motion, sign < 0.0)
+    l, cos_b = sin_cos_pi(1, z)
+    gap = classic.gap(sign, 1, z)
+    entry = l / cos_b  # the jump at entry is tan b, the jerk after it 3 tan² b
+    acceleration, at_deg = (
+        (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
+    )
+    return (
+        z,
+        gearing,
+        rollers,
+        *timing(motion, 360.0 / rollers - motion, 360.0 / z, n_rpm),
+        classic.velocity_peak(l, gap),
+        acceleration,
+        at_deg,
+        entry,
+        3.0 * entry * entry,
+        classic.rollers_max(motion),
+    )
+
+
+def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
+    """A row by the machinery of motions."""
+    from geneva_cli.analysis.peaks import acceleration_peak, ends, velocity_peak
+    from geneva_cli.analysis.timing import timings
+    from geneva_cli.machine import registry
+    from geneva_cli.machine.drives.crank import Crank
+    from geneva_cli.machine.drives.side_crank import SideCrank
+    from geneva_cli.machine.mechanism import build
+    from geneva_cli.machine.spec import Spec
+
+    drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)
+    mechanism = build(Spec(registry.gearing(gearing)(z), drive))
+    engagement = mechanism.engagements[0]
+    acceleration = acceleration_peak(engagement)
+    jumps = ends(engagement)
+    return (
+        z,
+        gearing,
+        rollers,
+        *timings(mechanism)[0],
+        velocity_peak(engagement).max,
+        acceleration.max,
+        abs(acceleration.at_deg),
+        jumps.acceleration_entry,
+        jumps.jerk_entry,
+        mechanism.rollers_max,
+    )
+
+
+def parse_z(text: str) -> list[int]:
+    """The numbers of slots in ``6``, ``3..12``, ``3,4,6`` or a mixture."""
+    out: list[int] = []
+    for part in text.split(","):
+        first, dots, last = part.partition("..")
+        low, high = _slots(first, text), _slots(last if dots else first, text)
+        if high < low:
+            raise GenevaError(f"--z {cut(text)}: {low}..{high} runs backwards; write {high}..{low}")
+        if len(out) + high - low >= ROWS_MAX:
+            raise GenevaError(f"--z {cut(text)}: that is more than {ROWS_MAX} rows; ask for fewer")
+        out.extend(range(low, high + 1))
+    return out
+
+
+def _slots(text: str, whole: str) -> int:
+    number = text.strip()
+    if not (number.isascii() and number.isdigit()):
+        raise GenevaError(
+            f'--z {cut(whole)}: "{cut(number)}" is not a whole number; write 6, 3..12 or 3,4,6'
+        )
+    z = int(number) if len(number) < 12 else Z_MAX + 1
+    if not 3 <= z <= Z_MAX:
+        raise GenevaError(
+            f"--z {cut(whole)}: z = {cut(number)} must be at least 3, at most {Z_MAX}"
+        )
+    return z

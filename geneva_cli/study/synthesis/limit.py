@@ -1,0 +1,139 @@
+"""The least A or eccentricity that brings a wheel's peak acceleration down to a limit.
+
+With f the crank's angle from mid-motion and f1(f) the drive's ratio, the wheel's acceleration is
+
+    G2(f) f1² + G1(f) f1 df1/df
+
+with G the plain wheel. Over f, and not over the input angle, both drives have short forms, and
+even a ratio near its limits is tame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeAlias
+
+from geneva_cli.machine.wheels.classic import gap, half_motion_deg
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
+from geneva_cli.study.synthesis.closed import MOST
+
+# parameter, sin f, cos f -> f1 and f2, the second derivative of f by the input angle
+Ratio: TypeAlias = Callable[[float, float, float], tuple[float, float]]
+Peak: TypeAlias = Callable[[float], float]
+
+SCAN = 64  # intervals over half the motion
+SHARE = (math.sqrt(5.0) - 1.0) / 2.0
+NARROW = 1e-8  # of an interval: a maximum is flat, so its value is then exact to the last digits
+WALK = (*(0.05 * i for i in range(20)), 0.98, 0.99, 0.999, MOST)  # outwards from the plain crank
+CLOSE = 1e-13  # of the parameter
+
+
+def side_crank(A: float, s: float, c: float) -> tuple[float, float]:
+    """Side-crank: f1 = C/rho, f2 = A (1-A²) sin f / rho³, C² = 1 - A² sin² f, rho = C + A cos f."""
+    minus = (1.0 - A) * (1.0 + A)
+    C, Ac = math.sqrt(c * c + minus * s * s), A * c
+    rho = C + Ac if Ac > 0.0 else minus / (C - Ac)
+    return C / rho, A * minus * s / rho**3
+
+
+def elliptical_gears(e: float, s: float, c: float) -> tuple[float, float]:
+    """Equal ellipses: f1 = (1 - 2 e cos f + e²)/(1-e²), e < 0 in the quick phase."""
+    minus = (1.0 - e) * (1.0 + e)
+    toward = 2.0 * e * (1.0 - c) if e > 0.0 else -2.0 * e * (1.0 + c)
+    f1 = ((1.0 - abs(e)) ** 2 + toward) / minus
+    return f1, f1 * 2.0 * e * s / minus
+
+
+def peak_of(wheel: Gearing, ratio: Ratio) -> Peak:
+    """The greatest size of the acceleration (invariant) as a function of the drive's parameter."""
+    z, sign = wheel.z, wheel.SIGN
+    l, _ = sin_cos_pi(1, z)
+    half = half_motion_deg(sign, 1, z) * DEGREE
+    rest = gap(1.0, 1, z)
+
+    def size(x: float, f: float) -> float:
+        sine, cosine = math.sin(0.5 * f), math.cos(0.5 * f)
+        s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+        near = sine if sign > 0.0 else cosine
+        D = rest * rest + 4.0 * l * near * near
+        f1, f2 = ratio(x, s, c)
+        return abs(l * (c - sign * l) / D * f2 - l * rest * (1.0 + l) * s / (D * D) * f1 * f1)
+
+    def peak(x: float) -> float:
+        places = [half * i / SCAN for i in range(SCAN + 1)]
+        values = [size(x, f) for f in places]
+        best = values[-1]
+        for i in range(1, SCAN):
+            if values[i] >= values[i - 1] and values[i] >= values[i + 1]:
+                low, high = places[i - 1], places[i + 1]
+                best = max(best, -_least(lambda f: -size(x, f), low, high)[1])
+        return best
+
+    return peak
+
+
+def _least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
+    """Place and value of the one minimum between a and b, by golden section."""
+    width = b - a
+    left, right = b - SHARE * (b - a), a + SHARE * (b - a)
+    at_left, at_right = f(left), f(right)
+    while b - a > NARROW * width:
+        if at_left < at_right:
+            b, right, at_right = right, left, at_left
+            left = b - SHARE * (b - a)
+            at_left = f(left)
+        else:
+            a, left, at_left = left, right, at_right
+            right = a + SHARE * (b - a)
+            at_right = f(right)
+    return (left, at_left) if at_left < at_right else (right, at_right)
+
+
+def least_parameter(peak: Peak, limit: float) -> tuple[float | None, float]:
+    """The parameter of least size with peak <= limit, and the least peak seen on the way.
+
+    The plain crank (parameter 0) is above the limit. From it the walk goes to either side while
+    the peak falls; None where it turns up again before it has reached the limit.
+    """
+    found, lowest = None, math.inf
+    for side in (1.0, -1.0):
+        x, least = _walk(lambda t, side=side: peak(side * t), limit)  # type: ignore[misc]
+        lowest = min(lowest, least)
+        if x is not None and (found is None or x < abs(found)):
+            found = side * x
+    return found, lowest
+
+
+def _walk(peak: Peak, limit: float) -> tuple[float | None, float]:
+    values = [peak(0.0)]
+    for i in range(1, len(WALK)):
+        values.append(peak(WALK[i]))
+        if values[i] <= limit:
+            return _crossing(peak, limit, WALK[i - 1], WALK[i]), values[i]
+        if values[i] > values[i - 1]:
+            back = max(i - 2, 0)
+            x, least = _least(peak, WALK[back], WALK[i])
+            return (_crossing(peak, limit, WALK[back], x) if least <= limit else None), least
+    return None, values[-1]
+
+
+def _crossing(peak: Peak, limit: float, above: float, below: float) -> float:
+    """Where the peak comes down to the limit, from below: regula falsi, with Illinois' halving."""
+    f_a, f_b = peak(above) - limit, peak(below) - limit
+    kept = 0
+    while abs(below - above) > CLOSE and f_b < 0.0:
+        x = below - f_b * (below - above) / (f_b - f_a)
+        if not min(above, below) < x < max(above, below):
+            break
+        f = peak(x) - limit
+        if f <= 0.0:
+            below, f_b = x, f
+            f_a = 0.5 * f_a if kept == 1 else f_a
+            kept = 1
+        else:
+            above, f_a = x, f
+            f_b = 0.5 * f_b if kept == -1 else f_b
+            kept = -1
+    return below

@@ -1,0 +1,47 @@
+"""A machine found by synthesis as a spec to go on with: the wish, the machine and its costs."""
+
+from __future__ import annotations
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.spec import Spec
+from geneva_cli.specfile.writer import written
+from geneva_cli.study.synthesis.built import Built, built
+from geneva_cli.study.synthesis.search import Way
+from geneva_cli.study.synthesis.target import Wish
+
+COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
+
+
+def chosen(wish: Wish, ways: list[tuple[Spec, Way]], number: int) -> tuple[Built, str]:
+    """Row ``number`` of what ``synthesis(wish)`` found: the spec, and its text with comments.
+
+    The parts are turned through a whole turn, unless it is known that they cannot be built. Raises
+    GenevaError where there is no such row.
+    """
+    if not 1 <= number <= len(ways):
+        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ways)}")
+    spec, way = ways[number - 1]
+    no, _, why = (way.parts or "").partition(": ")
+    found = Built(spec, f"its parts cannot be built: {why}") if no == "no" else built(spec)
+    return found, commented(wish, number, way, found)
+
+
+def commented(wish: Wish, number: int, way: Way, found: Built) -> str:
+    """The text of a spec that synthesis found."""
+    return "\n".join([*_heading(wish, number, way, found), *written(found.spec)]) + "\n"
+
+
+def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
+    z = f"{way.z} slots, {way.gearing}"
+    slots = f"curved slots ({way.law})" if way.law else way.drive
+    lines = [
+        f'title = "{wish.words}: {z}, {slots}"',
+        "",
+        f"# Row {number} of `geneva synth`. It moves for {way.motion_deg:.7g} deg of the input and",
+        f"# rests for {way.dwell_deg:.7g}: tau = {way.tau:.7g}, k = {way.k:.7g}.",
+        "# Invariants: " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[:3]) + ",",
+        "# " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[3:]) + ".",
+    ]
+    if found.trouble:
+        lines.append(f"# Beware: {found.trouble}.")
+    return lines

@@ -1,0 +1,1 @@
+"""Is it good: checks, advice, cautions, the report."""

@@ -1,0 +1,143 @@
+"""What a designer must be told without asking: each caution says what, where and what helps."""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.peaks import QUANTITIES, peak
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.pitch_curve import retraces
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.roots import extrema
+from geneva_cli.spec.tables import Z_USUAL
+
+SHOWN_DOUBT = 0.01  # share of the greatest jerk
+SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
+
+
+def cautions(mechanism: Mechanism) -> list[str]:
+    """Everything that a number alone would hide."""
+    out = []
+    z = mechanism.spec.wheel.z
+    if z > Z_USUAL:
+        out.append(f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them")
+    if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
+        out.append(
+            "nothing holds the wheel in the dwell: there is no locking disc, and the spec names "
+            'nothing else (held_by = "brake", "detent" or "pin" in [wheel])'
+        )
+    engagement = mechanism.engagements[0]
+    out.extend(_rounded_points(mechanism))
+    law = mechanism.law
+    if law is None:
+        return out
+    back = turns_back(mechanism)
+    if back:
+        out.append(
+            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; {law.TURNS_BACK}"
+        )
+    if engagement.slot.curved and not retraces(engagement):
+        out.append(_off_the_mid_condition(mechanism))
+    if max(abs(half(0.0, 2).c[2]) for half in (law.first, law.second)) > 1e-9:
+        out.append(
+            f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
+            "both ends"
+        )
+    if engagement.slot.curved:
+        out.extend(_loose(mechanism))
+    out.extend(_undercut(mechanism))
+    return out
+
+
+def _no_lock(mechanism: Mechanism) -> bool:
+    return mechanism.spec.size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS
+
+
+def _rounded_points(mechanism: Mechanism) -> list[str]:
+    """What the points of a file, as rounded as they are, leave unknown of the jerk."""
+    engagement, law = mechanism.engagements[0], mechanism.law
+    top = peak(engagement.motion, "velocity")  # of a ratio, the crank's jerk counts there most
+    ratio = mechanism.spec.drive.doubt(engagement.mid_deg + top.at_deg)
+    points = law.doubt() if law else None
+    if ratio:
+        decimals, move = ratio.decimals, ratio.move * top.max
+    elif points:
+        whole = (engagement.motion_deg * DEGREE) ** 3
+        decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
+    else:
+        return []
+    share = move / peak(engagement.motion, "jerk").max
+    if share < SHOWN_DOUBT:
+        return []
+    return [
+        f"the points are given to {decimals} decimals; jerk is known to about "
+        f"{float(f'{100.0 * share:.2g}'):g} %: more decimals, or fewer points, make it better known"
+    ]
+
+
+def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
+    """The least velocity and its input angle, where the wheel turns against its direction."""
+    engagement, pick = mechanism.engagements[0], QUANTITIES["velocity"]
+    motion = engagement.motion
+
+    def curve(x: float) -> tuple[float, float, float]:
+        v, a, j = pick(motion(x, 3).derivatives())
+        return v, a * DEGREE, j * DEGREE * DEGREE
+
+    breaks = motion.breaks_deg
+    places = [
+        x for a, b in zip(breaks, breaks[1:], strict=False) for x in (*extrema(curve, a, b), b)
+    ]
+    least = min(places, key=lambda x: curve(x)[0])
+    # Rounding leaves a law that stands still a few units in its last place on either side of 0.
+    noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
+    value = curve(least)[0]
+    at_deg = mechanism.shown_deg(engagement.mid_deg + least)
+    return (value, at_deg) if value < -noise else None
+
+
+def _off_the_mid_condition(mechanism: Mechanism) -> str:
+    matched = mechanism.matched_ratio
+    helps = (
+        f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
+        if matched is not None
+        else "no R/L avoids it with this law and motion angle"
+    )
+    return (
+        f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
+        "condition, so without friction the pin force there has no bound unless the torque is "
+        f"zero; {helps}"
+    )
+
+
+def _loose(mechanism: Mechanism) -> list[str]:
+    from geneva_cli.analysis.positive_drive import positive_drive
+
+    drive = positive_drive(mechanism)
+    if drive is None or not drive.loose_deg:
+        return []
+    where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in drive.loose_deg)
+    return [
+        f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): the "
+        "wall that the torque needs there is cut away by the slot's other branch, up to "
+        f'{drive.loose_gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, and '
+        "less torque_Nm against the inertia makes the interval shorter"
+    ]
+
+
+def _undercut(mechanism: Mechanism) -> list[str]:
+    from geneva_cli.analysis.undercut import undercut
+
+    found = undercut(mechanism)
+    if found is None or found.depth_mm < SHOWN_UNDERCUT:
+        return []
+    r = mechanism.roller_radius_mm + mechanism.spec.size.slot_clearance_mm
+    free = found.radius_mm - mechanism.spec.size.slot_clearance_mm
+    helps = (
+        "a smaller roller or a longer motion makes it less"
+        if found.to_cusp or free <= 0.0
+        else f"a roller radius below {free:.4g} mm avoids it"
+    )
+    return [
+        f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} deg: "
+        f"the roller's {r:.4g} mm exceed the radius of curvature, {found.radius_mm:.4g} mm at "
+        f"{found.at_deg:.4g} deg, and cut the wall back by {found.depth_mm:.3g} mm; {helps}"
+    ]

@@ -1,0 +1,53 @@
+"""What a designer must be told about loads: which have no bound, and limits that none keeps."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.machine.mechanism import Mechanism
+
+
+def load_cautions(mechanism: Mechanism) -> list[str]:
+    """Cautions that need the loads, which are looked for only where they are shown."""
+    load = mechanism.spec.load
+    out = []
+    if load.inertia_kgm2 or load.torque_Nm:
+        out = [*_jammed(mechanism), *_on_an_edge(mechanism)]
+    if loads.fastest_rpm(mechanism) is None:
+        out.append(_no_speed(mechanism))
+    return out
+
+
+def _jammed(mechanism: Mechanism) -> list[str]:
+    force = loads.greatest(mechanism, "pin_force_N")
+    friction = mechanism.spec.load.friction
+    if not friction or math.isfinite(force.max):
+        return []
+    return [
+        f"friction of {friction:g} holds the wheel at {force.at_deg:.4g} deg: it takes as much "
+        "torque from the wheel as the wall gives, however hard the roller presses; a smaller "
+        "roller or less friction avoids it"
+    ]
+
+
+def _on_an_edge(mechanism: Mechanism) -> list[str]:
+    stress = loads.greatest(mechanism, "contact_stress_MPa")
+    force = loads.greatest(mechanism, "pin_force_N")
+    if math.isfinite(stress.max) or not math.isfinite(force.max):
+        return []
+    return [
+        f"contact stress without bound at {stress.at_deg:.4g} deg: the wall that bears there is as "
+        "sharp as the roller, undercut towards mid-motion, and ends in an edge; less of it "
+        'bears with a smaller roller, and none in straight slots (kind = "cam" for any law)'
+    ]
+
+
+def _no_speed(mechanism: Mechanism) -> str:
+    keys = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")
+    limits = loads.load_limits(mechanism.spec.limits)
+    given = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
+    return (
+        f"no speed keeps {given}, so there is no shortest motion: the resisting torque alone takes "
+        "more, or nothing bounds the load; a larger machine or less torque_Nm helps"
+    )

@@ -1,0 +1,29 @@
+"""What a designer must be told about a whole turn that breaks no limit."""
+
+from __future__ import annotations
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.turn.full_turn import SAME
+from geneva_cli.verdict.clearances import motion_play_max
+
+
+def turn_cautions(proof: Proof) -> list[str]:
+    """Cautions of the parts' whole turn; none where there is no such turn."""
+    if not proof.mechanism.spec.is_flat:
+        return []
+    try:
+        ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.found)
+    except GenevaError:
+        return []
+    # What is free both ways is play, which has a limit of its own.
+    free = max(ahead.deg, behind.deg)
+    if free <= limit or proof.turn.motion.deg >= free * (1.0 - SAME):
+        return []
+    first = ahead.deg >= behind.deg * (1.0 - SAME)
+    way, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
+    helps = "a load that overruns the roller" if first else "a load that holds back"
+    return [
+        f"in its slot the wheel is free {way} by {free:.4g} deg at {at_deg:.4g} deg, where one "
+        f"wall alone drives it: {helps} meets a corner; friction or a brake keeps it on that wall"
+    ]

@@ -1,0 +1,240 @@
+"""The greatest loads: none is stepped over, all are refined, and what has no bound says so."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from witness import mp
+from words import Drive, Keys, Motion, Spec, Wheel
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.peaks import worst
+from geneva_cli.machine.mechanism import build
+from geneva_cli.numerics.scan import hopeful, scan
+from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.verdict.load_cautions import load_cautions
+from geneva_cli.verdict.report import report
+
+OMEGA = 2.0 * math.pi
+BOTH = Load(0.02, 3.0, friction=0.1)
+WIDE = Size(100.0, 5.0, face_width_mm=10.0)
+
+
+def crank(z, gearing="external", load=BOTH, **wheel):
+    return Spec(Wheel(z, gearing, **wheel), size=WIDE, load=load)
+
+
+def side(z, A, gearing="internal", load=BOTH):
+    drive = Drive("side-crank")
+    return Spec(Wheel(z, gearing), drive, Keys("side-crank", A), size=WIDE, load=load)
+
+
+def elliptical(z, e, gearing, load=BOTH):
+    drive = Drive("elliptical-gears")
+    return Spec(Wheel(z, gearing), drive, Keys("elliptical-gears", e), size=WIDE, load=load)
+
+
+def curved(law, ratio=None, load=BOTH, z=6, alpha0=0.0):
+    motion = Motion(law, alpha0_deg=alpha0, ratio=ratio)
+    return Spec(Wheel(z), motion=motion, size=WIDE, load=load)
+
+
+INERTIA = Load(0.05)
+NARROW = [
+    side(5, 0.97, load=INERTIA),
+    side(3, 0.9999, load=INERTIA),
+    side(6, -0.999, "external", load=INERTIA),
+    elliptical(4, 0.95, "internal", load=INERTIA),
+    elliptical(4, 0.9999, "internal", load=INERTIA),
+    elliptical(6, 0.98, "external", load=INERTIA),
+]
+
+
+@pytest.mark.parametrize("spec", NARROW, ids=lambda s: f"{s.drive.NAME} z={s.wheel.z}")
+def test_inertia_alone_takes_the_peaks_of_the_motion(spec):
+    """T1 = I w² psi' psi'' and T = I w² psi'', whose peaks have a search of their own: 64 ulp."""
+    mechanism = build(spec)
+    motion, scale = worst(mechanism), 0.05 * OMEGA**2
+    shaft = loads.greatest(mechanism, "input_torque_Nm")
+    assert shaft.max == pytest.approx(scale * motion.power.max, rel=2e-14)
+    assert loads.kinetic_power_W(mechanism, motion.power.max) == pytest.approx(
+        shaft.max * OMEGA, rel=2e-14
+    )
+    torque = loads.greatest(mechanism, "torque_Nm")
+    assert torque.max == pytest.approx(scale * motion.acceleration.max, rel=2e-14)
+
+
+MIXED = [
+    crank(5),
+    crank(4, "internal"),
+    crank(6, offset_mm=-30.0),
+    crank(6, load=Load(0.0, 3.0, friction=0.3)),
+    crank(6, "spherical", axes_deg=70.0),
+    side(5, 0.9),
+    elliptical(6, 0.9, "external"),
+    curved("cycloidal", z=5, alpha0=-17.42),
+    curved("3-4-5", "matched"),
+    curved("modified-trapezoid", "matched", Load(1.0, 1.0)),
+]
+
+
+@pytest.mark.parametrize("spec", MIXED, ids=range(len(MIXED)))
+def test_against_a_dense_grid(spec):
+    """A grid never exceeds what is found, but by rounding, and a fine one comes near to it.
+
+    Near where friction turns round the force is steep, and ends in a jump: 2e-3 for the grid.
+    """
+    mechanism = build(spec)
+    engagement = mechanism.engagements[0]
+    breaks = engagement.motion.breaks_deg
+    near = np.geomspace(1e-6, 1.0, 300)
+    grids = [np.linspace(a, b, 3001)[1:-1] for a, b in pairwise(breaks)]
+    x = np.concatenate([*grids, near, -near, breaks[:1], breaks[-1:]])
+    every = loads.state(mechanism, engagement, x)
+    for quantity, values in every._asdict().items():
+        found = loads.greatest(mechanism, quantity).max
+        most = float(np.max(np.abs(values)))
+        assert found >= most * (1.0 - 1e-12), quantity
+        assert found <= most * 1.002 or math.isinf(found), quantity
+
+
+def test_place_and_value_of_a_peak_with_friction():
+    """N = |T| / (rho - r f s) and T1 = T psi' + f N |v| of an external wheel, in 50 digits.
+
+    The place is a root of the slope: as sure as the motion's own, 1e-13 of the motion.
+    """
+    mechanism = build(crank(6, load=Load(0.02, 3.0, friction=0.2)))
+    l, r, f, w = mp.mpf(1) / 2, mp.mpf(5) / 100, mp.mpf(0.2), 2 * mp.pi
+
+    def psi(a):
+        return mp.atan2(l * mp.sin(a), 1 - l * mp.cos(a))
+
+    def rho(a):
+        return mp.sqrt(1 - 2 * l * mp.cos(a) + l * l)
+
+    def torque(a):
+        return mp.mpf(0.02) * w * w * mp.diff(psi, a, 2) + 3
+
+    def rubs(a):  # on the way in, where the wheel is driven
+        return mp.diff(rho, a) + (1 + mp.diff(psi, a)) * r
+
+    def force(a):
+        return torque(a) / (rho(a) - r * f * mp.sign(rubs(a))) / mp.mpf("0.1")
+
+    def shaft(a):
+        return torque(a) * mp.diff(psi, a) + f * force(a) * abs(rubs(a)) * mp.mpf("0.1")
+
+    for quantity, of in (("pin_force_N", force), ("input_torque_Nm", shaft)):
+        found = loads.greatest(mechanism, quantity)
+        with mp.workdps(60):
+            at = mp.findroot(lambda a, of=of: mp.diff(of, a), math.radians(found.at_deg))
+            assert found.at_deg == pytest.approx(float(mp.degrees(at)), abs=1e-11)
+            assert found.max == pytest.approx(float(of(at)), rel=4e-15)
+
+
+def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
+    """The press with curved slots: 544 MPa at -1.93 deg was only where the search stopped."""
+    size, load = Size(441.89, 20.0, face_width_mm=30.0), Load(6.484556, 497.0)
+    mechanism = build(Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=size))
+    mechanism = mechanism._replace(spec=mechanism.spec.but(load=load))
+    engagement = mechanism.engagements[0]
+    assert loads.state(mechanism, engagement, -1.0).contact_stress_MPa == pytest.approx(
+        2179.5, abs=0.1
+    )
+    found = loads.greatest(mechanism, "contact_stress_MPa")
+    assert math.isinf(found.max)
+    # The radius of curvature is the roller's there, by differences of the pitch curve in 50 digits.
+    l, b = mp.mpf(1) / 2, mp.pi / 6
+
+    def pitch(x):
+        u = x / (4 * b) + mp.mpf(1) / 2
+        psi = 2 * b * (u - mp.sin(2 * mp.pi * u) / (2 * mp.pi) - mp.mpf(1) / 2)
+        return (1 - l * mp.expj(-x)) * mp.expj(-psi)
+
+    at = mp.radians(found.at_deg)
+    first, second = mp.diff(pitch, at), mp.diff(pitch, at, 2)
+    radius = abs(first) ** 3 / abs((mp.conj(first) * second).imag)
+    assert float(radius) == pytest.approx(20.0 / 441.89, rel=1e-11)
+    assert any("without bound" in text for text in load_cautions(mechanism))
+
+
+@pytest.mark.parametrize(
+    "load",
+    [Load(0.02), Load(0.02, 3.0), Load(0.02, 3.0, friction=0.2, efficiency=0.9)],
+)
+@pytest.mark.parametrize(
+    ("key", "quantity", "limit"),
+    [
+        ("pin_force_max_N", "pin_force_N", 120.0),
+        ("input_torque_max_Nm", "input_torque_Nm", 6.0),
+        ("contact_stress_max_MPa", "contact_stress_MPa", 260.0),
+    ],
+)
+@pytest.mark.parametrize("spec", [crank(5), curved("3-4-5", "matched"), side(5, 0.5)])
+def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
+    """Solved at each place, not searched for: the load there is the limit to 64 ulp."""
+    mechanism = build(spec.but(load=load, limits=Limits(**{key: limit})))
+    n = loads.fastest_rpm(mechanism)
+    if spec.motion and quantity == "contact_stress_MPa":
+        assert n is None  # without bound beside the cusp
+        return
+    assert n is not None
+    again = build(mechanism.spec.but(drive=spec.drive.but(n_rpm=n)))
+    assert loads.greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
+
+
+def test_a_limit_that_no_speed_keeps():
+    """The resistance alone takes 100 N at mid-motion."""
+    mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
+    assert loads.fastest_rpm(mechanism) is None
+    assert any("no speed keeps pin_force_max_N = 20" in t for t in load_cautions(mechanism))
+    table = report(mechanism).table
+    row = dict(zip(table.names, table.columns, strict=True))
+    assert list(row["timing.shortest_motion_s"]) == [None]
+
+
+def test_off_the_mid_condition_no_speed_keeps_a_force():
+    limits = Limits(pin_force_max_N=1e4)
+    mechanism = build(curved("modified-sine", 0.4, Load(0.02, 3.0)).but(limits=limits))
+    assert loads.fastest_rpm(mechanism) is None
+
+
+def test_limits_that_any_speed_keeps():
+    mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=200.0)))
+    assert math.isinf(loads.fastest_rpm(mechanism))
+    assert not load_cautions(mechanism)
+
+
+def test_friction_that_holds_the_wheel():
+    """r f > rho at mid-motion: no pin force turns the wheel, and a caution says so."""
+    mechanism = build(crank(3, load=Load(0.0, 3.0, friction=3.0)))
+    found = loads.greatest(mechanism, "pin_force_N")
+    assert math.isinf(found.max)
+    engagement = mechanism.engagements[0]
+    beside = [
+        loads.state(mechanism, engagement, found.at_deg + x).pin_force_N for x in (-1e-6, 1e-6)
+    ]
+    assert max(beside) == math.inf
+    assert 1e6 < min(beside) < math.inf
+    assert any("friction of 3 holds the wheel" in text for text in load_cautions(mechanism))
+
+
+@pytest.mark.parametrize("width", [1e-2, 1e-5, 1e-9])
+def test_a_scan_sees_narrow_peaks(width):
+    """Beside an end however narrow; anywhere as wide as roots.extrema would see."""
+
+    def peak(x, span):
+        y = (x + 1.0) / width
+        value = y * np.exp(1.0 - y)
+        return np.array([value]), np.array([(1.0 - y) * np.exp(1.0 - y) / width])
+
+    found = scan(peak, [(-1.0, 2.0)])
+    assert found.value.max() > 0.97
+    (i,) = hopeful(found, 0)
+    assert found.x[i] <= -1.0 + width <= found.x[i + 1]
+
+
+def test_a_setting_knows_no_stress_without_a_width():
+    assert setting(build(Spec(Wheel(6)))).hertz is None

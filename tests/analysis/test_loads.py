@@ -1,0 +1,90 @@
+"""Forces, torque and stress: published comparisons, and balances that must close."""
+
+import math
+
+import numpy as np
+import pytest
+from words import Drive, Motion, Spec, Wheel
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.tables import Load, Size
+
+OMEGA = 2.0 * math.pi
+# Krasniqi's press: peak inertia torque 345.2 N m on straight slots, resisting torque 497 N m.
+PRESS = Spec(
+    Wheel(6),
+    Drive(n_rpm=60.0),
+    size=Size(441.89, 20.0, face_width_mm=30.0),
+    load=Load(345.2 / 1.349637275901903 / OMEGA**2, 497.0),
+)
+
+
+def pin_force(motion: Motion) -> float:
+    return loads.greatest(build(PRESS.but(motion=motion)), "pin_force_N").max
+
+
+def test_the_press_with_straight_slots() -> None:
+    """Krasniqi: 3433 N, at 17.07 degrees before mid-motion (theory of the straight slot)."""
+    found = loads.greatest(build(PRESS), "pin_force_N")
+    assert found.max == pytest.approx(3433.0, abs=0.5)
+    assert found.at_deg == pytest.approx(-17.07, abs=0.005)
+    # Hertz for 3433 N, 30 mm, roller of 20 mm, E = 210 GPa: 458.4 MPa
+    assert loads.greatest(build(PRESS), "contact_stress_MPa").max == pytest.approx(458.4, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("motion", "newtons"),
+    [
+        (Motion("cycloidal", ratio=0.5), 3385.0),
+        (Motion("3-4-5", ratio="matched"), 3100.0),
+        (Motion("cycloidal", alpha0_deg=-40.0, ratio="matched"), 2439.0),
+        (Motion("sine-group", alpha0_deg=-40.0, ratio="matched"), 3432.0),
+        (Motion("sine-group", ratio="matched"), 5379.0),
+    ],
+)
+def test_the_press_with_curved_slots(motion: Motion, newtons: float) -> None:
+    """The comparison that the published force table could not give; rounded to 1 N."""
+    assert pin_force(motion) == pytest.approx(newtons, abs=0.6)
+
+
+def test_off_the_mid_condition_the_force_has_no_bound() -> None:
+    assert math.isinf(pin_force(Motion("sine-group", ratio=0.5)))
+
+
+def test_near_mid_motion_it_grows_as_published() -> None:
+    """23.9 kN one degree before mid-motion, 2.1 MN a hundredth before it."""
+    mechanism = build(PRESS.but(motion=Motion("sine-group", ratio=0.5)))
+    engagement = mechanism.engagements[0]
+    assert loads.state(mechanism, engagement, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
+    # printed to two digits, cut off
+    assert loads.state(mechanism, engagement, -0.01).pin_force_N == pytest.approx(2.15e6, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("z", "force", "power"),
+    [
+        (3, 206.55191627986100319, 159.3141681653509548),
+        (6, 2.3911331461217286559, 0.99033003352939846981),
+        (24, 0.15033377172524891233, 0.01276713326923606),
+    ],
+)
+def test_inertia_factors(z: int, force: float, power: float) -> None:
+    """F L/(I w²) and T/(I w²) of external wheels under inertia alone, 20 digits elsewhere.
+
+    16 ulp, for a peak that grows with 1/(1 - sin b)³.
+    """
+    spec = Spec(Wheel(z), Drive(n_rpm=30.0 / math.pi), size=Size(1000.0), load=Load(1.0))
+    mechanism = build(spec)
+    assert loads.greatest(mechanism, "pin_force_N").max == pytest.approx(force, rel=4e-15)
+    assert loads.greatest(mechanism, "input_torque_Nm").max == pytest.approx(power, rel=4e-15)
+
+
+def test_power_closes_over_a_cycle() -> None:
+    """Without friction the input's work over a motion is the resisting torque's alone."""
+    mechanism = build(PRESS)
+    engagement = mechanism.engagements[0]
+    x, weights = np.polynomial.legendre.leggauss(60)
+    torque = [loads.state(mechanism, engagement, float(60.0 * t)).input_torque_Nm for t in x]
+    work = float(np.dot(torque, weights)) * math.radians(60.0)
+    assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves

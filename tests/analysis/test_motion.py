@@ -1,0 +1,97 @@
+"""The motion table: windows, dwell, several engagements, mirroring, and arrays in closed form."""
+
+import math
+
+import numpy as np
+import pytest
+from words import Drive, Keys, Motion, Spec, Wheel
+
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.machine.mechanism import Mechanism, build
+
+WHEELS = [
+    Spec(Wheel(6)),
+    Spec(Wheel(5, "internal")),
+    Spec(Wheel(4), Drive(rollers=3)),
+    Spec(Wheel(6), Drive("side-crank", rollers=2), Keys("side-crank", 0.6)),
+    Spec(Wheel(8), Drive("side-crank", rollers=2), Keys("side-crank", -0.4)),
+    Spec(Wheel(6), motion=Motion("modified-sine", ratio="matched")),
+    Spec(Wheel(6), motion=Motion("sine-group", 0.1, alpha0_deg=-20.0)),
+]
+
+
+def columns(mechanism: Mechanism, samples: int) -> dict[str, np.ndarray]:
+    table = motion_table(mechanism, samples)
+    return dict(zip(table.names, (np.asarray(c) for c in table.columns), strict=True))
+
+
+@pytest.mark.parametrize("spec", WHEELS)
+@pytest.mark.parametrize("samples", [2, 3, 361, 1000])
+def test_a_period(spec: Spec, samples: int) -> None:
+    mechanism = build(spec)
+    at = columns(mechanism, samples)
+    engagement = mechanism.engagements[0]
+    assert len(at["input_deg"]) == samples
+    assert at["input_deg"][0] == engagement.entry_deg
+    assert at["input_deg"][-1] == engagement.entry_deg + mechanism.period_deg
+    assert at["velocity"][0] == 0.0
+    assert (at["velocity"][-1], at["acceleration"][-1], at["jerk"][-1]) == (0.0, 0.0, 0.0)
+    # the wheel ends a whole number of steps further, to the rounding of the sum of degrees
+    steps = len(mechanism.engagements)
+    assert at["wheel_deg"][-1] - at["wheel_deg"][0] == pytest.approx(
+        steps * mechanism.index_deg(0), abs=1e-12
+    )
+    assert at["time_s"][-1] == pytest.approx(mechanism.period_deg / 360.0, rel=1e-15)
+    if mechanism.law is None or mechanism.law.NAME != "sine-group":
+        assert (np.diff(at["wheel_deg"]) >= -1e-12).all()
+
+
+@pytest.mark.parametrize("spec", WHEELS)
+def test_dwell_is_still_and_motion_is_not(spec: Spec) -> None:
+    mechanism = build(spec)
+    at = columns(mechanism, 7201)
+    moving = np.zeros(7201, dtype=bool)
+    for s in mechanism.engagements:
+        local = at["input_deg"] - s.mid_deg
+        inside = (local > s.entry_deg + 1e-9) & (local < s.exit_deg - 1e-9)
+        outside = (local < s.entry_deg - 1e-9) | (local > s.exit_deg + 1e-9)
+        moving |= inside | ~outside
+        # every row is the engagement's own motion, evaluated one by one
+        for i in np.flatnonzero(inside)[::97]:
+            value = s.motion(float(local[i])).derivatives()
+            for name, order in (("velocity", 1), ("acceleration", 2), ("jerk", 3)):
+                scale = np.abs(at[name]).max()
+                # the row's angle in the machine is rounded once more: 1e-13 of the peak
+                assert at[name][i] == pytest.approx(value[order], abs=2e-13 * scale)
+    for name in ("velocity", "acceleration", "jerk"):
+        assert (at[name][~moving] == 0.0).all()
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("z", [3, 4, 7, 24, 1000])
+def test_the_closed_forms_of_arrays_agree_with_the_jets(z: int, gearing: str) -> None:
+    """Two formulas for one wheel. The angle's rounding counts x q'(x): 8 ulp of the peak times
+    that condition number, here bounded by 10."""
+    engagement = build(Spec(Wheel(z, gearing))).engagements[0]
+    for count in (4001, 4000, 1, 2):
+        whole = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+        for x in (whole, whole + 0.001, whole[: count // 2 + 1]):
+            fast = engagement.motion.derivatives(x, (0, 1, 2, 3))
+            exact = engagement.motion(x).derivatives()
+            half = math.radians(engagement.exit_deg)
+            for order, (a, b) in enumerate(zip(fast, exact, strict=True)):
+                peak = np.abs(
+                    engagement.motion(np.linspace(-1, 1, 999) * engagement.exit_deg).c[order]
+                )
+                condition = max(1.0, half * 3.0)
+                limit = 8.0 * condition * np.spacing(peak.max() * (1, 1, 2, 6)[order])
+                assert np.abs(a - b).max() <= limit
+
+
+def test_what_is_not_asked_for_is_not_computed() -> None:
+    engagement = build(Spec(Wheel(6))).engagements[0]
+    x = np.linspace(-60.0, 60.0, 101)
+    velocity, acceleration = engagement.motion.derivatives(x, (1, 2))
+    both = engagement.motion.derivatives(x)
+    assert (velocity == both[1]).all()
+    assert (acceleration == both[2]).all()

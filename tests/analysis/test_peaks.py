@@ -1,0 +1,200 @@
+"""Peaks and the angles where they occur, against roots found at 50 digits.
+
+The program finds a peak as a root of the next derivative; the witness brackets on its own grid and
+solves on its own formulas. Tables: the reference values of the theory notes (sections 5.4 and 7).
+"""
+
+import math
+
+import numpy as np
+import pytest
+from witness import QUANTITIES, Geneva, mp, near
+
+from geneva_cli.analysis.peaks import ends, peaks, worst
+
+OFFSETS = (-0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.99)
+NAMES = ("velocity", "acceleration", "jerk", "power")
+
+# 4e-15: a jerk comes out within 8 units in the last place of its peak, 8 * 2.2e-16, and a power is
+# the product of two such; a peak is flat, so its angle adds nothing.
+SIZE = 4e-15
+# 1e-8 degrees: a root is found where the slope's own error, some 1e-15 of its size, hides it.
+PLACE = 1e-8
+
+# z, cos of the peak's angle, that angle in degrees, peak acceleration, jerk at mid-motion
+EXTERNAL = """
+3 0.996553622037419094304167261723 4.75821311826633434374527484246 31.3924284702813609901161808418 -672.017856668362194944324590252
+4 0.980050660809410865234721636772 11.4637454313151650552225394085 5.40698103455192576862160455047 -48.0416305603426158296287083116
+5 0.953341247550019990406238978527 17.5714443533723066993145026646 2.29882823962413395578841138815 -13.3241610374392728761770615911
+6 0.92116460960662270618302869599 22.9030618658217381511681048948 1.34963727590190292442655173495 -6.0
+7 0.88656738611950125283631125669 27.554974188635455378907160536 0.928398267082495047041344616843 -3.4290232135429237619098768382
+8 0.851338135723071788652244342251 31.6424879611994721630111531726 0.699756984127683817470288333179 -2.24925462046267799288906279177
+9 0.81651680383114434229732569592 35.2623827282642792068188720814 0.559083460778362177145209583212 -1.61128707738600745905099209148
+10 0.782703507024034035427205891058 38.4912231966851058095584688356 0.464843871769375754206503462789 -1.22609903369994111499456862724
+12 0.719283526906053374501884089027 44.004641266992458799016128311 0.347654992164151547150590140853 -0.80017832189612442801760311219
+16 0.611292979718669531534047162074 52.3169473528302575293981843972 0.232324835383846757938070191559 -0.447090052617519626739705707206
+24 0.459227547480624029936556399621 62.6627262209543140900986419408 0.141601865606852714465743031775 -0.224496092418827729487947241155
+"""  # noqa: E501
+# z, R/L, peak velocity l/(1-l), acceleration tan(pi/z) and jerk 3 tan^2(pi/z) at entry
+CONSTANTS = """
+3 0.866025403784438646763723170753 6.46410161513775458705489268301 1.73205080756887729352744634151 9.0
+4 0.707106781186547524400844362105 2.41421356237309504880168872421 1.0 3.0
+5 0.587785252292473129168705954639 1.42591999815959135206554296613 0.726542528005360885895466757481 1.58359213500126182154495798761
+6 0.5 1.0 0.577350269189625764509148780502 1.0
+7 0.433883739117558120475768332848 0.766421615307844345886685048917 0.481574618807528644332162353057 0.695742340438849564466221235975
+8 0.38268343236508977172845998403 0.619914404421775020511016076969 0.41421356237309504880168872421 0.514718625761429707189867654742
+9 0.342020143325668733044099614682 0.519803364580737364759736948236 0.363970234266202361351047882777 0.397422994295382682726351815804
+10 0.309016994374947424102293417183 0.447213595499957939281834733746 0.324919696232906326155871412215 0.316718427000252364308991597522
+12 0.258819045102520762348898837624 0.349198186208549876473623237046 0.267949192431122706472553658494 0.21539030917347247767064390193
+16 0.195090322016128267848284868477 0.242375420935164061422762500588 0.198912367379658006911597622645 0.118698389689740104264150063867
+24 0.130526192220051591548406227895 0.150120901920355414479216410953 0.13165249758739585347152645741 0.0519971403629978130569371251439
+"""  # noqa: E501
+# z, peak velocity l/(1+l), jerk at mid-motion; both jumps at entry are those of CONSTANTS
+INTERNAL = """
+3 0.464101615137754587054892683012 -0.0178566683621949443245902521392
+4 0.41421356237309504880168872421 -0.0416305603426158296287083115649
+5 0.370191908158750137702237641058 -0.0605294766956393790151542248867
+6 0.333333333333333333333333333333 -0.0740740740740740740740740740741
+8 0.276768653914155215717770973808 -0.0893674397500274864938060663807
+10 0.236067977499789696409173668731 -0.09519494249011573123116243037
+12 0.205604646759568224693193969093 -0.0961679962599035443141110175575
+24 0.115456141678356872441258327524 -0.0785438683215996993361105887342
+"""
+# z: peak power of an external wheel and its angle in degrees (section 5.4)
+POWER = {
+    3: (159.3141681653509548, -3.620124499),
+    4: (10.015265915566938613, -8.483567513),
+    5: (2.4578431344989399689, -12.64885891),
+    6: (0.99033003352939846981, -16.06526314),
+    8: (0.30630459237683626823, -21.20877445),
+    10: (0.14209638196495825587, -24.84823457),
+    12: (0.080726869851324852285, -27.54245829),
+    24: (0.01276713326923605988, -35.36801609),
+}
+
+
+def rows(text):
+    """The table as {z: the other columns}."""
+    lines = [line.split() for line in text.strip().split("\n")]
+    return {int(z): [float(n) for n in rest] for z, *rest in lines}
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("A", OFFSETS)
+def test_against_roots_at_50_digits(machine, gearing, A):
+    for z in range(3, 25):
+        m = machine(z, gearing, A)
+        found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
+        for name in NAMES:
+            got = getattr(found, name)
+            size, at_deg = w.peak(name)
+            assert got.max == near(float(size), SIZE), (z, name)
+            assert got.at_deg == pytest.approx(float(at_deg), rel=0.0, abs=PLACE), (z, name)
+        _, _, acceleration, jerk, _ = (abs(float(v)) for v in w.at(-w.half_motion))
+        assert found.ends.acceleration_entry == near(acceleration, SIZE), z
+        assert found.ends.acceleration_exit == near(acceleration, SIZE), z
+        # Two terms of unlike sign that can cancel: small against the peak is all it can be.
+        small = SIZE * found.jerk.max
+        assert found.ends.jerk_entry == pytest.approx(jerk, rel=0.0, abs=small), z
+        assert found.ends.jerk_exit == pytest.approx(jerk, rel=0.0, abs=small), z
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
+    """All that happens happens within some gap of an end or of the middle."""
+    A = sign * (1.0 - gap)
+    for z in (3, 4, 6, 9, 24):
+        m = machine(z, gearing, A)
+        found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
+        for name in NAMES:
+            size, _ = w.peak(name)
+            # A peak near 180 degrees is down to a million doubles wide, and lies between two.
+            assert getattr(found, name).max == near(float(size), SIZE), (z, name)
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("A", OFFSETS)
+def test_no_point_of_2000_is_above_the_peak(machine, gearing, A):
+    for z in range(3, 25):
+        m = machine(z, gearing, A)
+        s, w = m.engagements[0], Geneva(z, gearing, A)
+        found = peaks(s)
+        x = np.clip(w.angles(1000), s.entry_deg, 0.0)
+        assert len(x) == 2000
+        for side in (x, -x):
+            p = s.motion(side, 3).derivatives()
+            for name in NAMES:
+                values = p[1] * p[2] if name == "power" else p[1 + NAMES.index(name)]
+                assert np.max(np.abs(values)) <= getattr(found, name).max * (1.0 + SIZE), (z, name)
+
+
+def test_the_witness_itself_sees_a_peak_missed():
+    """The peak of the witness is above every point of its own grid, and on no grid point."""
+    w = Geneva(6)
+    size, at_deg = w.peak("acceleration")
+    value, _ = QUANTITIES["acceleration"](w.rough(w.angles(1000)))
+    assert float(size) > np.max(np.abs(value))
+    assert mp.cos(at_deg * mp.pi / 180) == pytest.approx(rows(EXTERNAL)[6][0], abs=1e-15)
+
+
+@pytest.mark.parametrize("z", rows(EXTERNAL))
+def test_table_external(machine, z):
+    cos_at, at_deg, acceleration, jerk = rows(EXTERNAL)[z]
+    ratio, velocity, entry, jerk_entry = rows(CONSTANTS)[z]
+    m = machine(z)
+    found = peaks(m.engagements[0])
+    assert m.ratio == ratio  # correctly rounded
+    assert found.velocity.max == near(velocity, SIZE)
+    assert found.velocity.at_deg == 0.0
+    assert found.acceleration.max == near(acceleration, SIZE)
+    assert found.acceleration.at_deg == pytest.approx(-at_deg, abs=PLACE)
+    assert math.cos(math.radians(found.acceleration.at_deg)) == pytest.approx(cos_at, abs=1e-15)
+    assert found.jerk.max == near(-jerk, SIZE)
+    assert abs(found.jerk.at_deg) <= PLACE
+    assert found.ends.acceleration_entry == near(entry, SIZE)
+    assert found.ends.jerk_entry == near(jerk_entry, SIZE)
+
+
+@pytest.mark.parametrize("z", rows(INTERNAL))
+def test_table_internal(machine, z):
+    velocity, jerk_mid = rows(INTERNAL)[z]
+    _, _, entry, jerk_entry = rows(CONSTANTS)[z]
+    m = machine(z, "internal")
+    s = m.engagements[0]
+    found = peaks(s)
+    assert found.velocity == (near(velocity, SIZE), 0.0)
+    assert found.acceleration == (near(entry, SIZE), s.entry_deg)
+    assert found.ends.jerk_entry == near(jerk_entry, SIZE)
+    assert s.motion(0.0).derivatives()[3] == near(jerk_mid, SIZE)
+
+
+@pytest.mark.parametrize("z", POWER)
+def test_table_power(machine, z):
+    size, at_deg = POWER[z]
+    m = machine(z)
+    found = peaks(m.engagements[0]).power
+    assert found.max == near(size, SIZE)
+    assert found.at_deg == pytest.approx(at_deg, abs=1e-8)  # as printed: ten digits
+
+
+def test_of_two_equal_peaks_the_earlier(machine):
+    for gearing in ("external", "internal"):
+        for A in OFFSETS:
+            m = machine(5, gearing, A)
+            found = peaks(m.engagements[0])
+            for name in NAMES:
+                assert getattr(found, name).at_deg <= 0.0
+
+
+def test_worst_engagement_of_a_side_crank_with_two_rollers(machine):
+    m = machine(4, A=0.6, rollers=2)
+    each = [peaks(s) for s in m.engagements]
+    found = worst(m)
+    for name in NAMES:
+        greatest = max(each, key=lambda p: getattr(p, name).max)
+        s = m.engagements[each.index(greatest)]
+        got, own = getattr(found, name), getattr(greatest, name)
+        assert got == (own.max, pytest.approx(s.mid_deg + own.at_deg, abs=1e-12))
+    assert found.ends.acceleration_entry == max(ends(s).acceleration_entry for s in m.engagements)

@@ -1,0 +1,74 @@
+"""Where a curved slot lacks the wall that its load needs (the one-track theorem)."""
+
+import cmath
+import math
+
+import pytest
+from words import Drive, Motion, Spec, Wheel
+
+from geneva_cli.analysis.positive_drive import positive_drive
+from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.tables import Load, Size
+from geneva_cli.verdict.cautions import cautions
+
+PRESS = Spec(Wheel(6), Drive(n_rpm=60.0), size=Size(441.89, 20.0))
+MIXED = Load(256.0 / (2.0 * math.pi) ** 2, 497.0)  # Krasniqi's: I w² = 256 and 497 N m
+
+
+def drive(motion, load=MIXED):
+    return positive_drive(build(PRESS.but(motion=motion, load=load)))
+
+
+def test_krasniqis_law_lacks_the_wall_on_a_third_of_the_motion():
+    """Published analysis: about 30 %; branches 0.091 L apart."""
+    found = drive(Motion("sine-group", ratio=0.5))
+    assert found.share == pytest.approx(0.30, abs=0.05)
+    assert found.gap_mm / 441.89 == pytest.approx(0.091, abs=0.001)
+
+
+def test_the_cycloid_s_branches():
+    assert drive(Motion("cycloidal", ratio=0.5)).gap_mm / 441.89 == pytest.approx(0.019, abs=0.0005)
+
+
+def test_inertia_alone_drives_a_slot_whose_way_in_leads():
+    found = drive(Motion("cycloidal", ratio=0.5), Load(1.0, 0.0))
+    assert found.loose_deg == ()
+    assert found.share == 0.0
+
+
+def test_resistance_alone_leaves_one_way_loose():
+    """The wall ahead is there on the way in only: half of the motion, less where branches meet."""
+    found = drive(Motion("cycloidal", ratio=0.5), Load(0.0, 10.0))
+    assert all(a >= 0.0 for a, _ in found.loose_deg)
+    assert 0.45 < found.share < 0.5
+
+
+def test_straight_slots_always_drive():
+    assert positive_drive(build(PRESS.but(load=MIXED))) is None
+
+
+def test_the_caution_names_the_cam():
+    said = cautions(build(PRESS.but(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
+    assert any("not positively driven" in text and '"cam"' in text for text in said)
+    cam = PRESS.but(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
+    assert not cautions(build(cam))
+
+
+def test_the_caution_s_gap_lies_where_it_says():
+    """Between the branches at the places that lack the wall, not the slot's greatest elsewhere."""
+    load = Load(4.0, 40.0)  # the wall is missing near mid-motion and mouth, not where most is cut
+    mechanism = build(PRESS.but(motion=Motion("sine-group", ratio=0.5), load=load))
+    found, engagement = positive_drive(mechanism), mechanism.engagements[0]
+
+    def apart(degrees):
+        here, there = (
+            complex(*[v.c[0] for v in engagement.slot(d, 0)]) for d in (degrees, -degrees)
+        )
+        return 441.89 * abs(here) * abs(cmath.phase(here / there))
+
+    places = [a + (b - a) * i / 200 for a, b in found.loose_deg for i in range(201)]
+    # The intervals end half a step, a sixth of a degree, beyond the places that were tried.
+    assert found.loose_gap_mm == pytest.approx(max(map(apart, places)), rel=0.02)
+    assert found.loose_gap_mm < 0.95 * found.gap_mm
+    (said,) = [text for text in cautions(mechanism) if "not positively" in text]
+    assert f"up to {found.loose_gap_mm:.3g} mm off" in said

@@ -1,0 +1,186 @@
+"""The bench: structure, errors of ours, frontier by error. Never a time: that is for people."""
+
+import json
+import re
+import subprocess
+import sys
+from importlib.util import find_spec
+
+import pytest
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+from geneva_cli.bench.method import Row, beats, with_frontier
+from geneva_cli.bench.run import SUBJECTS, measure
+from geneva_cli.bench.subjects import export as bench_export
+from geneva_cli.bench.subjects import start as bench_start
+from geneva_cli.bench.timing_pairs import median_ratio, ratios
+
+# The greatest error that ours may show, in the subject's own measure.
+OURS = {
+    "peaks": 4e-15,
+    "many": 4e-15,
+    "motion": 8 * 2.0**-52,
+    "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error
+    "start": 0.0,
+    "export": 0.0,
+}
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """Every subject, small and once."""
+    return {name: measure(name, quick=True) for name in SUBJECTS}
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_every_task_has_a_baseline_others_and_usually_ours(name, measured):
+    subject, rows = measured[name]
+    for task in subject.tasks:
+        base, *others = [row for row in rows if row.task == task.name]
+        assert base.method == f"baseline: {task.baseline}"
+        assert (base.time_ratio, base.error, base.frontier) == (1.0, None, None)
+        assert others
+        assert any(row.ours for row in others) or task.name == "python"
+        for row in others:
+            assert row.subject == name
+            assert row.time_ratio > 0.0
+            assert row.error >= 0.0
+            assert row.frontier in (True, False)
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_errors_of_ours(name, measured):
+    own = [row.error for row in measured[name][1] if row.ours]
+    assert own
+    assert max(own) <= OURS[name]
+
+
+@pytest.mark.parametrize("name", [name for name in SUBJECTS if name != "slot"])
+def test_nothing_is_more_accurate_than_ours(name, measured):
+    """But for what is below the errors that count as equal."""
+    subject, rows = measured[name]
+    for row in rows:
+        if row.ours:
+            rivals = [r.error for r in rows if r.task == row.task and r.error is not None]
+            assert row.error <= max(min(rivals), 2 * subject.floor)
+
+
+def test_no_even_or_halved_pieces_are_as_few(measured):
+    """Chords beside chords, arcs beside arcs, cubics beside cubics."""
+    _, rows = measured["slot"]
+    for row in rows:
+        if row.ours:
+            rivals = [r for r in rows if r.task == row.task and not r.ours]
+            same = [r.pieces for r in rivals if r.size == row.size]
+            assert row.pieces < min(same)
+
+
+def row(error, time, pieces=None):
+    return Row("s", "t", "m", None, pieces, error, time, None, False)
+
+
+def test_frontier():
+    fast, exact, both, tie = row(1e-3, 1.0), row(1e-16, 9.0), row(1e-3, 2.0), row(5e-16, 8.9)
+    found = with_frontier([fast, exact, both, tie], 0.1, 1e-15)
+    assert [r.frontier for r in found] == [True, True, False, True]
+    assert not beats(row(1e-3, 1.0, 100), row(1e-3, 2.0, 50), 0.1, 0.0)
+    assert beats(row(1e-3, 1.0, 50), row(1e-3, 2.0, 50), 0.1, 0.0)
+
+
+def test_ratios_are_of_pairs():
+    assert median_ratio([(1.0, 2.0), (10.0, 20.0), (1.0, 50.0)]) == 2.0
+    calls = []
+    found = ratios(lambda: calls.append(0), [lambda: calls.append(1)], 1e-4)
+    assert len(found) == 1
+    assert found[0] > 0.0
+    assert set(calls) == {0, 1}
+
+
+def invoke(*words):
+    return CliRunner().invoke(app, ["bench", *words])
+
+
+def test_command_and_plot(tmp_path):
+    folder = tmp_path / "plots"
+    folder.mkdir()
+    words = ("peaks", "--quick", "--format", "json", "--plots", str(folder))
+    first = invoke(*words)
+    assert first.exit_code == 0, first.output
+    rows = json.loads(first.stdout)["rows"]
+    assert {"subject", "method", "error", "time_ratio", "ours", "frontier"} <= set(rows[0])
+    text = (folder / "peaks.svg").read_text(encoding="utf-8")
+    assert text.startswith("<?xml")
+    assert not re.search(r"20\d\d-\d\d-\d\d", text), "a date in an output file"
+    assert "relative error" in text
+
+
+def test_the_same_rows_give_the_same_plot(measured):
+    from geneva_cli.bench.plot import svg
+
+    for name in ("start", "slot"):
+        assert svg(*measured[name]) == svg(*measured[name])
+
+
+def test_people_see_small_errors():
+    """The table for people shows as 0 what is small beside its column; here that would hide all."""
+    found = invoke("peaks", "--quick")
+    assert found.exit_code == 0, found.output
+    assert re.search(r"\d\.\de-1[5-8]", found.stdout)
+
+
+def test_export_names_the_libraries_that_are_missing(monkeypatch):
+    real = bench_export.importlib.util.find_spec
+    monkeypatch.setattr(
+        bench_export.importlib.util,
+        "find_spec",
+        lambda name: None if name == "polars" else real(name),
+    )
+    found = invoke("export", "--quick", "--format", "json")
+    assert found.exit_code == 0, found.output
+    assert "polars" in found.stderr
+    assert "geneva-cli[bench]" in found.stderr
+    methods = {row["method"] for row in json.loads(found.stdout)["rows"]}
+    assert "polars" not in methods
+    assert "orjson" in methods  # of the tests' own needs
+
+
+@pytest.mark.parametrize("name", [n for n in bench_export.LIBRARIES if find_spec(n)])
+def test_libraries_write_the_same_numbers(name):
+    """What they write reads back as it was; else a rival would be slandered."""
+    subject = bench_export.subject(True)
+    (task,) = subject.tasks
+    (method,) = [m for m in task.methods if m.name == name]
+    assert task.error(method.run()) == 0.0
+
+
+def test_scripts_of_the_start_print_the_row():
+    """The competitors do what they are there for."""
+    for code in bench_start.SCRIPTS.values():
+        run = subprocess.run(
+            [sys.executable, "-c", code, "table", "--z", "6"], capture_output=True, text=True
+        )
+        assert run.returncode == 0, run.stderr
+        numbers = [float(v) for v in run.stdout.split()]
+        assert numbers == pytest.approx([6, 120, 240, 0.5, 1 / 3, 1.0], rel=1e-15)
+
+
+def test_unknown_subject():
+    found = invoke("peak")
+    assert found.exit_code == 2
+    assert 'did you mean "peaks"' in found.output
+
+
+def test_plots_without_matplotlib(monkeypatch, tmp_path):
+    for name in ("matplotlib", "matplotlib.figure"):
+        monkeypatch.setitem(sys.modules, name, None)
+    found = invoke("start", "--quick", "--plots", str(tmp_path))
+    assert found.exit_code == 2
+    assert "geneva-cli[bench]" in found.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_plots_into_no_folder():
+    found = invoke("peaks", "--quick", "--plots", "/no/such/folder")
+    assert found.exit_code == 2
+    assert "/no/such/folder" in found.output

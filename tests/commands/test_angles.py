@@ -1,0 +1,90 @@
+"""Every place is an input angle from one zero, and an event has the same one in every command."""
+
+import csv
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+import repo
+from words import load
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.peaks import peaks_table
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.table import Table
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.report import report
+
+DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
+LIMITED = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
+# Stations whose mid-motions lie past half a turn, and a motion that begins before it: a law that
+# is half-way late.
+FAR = {
+    "steps": "[wheel]\nz = 3\nsteps_deg = [100, 120, 140]\n[load]\ninertia_kgm2 = 0.1\n"
+    "[limits]\npin_force_max_N = 1\ninput_torque_max_Nm = 1\n",
+    "angles": "[wheel]\nz = 4\n[drive]\nroller_angles_deg = [0, 100, 250]\n[load]\ntorque_Nm = 1\n"
+    "[limits]\npin_force_max_N = 1\n",
+    "late": "[wheel]\nz = 3\ngearing = 'internal'\n[drive]\nkind = 'cam'\n"
+    "[motion]\nlaw = 'table'\nfile = 'late.csv'\n"
+    "alpha0_deg = -30\n[load]\ninertia_kgm2 = 0.1\n[limits]\nacceleration_max = 0.1\n"
+    "input_torque_max_Nm = 1\n",
+}
+
+
+def angles(name: str, value: Any) -> list[tuple[str, float]]:
+    """Every ``*at_deg`` in a table, and in the tables in it."""
+    if isinstance(value, Table):
+        return [
+            pair
+            for row in value.rows()
+            for key, each in zip(value.names, row, strict=True)
+            for pair in angles(f"{name}.{key}", each)
+        ]
+    return [(name, value)] if name.endswith("at_deg") and value is not None else []
+
+
+def one_zero(mechanism: Mechanism) -> None:
+    first = mechanism.engagements[0]
+    whole = 360.0 * mechanism.spec.drive.turns
+    low = -180.0 if whole == 360.0 else first.mid_deg + first.entry_deg
+    page, summary = report(mechanism).table, peaks_table(mechanism)
+    rows = checks(mechanism)
+    found = [*angles("report", page), *angles("peaks", summary)]
+    found += [(c.name, c.at_deg) for c in rows if c.at_deg is not None]
+    greatest = {q: loads.greatest(mechanism, q) for q in LIMITED}
+    found += [(q, each.at_deg) for q, each in greatest.items()]
+    assert len(found) > 8
+    for name, at_deg in found:
+        assert low <= at_deg <= low + whole, name
+    told = dict(zip(page.names, next(page.rows()), strict=True))
+    for name, value in zip(summary.names, next(summary.rows()), strict=True):
+        if name.endswith(".at_deg"):
+            assert told[name] == value, name
+    each = {c.name: c.at_deg for c in rows}
+    for q in LIMITED:
+        shown = told[f"loads.{q}.at_deg"]
+        assert shown in (None, greatest[q].at_deg)
+        limit = f"{q.rpartition('_')[0]}_max_{q.rpartition('_')[2]}"
+        assert each.get(limit) in (None, greatest[q].at_deg)
+    if told["parts.smallest_gap_at_deg"] is not None:
+        gaps = [each[n] for n in ("gap_mm", "idle_roller_mm") if n in each]
+        assert told["parts.smallest_gap_at_deg"] in gaps
+
+
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_designs_have_one_zero(path: Path) -> None:
+    one_zero(load(str(path)))
+
+
+@pytest.mark.parametrize("name", FAR)
+def test_far_places_have_one_zero(name: str, tmp_path: Path) -> None:
+    share = [i / 40.0 for i in range(41)]
+    with (tmp_path / "late.csv").open("w", newline="") as file:
+        # x^2 (with a start at rest, as the reader asks): half of the way after 0.7 of the time
+        csv.writer(file).writerows(
+            [("u", "s"), *((u, 0.5 * (1 - math.cos(math.pi * u * u))) for u in share)]
+        )
+    path = tmp_path / "far.toml"
+    path.write_text(FAR[name])
+    one_zero(load(str(path)))

@@ -1,0 +1,69 @@
+"""Every command on every design of the folder, in every format."""
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+
+DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
+COMMANDS = {
+    "peaks": [],
+    "motion": ["--samples", "73"],
+    "profile": ["--tolerance", "0.05"],
+    "report": [],
+    "check": [],
+}
+
+
+def numbers(value: object) -> list[float]:
+    if isinstance(value, dict):
+        return [x for v in value.values() for x in numbers(v)]
+    if isinstance(value, list):
+        return [x for v in value for x in numbers(v)]
+    return [value] if isinstance(value, float) else []
+
+
+FORMATS = ("table", "csv", "json", "md")
+TURNED = ("report", "check")  # these turn the parts, about a second: one format each, in turn
+
+
+def runs() -> Iterator[tuple[Path, str, str]]:
+    for i, design in enumerate(DESIGNS):
+        for j, command in enumerate(COMMANDS):
+            some = FORMATS[(i + j) % 4 :][:1] if command in TURNED else FORMATS
+            yield from ((design, command, format) for format in some)
+
+
+@pytest.mark.parametrize(
+    ("design", "command", "format"),
+    list(runs()),
+    ids=lambda p: p.stem if isinstance(p, Path) else p,
+)
+def test_every_command_on_every_design(design: Path, command: str, format: str) -> None:
+    arguments = [command, str(design), "--format", format, *COMMANDS[command]]
+    result = CliRunner().invoke(app, arguments)
+    assert result.exit_code == 0, result.output
+    assert "nan" not in result.stdout.lower().replace("nance", "")
+    if format == "json":
+        assert all(math.isfinite(x) for x in numbers(json.loads(result.stdout)))
+    if format == "csv":
+        rows = list(csv.reader(io.StringIO(result.stdout)))
+        assert len(rows) > 1
+        assert {len(row) for row in rows} == {len(rows[0])}
+
+
+def test_there_are_designs_enough() -> None:
+    assert len(DESIGNS) >= 10
+
+
+@pytest.mark.parametrize("design", DESIGNS, ids=lambda p: p.stem)
+def test_a_design_says_what_it_is(design: Path) -> None:
+    assert design.read_text(encoding="utf-8").startswith("# ")

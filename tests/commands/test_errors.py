@@ -1,0 +1,508 @@
+"""What a user can get wrong: exit code 2, one clear line with its place, never a traceback."""
+
+import os
+import shlex
+import subprocess
+import sys
+from typing import NamedTuple
+
+import pytest
+from typer.testing import CliRunner
+
+from geneva_cli.app import COMMANDS, app
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+WITHOUT_SPEC = {"table", "laws", "new", "synth", "bench"}  # commands that read none
+WHEEL = "[wheel]\nz = 6\n"
+SIDE = '[drive]\nkind = "side-crank"\n'
+CURVED = '[motion]\nlaw = "cycloidal"\n'
+TABLE = '[motion]\nlaw = "table"\nfile = "law.csv"\n'
+
+
+class Case(NamedTuple):
+    """A wrong spec, the line that is wrong (0: none) and what the message must hold."""
+
+    text: str | bytes
+    line: int
+    wants: tuple[str, ...]
+
+
+def case(name, text, line, *wants):
+    return pytest.param(Case(text, line, wants), id=name)
+
+
+def key(name, text, line, *wants):
+    """A wrong key below the shortest valid spec; its lines are counted from there."""
+    return case(name, WHEEL + text, 2 + line, *wants)
+
+
+def wheel(name, text, *wants):
+    return case(name, f"[wheel]\n{text}\n", 2, *wants)
+
+
+NOT_TOML = [
+    case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
+    case("prose", "Dear geneva,\nsix slots please\n", 1, "not TOML"),
+    case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "not TOML"),
+    case("key-twice", "[wheel]\nz = 6\nz = 7\n", 3, "not TOML"),
+    case("table-twice", "[wheel]\nz = 6\n[wheel]\n", 3, "not TOML"),
+    case("nul-byte", "[wheel]\nz = 6\0\n", 2, "not TOML"),
+    case("lone-carriage-return", "[wheel]\nz = 6\r[drive]\n", 2, "not TOML"),
+    case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
+    case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8"),
+    case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
+    case("deep-inline-tables", "a = " + "{a = " * 50_000, 0, "nested too deep"),
+    case("deep-tables", "[" + "a." * 50_000 + "a]\n", 0, "nested too deep"),
+    case("deep-keys", "a." * 50_000 + "a = 1\n", 0, "nested too deep"),
+    case("5000-digits", "[wheel]\nz = " + "1" * 5000 + "\n", 0),
+    case("two-megabytes", "# " + "x" * (1 << 21) + "\n" + WHEEL, 0, "larger than", "bytes"),
+]
+
+MISSING = [
+    case("empty", "", 0, "[wheel]", "z = 6"),
+    case("comment-only", "# a wheel, some day\n", 0, "[wheel]"),
+    case("no-wheel", "[drive]\nn_rpm = 60\n", 0, "[wheel]"),
+    case("no-z", 'title = "x"\n[wheel]\ngearing = "internal"\n', 2, "needs z", "at least 3"),
+    key("no-A", "\n" + SIDE, 2, "needs A", "above -1", "below 1"),
+    case("no-A-inline", 'drive = {kind = "side-crank"}\nwheel.z = 6\n', 1, "needs A"),
+    key("no-law-file", '[motion]\nlaw = "table"\n', 1, "needs file", ".csv"),
+]
+
+HEX = "0x" + "f" * 5000  # Python writes no decimal number of so many digits
+LONG = "very " * 100_000
+HUGE = [
+    case("hex", f"[wheel]\nz = {HEX}\n", 2, "z = 0xff", "at most 1000000"),
+    case("million-hex", "[wheel]\nz = 0x" + "f" * 1_000_000 + "\n", 2, "z = 0xff", "at most"),
+    case("hex-title", f"title = {HEX}\n" + WHEEL, 1, "title must be text, not 0xff"),
+    case("hex-key", f"{HEX} = 1\n" + WHEEL, 1, "unknown key 0xff", "known: "),
+    key("hex-float", f"[drive]\nn_rpm = {HEX}\n", 2, "n_rpm = 0xff", "above 0"),
+    key("hex-kind", f"[drive]\nkind = {HEX}\n", 2, "kind must be one of", "not 0xff"),
+    wheel("hex-list", f"steps_deg = [{HEX}]\nz = 6", "steps_deg = 0xff", "below 360"),
+    key("long-key", f'[drive]\n"{LONG}" = 1\n', 2, "unknown key very", "known: "),
+    key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
+    wheel("long-word", f'gearing = "{LONG}"\nz = 6', "must be one of", '"external"'),
+    key("long-kind", f'[drive]\nkind = "{LONG}"\n', 2, "kind must be one of"),
+    key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", '"cycloidal"'),
+    key("long-ratio", CURVED + f'ratio = "{LONG}"\n', 3, "must be a number or"),
+    key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
+    case("long-key-twice", f'a = {{"{LONG}" = 1, "{LONG}" = 2}}\n', 1, "not TOML"),
+    key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
+    key(
+        "nul-in-a-ratio-file",
+        '[drive]\nkind = "noncircular-gears"\nratio_file = "a\\u0000b"\n',
+        3,
+        "cannot read",
+        "null byte",
+    ),
+]
+
+UNKNOWN = [
+    key("table", "[whel]\n", 1, "unknown table", "whel", '"wheel"'),
+    key("table-no-neighbour", "[gizmo]\n", 1, "unknown table", "gizmo", "[wheel]"),
+    case("key-at-the-top", "z = 6\n", 1, "unknown key", "[wheel]"),
+    case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
+    key("key-in-drive", "[drive]\nn_rmp = 50\n", 2, "unknown key n_rmp", '"n_rpm"'),
+    key("key-of-the-kind", SIDE + "a = 0.5\n", 3, "unknown key a", "A"),
+    key("capital", "[size]\nCenter_distance_mm = 5\n", 2, '"center_distance_mm"'),
+    key("unit", "[load]\ntorque_Nmm = 5\n", 2, "unknown key", '"torque_Nm"'),
+    key("limits", "[limits]\nvelocty_max = 1\n", 2, '"velocity_max"'),
+    wheel("gearing", 'gearing = "extrenal"\nz = 6', '"external"'),
+    key("kind", '[drive]\nkind = "sidecrank"\n', 2, "kind", '"side-crank"'),
+    key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
+    key("ratio-word", CURVED + 'ratio = "mached"\n', 3, "ratio", '"matched"'),
+    key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
+]
+
+TYPES = [
+    wheel("text", 'z = "6"', "z must be a whole number", '"6"'),
+    wheel("bool", "z = true", "z must be a whole number", "true"),
+    wheel("list", "z = [6]", "z must be a whole number", "list"),
+    wheel("long-list", "z = [\n" + "6,\n" * 60 + "]", "z must be a whole number", "list"),
+    wheel("inline-table", "z = {of = 6}", "z must be a whole number", "table"),
+    wheel("date", "z = 2001-02-03", "z must be a whole number"),
+    wheel("float", "z = 6.5", "whole number", "6 or 7"),
+    wheel("float-that-is-whole", "z = 6.0", "whole number: write 6 ("),
+    wheel("float-past-exactness", "z = 1e300", "1e+300 must be a whole number ("),
+    wheel("float-infinite", "z = inf", "whole number"),
+    wheel("float-nan", "z = nan", "whole number"),
+    wheel("gearing-number", "gearing = 1\nz = 6", "gearing must be one of", "not 1"),
+    case("title", "title = 5\n" + WHEEL, 1, "title must be text"),
+    case("wheel-number", "\nwheel = 6\n", 2, "wheel must be a table", "[wheel]"),
+    case("wheel-list", "[[wheel]]\nz = 6\n", 1, "wheel must be a table"),
+    key("kind-number", "[drive]\nkind = 5\n", 2, "kind must be one of"),
+    key("kind-list", '[drive]\nkind = ["crank"]\n', 2, "kind must be one of"),
+    key("kind-table", '[drive]\nkind = {a = "crank"}\n', 2, "kind must be one of"),
+    key("speed-text", '[drive]\nn_rpm = "fast"\n', 2, "n_rpm must be a number"),
+    key("rollers-float", "[drive]\nrollers = 1.5\n", 2, "rollers", "whole number"),
+    key("law-number", "[motion]\nlaw = 3\n", 2, "law must be one of", "not 3"),
+    key("ratio-list", CURVED + "ratio = [0.5]\n", 3, "ratio must be"),
+    key("file-number", '[motion]\nlaw = "table"\nfile = 3\n', 3, "file must be text"),
+]
+
+VALUES = [
+    wheel("z-2", "z = 2", "z = 2", "at least 3"),
+    wheel("z-negative", "z = -6", "z = -6", "at least 3"),
+    wheel("z-billion", "z = 1_000_000_000", "at most 1000000"),
+    wheel("z-400-digits", "z = 1" + "0" * 400, "at most 1000000"),
+    key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0"),
+    key("speed-0", "[drive]\nn_rpm = 0\n", 2, "above 0"),
+    key("speed-nan", "[drive]\nn_rpm = nan\n", 2, "n_rpm = nan", "above 0"),
+    key("speed-inf", "[drive]\nn_rpm = inf\n", 2, "n_rpm = inf"),
+    key("speed-400-digits", "[drive]\nn_rpm = 1" + "0" * 400 + "\n", 2, "n_rpm"),
+    key("A-1", SIDE + "A = 1\n", 3, "A = 1", "below 1"),
+    key("A-minus-1", SIDE + "A = -1.0\n", 3, "A = -1", "above -1"),
+    key("A-nan", SIDE + "A = nan\n", 3, "A = nan"),
+    key("A-400-digits", SIDE + "A = 1" + "0" * 400 + "\n", 3, "A = 1", "below 1"),
+    key("alpha0-high", CURVED + "alpha0_deg = 120\n", 3, "alpha0_deg = 120", "below 120"),
+    key("alpha0-low", CURVED + "alpha0_deg = -240\n", 3, "alpha0_deg = -240", "above -240"),
+    key("alpha0-inf", CURVED + "alpha0_deg = -inf\n", 3, "alpha0_deg"),
+    key("alpha0-no-law", "[motion]\nalpha0_deg = 5\n", 2, "alpha0_deg needs a law"),
+    key("ratio-no-law", "[motion]\nratio = 0.4\n", 2, "ratio needs a law"),
+    key("ratio-1", CURVED + "ratio = 1\n", 3, "ratio = 1", "below 1"),
+    key("ratio-0", CURVED + "ratio = 0\n", 3, "ratio = 0", "above 0"),
+    key("ratio-nan", CURVED + "ratio = nan\n", 3, "ratio = nan"),
+    key("lambda-no-law", "[motion]\nlambda = 0.1\n", 2, "lambda needs a law"),
+    key("lambda-other-law", CURVED + "lambda = 0.1\n", 3, "lambda", '"sine-group"'),
+    key("lambda-huge", '[motion]\nlaw = "sine-group"\nlambda = 1e300\n', 3, "lambda = 1e+300"),
+    key("file-other-law", CURVED + 'file = "law.csv"\n', 3, "file", '"table"'),
+    key("rollers-0", "[drive]\nrollers = 0\n", 2, "rollers = 0", "at least 1"),
+    key("rollers-3", "[drive]\nrollers = 3\n", 2, "rollers = 3", "at most 2"),
+    key("rollers-side-crank", SIDE + "A = 0.5\nrollers = 3\n", 4, "rollers = 3", "at most 2"),
+    key("rollers-curved", SIDE + "A = 0.5\nrollers = 2\n" + CURVED, 4, "rollers", "slot"),
+    case(
+        "rollers-internal",
+        '[wheel]\nz = 6\ngearing = "internal"\n[drive]\nrollers = 2\n',
+        5,
+        "internal",
+        "one roller",
+    ),
+    key("size-0", "[size]\ncenter_distance_mm = 0\n", 2, "above 0"),
+    key("size-inf", "[size]\ncenter_distance_mm = inf\n", 2, "center_distance_mm = inf"),
+    key("clearance", "[size]\nslot_clearance_mm = -0.1\n", 2, "at least 0"),
+    key("inertia", "[load]\ninertia_kgm2 = -1\n", 2, "at least 0"),
+    key("efficiency-0", "[load]\nefficiency = 0\n", 2, "above 0"),
+    key("efficiency-high", "[load]\nefficiency = 1.01\n", 2, "at most 1"),
+    key("limit-0", "[limits]\njerk_max = 0\n", 2, "above 0"),
+    key("limit-angle", "[limits]\npressure_angle_max_deg = 91\n", 2, "at most 90"),
+]
+
+# The same mistakes where the line is hard to find.
+PLACES = [
+    case("dotted-key", "\nwheel.z = 2\n", 2, "at least 3"),
+    case("dotted-key-after", "wheel.z = 6\ndrive.n_rpm = 0\n", 2, "above 0"),
+    case("inline", "\nwheel = {z = 2}\n", 2, "at least 3"),
+    case("quoted-key", '[wheel]\n\n"z" = 2\n', 3, "at least 3"),
+    case("spaced-header", "\n[ wheel ]\nz = 2\n", 3, "at least 3"),
+    case("key-in-a-comment", "# z = 2\n[wheel] # z\n# z = 2\nz = 2\n", 4, "at least 3"),
+    case(
+        "key-in-the-title",
+        'title = """\n[wheel]\nz = 2\n"""\n[drive]\n[wheel]\nz = 2\n',
+        7,
+        "at least 3",
+    ),
+    case("windows-lines", "# one\r\n[wheel]\r\nz = 2\r\n", 3, "at least 3"),
+    case("windows-lines-not-toml", "# one\r\n[wheel]\r\nz = six\r\n", 3, "not TOML"),
+    case("byte-order-mark", "\ufeff[wheel]\nz = 2\n", 2, "at least 3"),
+    case("table-before", "[drive]\nrollers = 3\n[wheel]\nz = 6\n", 2, "rollers = 3"),
+    case("no-last-newline", "[wheel]\nz = 2", 2, "at least 3"),
+]
+
+SPECS = [*NOT_TOML, *HUGE, *MISSING, *UNKNOWN, *TYPES, *VALUES, *PLACES]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def run(*arguments, text=None):
+    return CliRunner().invoke(app, list(arguments), input=text)
+
+
+def write(name, text):
+    data = text if isinstance(text, bytes) else text.encode()
+    with open(name, "wb") as file:
+        file.write(data)
+
+
+def refused(result, *wants, place=""):
+    """The run ended as an error should; returns what it said."""
+    if result.exception and not isinstance(result.exception, SystemExit):
+        raise result.exception  # what a user would see as a traceback
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    said = result.stderr
+    assert "Traceback" not in said
+    assert said.startswith(place), said
+    for want in wants:
+        assert want in said
+    assert all(c.isprintable() or c == "\n" for c in said), "control characters in a message"
+    return said
+
+
+@pytest.mark.parametrize("wrong", SPECS)
+def test_wrong_spec(wrong):
+    write("spec.toml", wrong.text)
+    place = f"spec.toml:{wrong.line}: " if wrong.line else "spec.toml:"
+    said = refused(run("peaks", "spec.toml"), *wrong.wants, place=place)
+    assert len(said) < 1000
+
+
+@pytest.mark.parametrize("name", [n for n in COMMANDS if n not in WITHOUT_SPEC])
+def test_every_command_says_the_same(name):
+    write("spec.toml", "[wheel]\nz = 2\n")
+    said = refused(run(name, "spec.toml"))
+    assert said.splitlines()[0] == run("peaks", "spec.toml").stderr.rstrip()
+
+
+def test_from_stdin():
+    refused(run("peaks", "-", text="[wheel]\nz = 2\n"), "at least 3", place="<stdin>:2: ")
+    refused(run("peaks", "-", text=""), "[wheel]", place="<stdin>:")
+    assert run("peaks", "-", text=WHEEL).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["\ufeff" + WHEEL, WHEEL.replace("\n", "\r\n"), "\ufeff\r\n" + WHEEL, "wheel = {z = 6}"],
+    ids=["byte-order-mark", "windows-lines", "both", "one-line"],
+)
+def test_unusual_but_right(text):
+    write("spec.toml", WHEEL)
+    plain = run("peaks", "spec.toml").stdout
+    write("spec.toml", text)
+    found = run("peaks", "spec.toml")
+    assert (found.exit_code, found.stdout) == (0, plain)
+
+
+def test_no_file():
+    refused(run("peaks", "gone.toml"), "No such file", "geneva new", place="gone.toml: ")
+
+
+def test_folder():
+    os.mkdir("machines")
+    refused(run("peaks", "machines"), "folder", "give a file", place="machines: ")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")
+def test_endless_file():
+    refused(run("peaks", "/dev/zero"), "larger than", place="/dev/zero: ")
+
+
+def test_nul_in_a_name():
+    refused(run("peaks", "a\0b.toml"))
+    write("spec.toml", WHEEL)
+    refused(run("peaks", "spec.toml", "-o", "a\0b.csv"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[drive]\n"\\u001b[31m" = 1\n',
+        '[drive]\nkind = "\\u001b[31m"\n',
+        '["\\u001b]0;x\\u0007"]\n',
+        '[motion]\nlaw = "\\u001b[31m"\n',
+        '[motion]\nlaw = "table"\nfile = "\\u001b[31m"\n',
+        'wheel.NAME = "\\u009b31m"\n',
+    ],
+    ids=["key", "kind", "table", "law", "file", "gearing"],
+)
+def test_messages_carry_no_terminal_escapes(text):
+    write("spec.toml", "wheel.z = 6\n" + text)
+    refused(run("peaks", "spec.toml"), place="spec.toml:")
+
+
+def test_a_long_spec_is_refused_quickly():
+    # Each line could hold the key; looking at every one of them must not take the square of that.
+    write("spec.toml", "# z\n" * 200_000 + "[wheel]\nz = 2\n")
+    found = subprocess.run(
+        [GENEVA, "peaks", "spec.toml"], capture_output=True, text=True, timeout=10
+    )
+    assert found.returncode == 2
+    assert found.stderr.startswith("spec.toml:200002: ")
+
+
+# The law's points: they have their own file, and their own lines.
+ROWS = "u,s\n0,0\n0.2,0.1\n0.4,0.3\n0.6,0.7\n0.8,0.9\n1,1\n"
+POINTS = [
+    ("text", ROWS.replace("0.4,0.3", "0.4,much"), 4, "two numbers u,s"),
+    ("three-columns", ROWS.replace("0.4,0.3", "0.4,0.3,0"), 4, "two numbers u,s"),
+    ("semicolons", ROWS.replace(",", ";"), 1, "two numbers u,s"),
+    ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
+    ("infinite", ROWS.replace("0.4,0.3", "0.4,inf"), 4, "finite"),
+    ("huge", ROWS.replace("0.4,0.3", "0.4,1e308"), 4, "s"),
+    ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "above the one before"),
+    ("twice", ROWS.replace("0.4,0.3", "0.2,0.3"), 4, "above the one before"),
+    (
+        "ninety-thousand",
+        "".join(f"{k / 90_000},{(k / 90_000) ** 3}\n" for k in range(90_001)),
+        2,
+        "by 9e-05 or more",
+        "rounding; thin them out",
+    ),
+    ("crowded", ROWS.replace("0.2,0.1", "1e-320,0.1"), 3, "u"),
+    ("short", "u,s\n0,0\n0.5,0.5\n1,1\n", 0, "3 points", "at least"),
+    ("empty", "", 0, "0 points", "at least"),
+    ("header-only", "u,s\n", 0, "0 points", "at least"),
+    ("from-elsewhere", ROWS.replace("0,0\n", "0,0.1\n", 1), 0, "from 0,0 to 1,1"),
+    ("to-elsewhere", ROWS.replace("1,1\n", "0.9,1\n"), 0, "from 0,0 to 1,1"),
+    ("not-utf-8", ROWS.encode() + b"\xff\n", 0, "not UTF-8"),
+    ("nul-byte", ROWS + "\0\n", 8, "two numbers u,s"),
+    ("long-field", "u,s\n" + "1" * 200_000 + ",0\n", 2),
+    ("open-quote", ROWS.replace("0.4,0.3", '"0.4,0.3'), 4, "two numbers u,s"),
+    ("quoted-header", ROWS.replace("u,s", '"u","s"').replace("0.4,0.3", "0.4,x"), 4),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "wants"),
+    [pytest.param(t, n, w, id=name) for name, t, n, *w in POINTS],
+)
+def test_wrong_law_points(text, line, wants):
+    os.mkdir("sub")
+    write("sub/spec.toml", WHEEL + TABLE)
+    write("sub/law.csv", text)  # relative to the spec
+    place = f"sub/law.csv:{line}: " if line else "sub/law.csv:"
+    if "from 0,0 to 1,1" in wants:  # a law's own rule, whoever gives it its points
+        place = "sub/spec.toml:5: law.csv: "
+    refused(run("peaks", "sub/spec.toml"), *wants, place=place)
+
+
+@pytest.mark.parametrize("name", ["gone.csv", ".", ""])
+def test_no_law_points(name):
+    write("spec.toml", WHEEL + TABLE.replace("law.csv", name))
+    refused(run("peaks", "spec.toml"), place="spec.toml:5: ")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")
+def test_endless_law_points():
+    write("spec.toml", WHEEL + TABLE.replace("law.csv", "/dev/zero"))
+    refused(run("peaks", "spec.toml"), "larger than")
+
+
+# Options: the message names the one that is wrong, the first of its line.
+ZEROS = "1" + "0" * 400
+OPTIONS = [
+    *[
+        (f"{words} {ZEROS}" + (" spec.toml" if words[0] in "mp" else ""), "100")
+        for words in (
+            "table --z",
+            "table --format",
+            "table -o",
+            "motion --samples",
+            "motion --format",
+            "profile --samples",
+            "profile --part",
+            "profile --curves",
+            "profile --units",
+            "synth --tau",
+        )
+    ],
+    (f"synth --rollers {ZEROS} --tau 1/3", "at most 1000000"),
+    (f"synth --rollers -{ZEROS} --tau 1/3", "at least 1"),
+    (f"synth --write {ZEROS} --tau 1/3", "rows 1 to"),
+    ("table --z 2", "at least 3"),
+    ("table --z 6.5", "whole number", "3..12"),
+    ("table --z six", "whole number", "3..12"),
+    ("table --z ''", "whole number"),
+    ("table --z 3..", "whole number"),
+    ("table --z ..", "whole number"),
+    ("table --z 3,,5", "whole number"),
+    ("table --z -6", "whole number"),
+    ("table --z ٦", "whole number"),
+    ("table --z 12..3", "backwards", "3..12"),
+    ("table --z 3..1000000000", "at most"),
+    ("table --z 3..1000000", "more than", "fewer"),
+    ("table --z " + "9" * 5000, "at most"),
+    ("table --n 0", "above 0"),
+    ("table --n -60", "above 0"),
+    ("table --n nan", "above 0"),
+    ("table --n inf", "speed"),
+    ("table --n fast", "float"),
+    ("table --A 1", "below 1"),
+    ("table --A -1", "above -1"),
+    ("table --A nan", "above -1"),
+    ("table --rollers 0", "at least 1"),
+    ("table --rollers -1", "at least 1"),
+    ("table --rollers 1.5", "int"),
+    ("table --z 6 --rollers 3", "rollers = 3", "at most 2"),
+    ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
+    ("table --rollers 3 --A 0.5", "spec", "geneva report"),
+    ("table --format xml", "csv", "json", "md"),
+    ("table --zz 6", "--z"),
+    ("motion --samples 1 spec.toml", "at least 2"),
+    ("motion --samples -5 spec.toml", "at least 2"),
+    ("motion --samples 1000000000000 spec.toml", "at most"),
+    ("motion --samples " + "9" * 5000 + " spec.toml",),
+    ("motion --samples many spec.toml", "int"),
+    ("motion --format dwg spec.toml", "csv"),
+    ("peaks --format xml spec.toml", "csv"),
+    ("profile --tolerance 0 spec.toml", "above 0"),
+    ("profile --tolerance -1 spec.toml", "above 0"),
+    ("profile --tolerance nan spec.toml", "above 0"),
+    ("profile --tolerance 1e-300 curved.toml", "mm"),
+    ("profile --samples 1 spec.toml", "at least 2"),
+    ("profile --samples 1000000000000 spec.toml", "at most"),
+    ("report --format xml spec.toml", "csv"),
+    ("check --format xml spec.toml", "csv"),
+    ("laws --lambda nan",),
+    ("laws --lambda inf",),
+    ("laws --lambda 1e300",),
+]
+
+
+@pytest.mark.parametrize(("line", "wants"), [pytest.param(x, w, id=x[:40]) for x, *w in OPTIONS])
+def test_wrong_option(line, wants):
+    write("spec.toml", WHEEL)
+    write("curved.toml", WHEEL + CURVED)
+    words = shlex.split(line)
+    said = refused(run(*words), words[1], *wants)
+    assert len(said) < 1000 or said.startswith("Usage")  # those are cut by the stream
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wants"),
+    [
+        (["tabel"], ["'tabel'", "'table'"]),
+        (["peaks"], ["SPEC"]),
+        (["check"], ["SPEC"]),
+        (["new"], ["KIND"]),
+        (["new", "externel"], ["KIND", "externel", '"external"']),
+        (["new", "external", "-o", "gone/spec.toml"], ["gone"]),
+        (["peaks", "spec.toml", "other.toml"], ["other.toml"]),
+        (["peaks", "spec.toml", "-o", "peaks.xyz"], ["peaks.xyz", ".csv", ".json"]),
+        (["peaks", "spec.toml", "-o", "peaks"], ["peaks", "extension", ".csv"]),
+        (["peaks", "spec.toml", "-o", ""], ["-o"]),
+    ],
+    ids=lambda words: " ".join(words),
+)
+def test_wrong_usage(arguments, wants):
+    write("spec.toml", WHEEL)
+    refused(run(*arguments), *wants)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "place"),
+    [
+        (["peaks", "spec.toml"], "spec.toml:2: "),
+        (["table", "--z", "2"], "--z 2: "),
+        (["tabel"], "Usage: geneva "),
+    ],
+    ids=["spec", "option", "usage"],
+)
+def test_the_installed_command(arguments, place):
+    """The same through a real process, whose streams and exit code a script would see."""
+    write("spec.toml", "[wheel]\nz = 2\n")
+    found = subprocess.run([GENEVA, *arguments], capture_output=True, text=True)
+    assert (found.returncode, found.stdout) == (2, "")
+    assert found.stderr.startswith(place)
+    assert "Traceback" not in found.stderr
+
+
+def test_a_traceback_would_be_noticed():
+    """The checks above can fail: an unexpected exception is not taken for an error message."""
+
+    class Broken:
+        exception, exit_code, stdout, stderr, output = ValueError("x"), 1, "", "", ""
+
+    with pytest.raises(ValueError, match="x"):
+        refused(Broken())

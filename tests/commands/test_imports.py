@@ -1,0 +1,167 @@
+"""A run imports only what it shows; a new command adds one row to ``ROWS``."""
+
+import os
+import pty
+import subprocess
+import sys
+from typing import NamedTuple
+
+import pytest
+import repo
+
+from geneva_cli.app import COMMANDS
+
+DESIGNS = str(repo.DESIGNS)
+# What costs: a run may import only what its row allows of these.
+HEAVY = {"numpy", "scipy", "rich", "pydantic", "matplotlib", "ezdxf", "tomli", "tomllib", "json"}
+# The whole program, through its real entry point, which ends the process by os._exit.
+PROBE = """
+import os, sys
+end = os._exit
+def leave(status):
+    print(*sys.modules, sep="\\n", file=sys.stderr, flush=True)
+    end(status)
+os._exit = leave
+sys.argv[0] = "geneva"
+from geneva_cli.app import main
+main()
+"""
+
+
+class Row(NamedTuple):
+    """A run, and the heavy modules that it may import."""
+
+    line: str
+    may: str = ""
+
+    @property
+    def words(self):
+        return [os.path.join(DESIGNS, w) if w.endswith(".toml") else w for w in self.line.split()]
+
+
+ROWS = [
+    Row("--help"),
+    Row("--version"),
+    Row("table --help"),
+    Row("motion --help"),
+    Row("table --z 6"),
+    Row("table --internal"),
+    Row("table --z 3..40 --format csv"),
+    Row("table --z 6 --format md"),
+    Row("table --z 6 --format json", "json"),
+    Row("table --z 6 --A 0.6"),
+    Row("table --z 2"),
+    Row("peaks press-straight.toml", "tomli"),
+    Row("peaks internal-z6.toml", "tomli"),
+    Row("peaks side-crank-z6.toml", "tomli"),
+    Row("peaks press-straight.toml --format json", "tomli json"),
+    Row("peaks press-curved.toml", "tomli numpy"),
+    Row("peaks table-law.toml", "tomli numpy"),
+    Row("motion press-straight.toml --samples 9", "tomli numpy"),
+    Row("motion press-curved.toml --samples 9", "tomli numpy"),
+    Row("profile press-straight.toml", "tomli numpy"),
+    Row("profile press-curved.toml", "tomli numpy"),
+    Row("profile press-curved.toml --part wheel --format svg", "tomli numpy"),
+    Row("profile press-straight.toml --part wheel --format dxf", "tomli numpy ezdxf json"),
+    Row("report press-straight.toml", "tomli numpy"),
+    Row("report spherical-z6.toml", "tomli numpy"),  # its loads
+    Row("report press-curved.toml", "tomli numpy"),
+    Row("check limits.toml", "tomli numpy"),
+    Row("check spherical-z6.toml", "tomli"),
+    Row("check press-curved.toml", "tomli numpy"),
+    Row("laws"),
+    # NumPy: each row of synth says whether its parts can be built, for which they are laid out
+    Row("synth --tau 1/3", "numpy"),
+    Row("synth --acceleration-max 0.5 --z 6", "numpy"),
+    Row("synth --motion-deg 180 --z 6 --write 1", "tomli numpy"),
+    Row("synth --motion-deg 180 --z 6 --write 4", "tomli numpy"),
+    Row("new external", "tomli"),
+    Row("bench --help"),
+    Row("bench peaks --quick", "numpy scipy json"),  # json: SciPy's; matplotlib only for plots
+]
+
+# The quick ones may import this much of the program, and no more.
+OWN = {
+    "--help": "app errors streams",
+    "--version": "app errors streams",
+    # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
+    "table --z 6": "app errors streams table commands commands.options commands.table output "
+    "output.finite output.text study study.survey analysis analysis.timing machine machine.wheels "
+    "machine.wheels.classic numerics numerics.angles spec spec.rules",
+}
+
+
+def loaded(words, **settings):
+    settings = {"stdout": subprocess.PIPE} | settings
+    found = subprocess.run(
+        [sys.executable, "-c", PROBE, *words],
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+        **settings,
+    )
+    assert "geneva_cli.app" in found.stderr.split()
+    return set(found.stderr.split())
+
+
+def own(modules):
+    return {name.removeprefix("geneva_cli.") for name in modules if name.startswith("geneva_cli.")}
+
+
+def test_every_command_has_a_row():
+    assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
+def test_heavy_modules(row):
+    assert loaded(row.words) & HEAVY <= set(row.may.split())
+
+
+@pytest.mark.parametrize("line", OWN)
+def test_own_modules(line):
+    assert own(loaded(line.split())) <= set(OWN[line].split())
+
+
+@pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])
+def test_completion(words):
+    count = len(words.split(" ")) - 1
+    settings = {
+        "_GENEVA_COMPLETE": "complete_bash",
+        "COMP_WORDS": words,
+        "COMP_CWORD": str(count),
+    }
+    modules = loaded([], env=os.environ | settings)
+    assert not modules & HEAVY
+    if count == 1:  # a command's name: no command is imported
+        assert own(modules) == {"app", "errors", "streams"}
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [("geneva ta", "table"), ("geneva pea", "peaks"), ("geneva table --int", "--internal")],
+)
+def test_completion_completes(words, wanted):
+    settings = {
+        "_GENEVA_COMPLETE": "complete_bash",
+        "COMP_WORDS": words,
+        "COMP_CWORD": str(len(words.split()) - 1),
+    }
+    found = subprocess.run(
+        [sys.executable, "-m", "geneva_cli"],
+        env=os.environ | settings,
+        capture_output=True,
+        text=True,
+    )
+    geneva = os.path.join(os.path.dirname(sys.executable), "geneva")
+    installed = subprocess.run([geneva], env=os.environ | settings, capture_output=True, text=True)
+    assert found.stdout.split() == installed.stdout.split() == [wanted]
+
+
+def test_rich_comes_with_a_terminal():
+    """Also shows that the probe sees what is imported."""
+    master, slave = pty.openpty()
+    modules = loaded(["table", "--z", "6"], stdout=slave)
+    os.close(slave)
+    os.close(master)
+    assert modules & HEAVY >= {"rich"}
+    assert not modules & {"numpy", "scipy", "pydantic", "matplotlib", "ezdxf"}

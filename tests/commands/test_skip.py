@@ -1,0 +1,216 @@
+"""What is computed and what is skipped: positions evaluated, derivatives carried, modules loaded.
+
+| asked for                          | positions evaluated                              |
+| ---------------------------------- | ------------------------------------------------ |
+| n angles, symmetric machine and angles | (n + 1) // 2, and the ends' few              |
+| n angles, else                     | n                                                |
+| a peak of a symmetric machine      | of the first half only                           |
+| a table's row, A = 0               | none: closed forms                               |
+"""
+
+import importlib.util
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from geneva_cli.analysis import peaks as peaks_module
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.machine import registry
+from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
+
+N = 2001
+
+
+class Counter:
+    """How many positions a method was asked for, and for which derivatives."""
+
+    def __init__(self, monkeypatch, cls, name, orders):
+        self.positions, self.orders, self.below_zero = 0, set(), True
+        inner = getattr(cls, name)
+
+        def counted(this, x, *rest, **more):
+            self.positions += np.size(x)
+            self.orders.add(orders(*rest, **more))
+            self.below_zero &= bool(np.all(np.asarray(x) <= 0.0))
+            return inner(this, x, *rest, **more)
+
+        monkeypatch.setattr(cls, name, counted)
+
+
+@pytest.fixture
+def arrays(monkeypatch):
+    """The closed forms of classic wheels over arrays."""
+    return Counter(monkeypatch, ClassicArrays, "_block", lambda orders, *rest: tuple(orders))
+
+
+def kinds(cls):
+    yield cls
+    for other in cls.__subclasses__():
+        yield from kinds(other)
+
+
+@pytest.fixture
+def jets(monkeypatch):
+    """Every class of motion that is worked out in a way of its own."""
+    for name in registry.DRIVES:
+        registry.drive(name)
+    for name in registry.GEARINGS:
+        registry.gearing(name)
+    return [
+        Counter(monkeypatch, cls, "__call__", lambda order=3: order)
+        for cls in set(kinds(Motion))
+        if "__call__" in vars(cls) and not getattr(cls.__call__, "__isabstractmethod__", False)
+    ]
+
+
+def counted(jets):
+    return sum(c.positions for c in jets)
+
+
+def evenly(engagement):
+    half = np.linspace(engagement.entry_deg, 0.0, N // 2 + 1)
+    return np.concatenate([half[:-1], -half[::-1]])
+
+
+def test_plain_crank_evaluates_half(engagement, arrays, jets):
+    s = engagement(6)
+    x = evenly(s)
+    s.motion.derivatives(x)
+    assert (arrays.positions, counted(jets)) == (N // 2 + 1, 0)
+
+
+def test_plain_crank_at_unsymmetric_angles_evaluates_all(engagement, arrays, jets):
+    s = engagement(6)
+    x = evenly(s)[:-1]
+    s.motion.derivatives(x)
+    assert (arrays.positions, counted(jets)) == (N - 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "halved"),
+    [
+        ({"A": 0.6}, True),
+        ({"law": "cycloidal"}, True),
+        ({"law": "sine-group"}, True),
+        ({"law": "sine-group", "lambda_": 0.1}, False),
+    ],
+    ids=["side-crank", "cycloidal", "sine-group", "tilted-sine-group"],
+)
+def test_jets_evaluate_half_where_the_motion_is_symmetric(engagement, arrays, jets, keys, halved):
+    s = engagement(6, **keys)
+    s.motion.derivatives(evenly(s))
+    assert counted(jets) == (N // 2 + 1 if halved else N)
+    assert arrays.positions == 0
+
+
+def test_motion_does_not_evaluate_the_dwell(machine, arrays, jets):
+    m = machine(6)
+    motion_table(m, 3601)
+    inside = 1201  # 120 of 360 degrees, both ends
+    assert arrays.positions in (inside, inside // 2 + 1)
+
+
+def test_only_the_orders_that_are_asked_for(engagement, arrays, jets):
+    s = engagement(6)
+    out = s.motion.derivatives(evenly(s), (1, 2))
+    assert len(out) == 2
+    assert arrays.orders == {(1, 2)}
+    assert {o for c in jets for o in c.orders} <= {2}
+
+
+def test_a_jet_carries_no_more_than_it_must(engagement):
+    for s in (engagement(6), engagement(6, A=0.6), engagement(6, law="cycloidal")):
+        for order in range(4):
+            assert len(s.motion(np.array([-1.0, 0.0]), order).c) == order + 1
+
+
+@pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk", "power"])
+def test_a_symmetric_peak_is_looked_for_in_one_half(engagement, jets, quantity):
+    s = engagement(6, A=0.6)
+    peaks_module.peak(s.motion, quantity)
+    assert 0 < counted(jets) < 300
+    assert all(c.below_zero for c in jets)
+    assert {o for c in jets for o in c.orders} == {peaks_module._ORDER[quantity]}
+
+
+def test_the_classic_peaks_need_no_search(engagement, jets):
+    """Velocity and acceleration of a plain crank: closed forms."""
+    s = engagement(6)
+    peaks_module.velocity_peak(s)
+    peaks_module.acceleration_peak(s)
+    assert counted(jets) == 0
+
+
+def loaded(*arguments):
+    code = (
+        "import os, sys\nend = os._exit\n"
+        "def leave(status):\n"
+        "    print(*sys.modules, file=sys.stderr, flush=True)\n    end(status)\n"
+        "os._exit = leave\nsys.argv[0] = 'geneva'\n"
+        "from geneva_cli.app import main\nmain()\n"
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, timeout=60
+    )
+    return {m.removeprefix("geneva_cli.") for m in found.stderr.split() if "geneva_cli." in m}
+
+
+ARRAYS = "machine.wheels.classic_arrays"
+MOTION = {
+    "machine.mechanism",
+    "machine.engagement",
+    "numerics.jet",
+    "machine.wheels.gearing",
+    "analysis.peaks",
+    "numerics.roots",
+    "machine.laws",
+    ARRAYS,
+    "analysis.motion",
+}
+
+BEYOND = {  # a plain spec's peaks
+    ARRAYS,
+    "parts.slot_profile",
+    "analysis.loads.loads",
+    "verdict.checks",
+    "analysis.motion",
+}
+
+
+def test_a_plain_table_loads_nothing_of_motions():
+    assert not loaded("table", "--z", "3..12") & MOTION
+
+
+def test_a_tables_side_crank_loads_neither_laws_tables_nor_arrays():
+    modules = loaded("table", "--z", "6", "--A", "0.5")
+    assert "machine.drives.side_crank" in modules
+    assert not modules & {ARRAYS, "analysis.motion", "machine.laws.table"}
+
+
+def test_a_plain_spec_loads_no_other_drive(tmp_path):
+    spec = os.path.join(tmp_path, "spec.toml")
+    with open(spec, "w") as file:
+        file.write("[wheel]\nz = 6\n")
+    modules = loaded("peaks", spec)
+    assert {"analysis.peaks", "machine.drives.crank"} <= modules
+    kinds = registry.GEARINGS | registry.DRIVES | registry.LAWS
+    others = {f"machine.{path.partition(':')[0]}" for path in kinds.values()}
+    assert modules & others == {"machine.wheels.external", "machine.drives.crank"}
+    assert not modules & BEYOND
+
+
+def test_every_module_that_must_not_be_loaded_is_one():
+    for module in MOTION | BEYOND:
+        assert importlib.util.find_spec(f"geneva_cli.{module}"), module
+
+
+def test_a_count_would_be_noticed(engagement, jets):
+    s = engagement(6, A=0.6)
+    s.motion(np.zeros(7))
+    s.motion(math.pi)
+    assert counted(jets) == 8

@@ -1,0 +1,209 @@
+"""Bounds, areas, lengths and polylines against fine polygons, closed forms and quadrature."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from drawing_witness import POINT, contours
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from shapely.geometry import LineString, Point, Polygon
+
+from geneva_cli.curves.measure import (
+    area,
+    at,
+    bounds,
+    extent,
+    halves,
+    length,
+    scaled,
+    segment_length,
+    turned,
+    vertices,
+)
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, about, closed
+from geneva_cli.errors import GenevaError
+
+FINE = 1e-5  # mm, of the witnesses' polygons
+# Few examples: the whole file stays within seconds, and each is compared in several ways.
+QUICK = settings(max_examples=60, deadline=None, derandomize=True)
+
+
+def winding_area(points):
+    """The shoelace sum, which also counts what a contour runs round twice or backwards."""
+    x, y = np.array(points).T
+    x, y = x - x[0], y - y[0]
+    return 0.5 * math.fsum(x[:-1] * y[1:] - x[1:] * y[:-1])
+
+
+def on_circle(arc, share):
+    """The point on an arc by its centre and radius, a way that ``at`` does not go."""
+    (x, y), r = arc.centre, arc.radius
+    start = math.atan2(arc.start[1] - y, arc.start[0] - x) + share * arc.sweep
+    return x + r * math.cos(start), y + r * math.sin(start)
+
+
+@QUICK
+@given(POINT, st.floats(0.1, 500.0), st.floats(-7.0, 7.0), st.floats(-6.2, 6.2), st.floats(0, 1))
+def test_an_arc_of_any_sweep(centre, radius, start, sweep, share):
+    assume(abs(sweep) > 1e-3)
+    arc = about(centre, radius, start, sweep)
+    # 1e-9: the shortest chord, 1e-3 radius, carries the coordinates' rounding of 1e-14 into the
+    # centre a thousandfold twice over
+    angle = start + share * sweep
+    expected = centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
+    assert math.dist(at(arc, share), expected) < 1e-9
+    assert segment_length(arc) == pytest.approx(radius * abs(sweep), rel=1e-9)
+    contour = Contour("WHEEL", (arc,), closed=False)
+    cap = 0.5 * radius * radius * (sweep - math.sin(sweep))
+    assert area(contour) == pytest.approx(cap, rel=1e-8, abs=1e-9)
+    # the box against points on the circle: no point outside it, and a point near each side
+    box = bounds(contour)
+    turns = start + sweep * np.linspace(0.0, 1.0, 4001)
+    x, y = centre[0] + radius * np.cos(turns), centre[1] + radius * np.sin(turns)
+    seen = x.min(), y.min(), x.max(), y.max()
+    step = radius * (sweep / 4000.0) ** 2  # more than a chord's height, which is an eighth of it
+    for found, known, outward in zip(box, seen, (-1, -1, 1, 1), strict=True):
+        assert -1e-9 < outward * (found - known) < step + 1e-9
+
+
+def test_a_quarter_turn_has_its_numbers():
+    arc = about((1.0, 2.0), 10.0, 0.0, 0.5 * math.pi)
+    pie = closed("WHEEL", [arc, Line((1.0, 12.0), (1.0, 2.0)), Line((1.0, 2.0), (11.0, 2.0))])
+    assert area(pie) == pytest.approx(25.0 * math.pi, rel=1e-15)
+    assert length(pie) == pytest.approx(20.0 + 5.0 * math.pi, rel=1e-15)
+    assert bounds(pie) == pytest.approx((1.0, 2.0, 11.0, 12.0), abs=1e-14)
+
+
+@pytest.mark.parametrize("sweep", [1e-12, 1e-6, 1e-3, 0.1, 0.499, 0.5, 0.501, 3.0])
+def test_a_cap_keeps_its_digits(sweep):
+    with mpmath.workdps(50):
+        bulge = math.tan(0.25 * sweep)
+        angle = 4 * mpmath.atan(bulge)
+        cap = (angle - mpmath.sin(angle)) / (8 * mpmath.sin(angle / 2) ** 2) * 100
+    found = area(Contour("WHEEL", (Arc((0.0, 0.0), (10.0, 0.0), bulge),), closed=False))
+    assert found == pytest.approx(float(cap), rel=1e-14)  # some roundings of 1e-16
+
+
+@QUICK
+@given(contours())
+def test_areas_and_lengths_are_those_of_fine_polygons(contour):
+    points = vertices(contour, FINE)
+    line = LineString(points)
+    # a chord is at most FINE off, over the whole length: so is the area
+    assert area(contour) == pytest.approx(winding_area(points), abs=FINE * line.length + 1e-9)
+    # a polygon is shorter, by less than 8/3 FINE^2 / chord a chord; 2e-6 of the length is coarse
+    assert line.length <= length(contour) * (1.0 + 1e-12)
+    assert length(contour) == pytest.approx(line.length, rel=2e-6)
+    if Polygon(points).is_valid:
+        assert abs(area(contour)) == pytest.approx(
+            Polygon(points).area, abs=FINE * line.length + 1e-9
+        )
+    box, seen = bounds(contour), line.bounds
+    for found, known, outward in zip(box, seen, (-1, -1, 1, 1), strict=True):
+        assert -1e-9 < outward * (found - known) < FINE + 1e-9
+
+
+@QUICK
+@given(contours(), st.sampled_from([1.0, 0.1, 0.01]))
+def test_vertices_stay_within_the_tolerance(contour, tolerance):
+    points = vertices(contour, tolerance)
+    assert points[0] == points[-1] == contour.segments[0].start
+    assert {s.end for s in contour.segments} <= set(points)
+    line = LineString(points)
+    for segment in contour.segments:
+        for share in (0.11, 0.37, 0.5, 0.83):
+            if isinstance(segment, Arc):
+                point = on_circle(segment, share)
+            elif isinstance(segment, Line):
+                point = at(segment, share)
+            else:
+                weights = [(1 - share) ** 3, 3 * share * (1 - share) ** 2]
+                weights += [3 * share * share * (1 - share), share**3]
+                point = tuple(np.dot(weights, segment))
+                assert at(segment, share) == pytest.approx(point, abs=1e-11)
+            assert line.distance(Point(point)) < tolerance * (1.0 + 1e-9) + 1e-9
+
+
+def test_vertices_are_not_many_more_than_needed():
+    """A turn of radius r needs pi / acos(1 - e / r) chords."""
+    circle = Circle("BORE", (5.0, 6.0), 50.0)
+    needed = math.pi / math.acos(1.0 - 0.01 / 50.0)
+    points = vertices(circle, 0.01)
+    assert needed <= len(points) - 1 < needed + 1.0
+    assert points[0] == points[-1]
+    assert max(math.dist(p, circle.centre) for p in points) == pytest.approx(50.0, rel=1e-14)
+
+
+CUBICS = [
+    Cubic((0.0, 0.0), (10.0, 30.0), (40.0, -20.0), (50.0, 10.0)),
+    Cubic((0.0, 0.0), (40.0, 30.0), (-10.0, 30.0), (30.0, 0.0)),  # a loop
+    Cubic((0.0, 0.0), (30.0, 30.0), (0.0, 30.0), (30.0, 0.0)),  # a cusp
+    Cubic((0.0, 0.0), (0.0, 0.0), (10.0, 0.0), (10.0, 0.0)),  # straight, and slow at its ends
+]
+
+
+@pytest.mark.parametrize("cubic", CUBICS)
+def test_a_cubic_s_length(cubic):
+    p = np.array(cubic)
+
+    def speed(t):
+        d = 3.0 * np.diff(p, axis=0)
+        return math.hypot(*(d[0] * (1 - t) ** 2 + d[1] * 2 * t * (1 - t) + d[2] * t * t))
+
+    expected, error = quad(speed, 0.0, 1.0, points=[0.5], epsabs=1e-12, epsrel=1e-12)
+    assert segment_length(cubic) == pytest.approx(expected, abs=1e-10 + error)
+
+
+@QUICK
+@given(contours())
+def test_halves_are_the_whole(contour):
+    for segment in contour.segments:
+        first, second = halves(segment)
+        assert first.start == segment.start
+        assert first.end == second.start
+        assert second.end == segment.end
+        both = segment_length(first) + segment_length(second)
+        assert both == pytest.approx(segment_length(segment), rel=1e-9)
+        assert math.dist(at(first, 0.5), at(segment, 0.25)) < 1e-9
+
+
+@QUICK
+@given(contours(), st.floats(-7.0, 7.0), POINT, st.floats(0.01, 100.0))
+def test_turning_and_scaling(contour, angle, centre, factor):
+    here = turned(contour, angle, centre)
+    assert here.segments[-1].end == here.segments[0].start  # exactly, as before
+    assert area(here) == pytest.approx(area(contour), rel=1e-9, abs=1e-8)
+    assert length(here) == pytest.approx(length(contour), rel=1e-11)
+    moved = math.dist(here.segments[0].start, centre)
+    assert moved == pytest.approx(math.dist(contour.segments[0].start, centre), abs=1e-11)
+    circle = Circle("BORE", centre, 3.0)
+    large = scaled(Drawing("", (contour, circle)), factor)
+    assert area(large.shapes[0]) == pytest.approx(factor**2 * area(contour), rel=1e-9, abs=1e-5)
+    assert large.shapes[1].radius == 3.0 * factor
+    assert extent(large) == pytest.approx([factor * x for x in extent(scaled(large, 1 / factor))])
+
+
+def test_a_quarter_turn_turns_left():
+    assert turned(Circle("BORE", (2.0, 1.0), 3.0), 0.5 * math.pi, (1.0, 1.0)).centre == (
+        pytest.approx((1.0, 2.0))
+    )
+
+
+def test_the_witnesses_can_fail():
+    """An arc whose bulge has the wrong sign is seen by area, length, box and distance."""
+    good = closed("WHEEL", [Arc((0.0, 0.0), (10.0, 0.0), 0.3), Line((10.0, 0.0), (0.0, 0.0))])
+    bad = good._replace(segments=(Arc((0.0, 0.0), (10.0, 0.0), -0.3), good.segments[1]))
+    points = vertices(bad, FINE)
+    assert abs(area(good) - winding_area(points)) > 1.0
+    assert abs(bounds(good).y0 - LineString(points).bounds[1]) > 1.0
+    assert LineString(points).distance(Point(on_circle(good.segments[0], 0.5))) > 1.0
+
+
+def test_refusals():
+    with pytest.raises(GenevaError, match=r"the tolerance is 0\.0; it must be above 0"):
+        vertices(Circle("BORE", (0.0, 0.0), 1.0), 0.0)
+    with pytest.raises(GenevaError, match="nothing to draw"):
+        extent(Drawing("empty", ()))

@@ -1,0 +1,236 @@
+"""Exact distances to outlines, against fine polygons and 30 digits of the textbook's formulas."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+import shapely
+from drawing_witness import contours
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from shapely.geometry import Polygon
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.measure import vertices
+from geneva_cli.curves.shapes import Arc, Contour, Line, about, backwards, closed
+
+FINE = 1e-5  # mm, how far the witnesses' polygons stray from the arcs
+QUICK = settings(max_examples=40, deadline=None, derandomize=True)
+GRID = np.stack(np.meshgrid(np.linspace(-150, 150, 37), np.linspace(-150, 150, 37)), -1)
+GRID = GRID.reshape(-1, 2) + np.array([0.0371, 0.0129])  # off the corners' own coordinates
+
+
+def square(side: float = 10.0) -> Contour:
+    points = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
+    return closed("X", [Line(p, q) for p, q in zip(points, points[1:] + points[:1], strict=True)])
+
+
+def polygon_distances(polygons: list[Polygon], points: np.ndarray) -> np.ndarray:
+    """Signed by what shapely says is inside; of several polygons the first is the outside."""
+    whole = Polygon(polygons[0].exterior, [p.exterior for p in polygons[1:]])
+    where = shapely.points(points)
+    away = shapely.distance(whole.boundary, where)
+    return np.where(shapely.contains(whole, where), -away, away)
+
+
+def polygon(contour: Contour, tolerance: float = FINE) -> Polygon:
+    return Polygon(vertices(contour, tolerance))
+
+
+def counterclockwise(contour: Contour) -> Contour:
+    return contour if polygon(contour).exterior.is_ccw else backwards(contour)
+
+
+@QUICK
+@given(contours("la"))
+def test_random_contours_against_polygons(contour: Contour) -> None:
+    assume(polygon(contour, 1e-3).is_valid)
+    contour = counterclockwise(contour)
+    found = Polyarc([contour]).signed(GRID)
+    wanted = polygon_distances([polygon(contour)], GRID)
+    # A point nearer to the outline than the polygon strays may be on either side of it.
+    assert np.abs(np.abs(found) - np.abs(wanted)).max() < FINE
+    assert np.array_equal(found < 0.0, wanted < 0.0) or np.abs(found - wanted).max() < 2.0 * FINE
+
+
+@QUICK
+@given(contours("la"), st.integers(0, 400), st.floats(1.0, 60.0), st.floats(0.0, math.tau))
+def test_no_nearest_piece_is_lost(contour: Contour, count: int, reach: float, start: float) -> None:
+    """A way of points, few or many, smooth or with a leap: of all that come within reach of the
+    outline the distance is the same, and what lies farther is said to be farther."""
+    assume(polygon(contour, 1e-3).is_valid)
+    contour = counterclockwise(contour)
+    t = start + np.linspace(0.0, 2.5, count + 1)
+    way = np.column_stack((90.0 * np.cos(t), 70.0 * np.sin(2.0 * t)))
+    way[count // 2 :] -= [17.0, 9.0]
+    whole = Polyarc([contour])
+    wanted, found = whole.signed(way), whole.near(way, reach).signed(way)
+    close = np.abs(wanted) <= reach
+    assert np.array_equal(wanted[close], found[close])
+    assert (np.abs(found[~close]) > reach).all()
+
+
+@QUICK
+@given(contours("la"), st.floats(1.0, 60.0))
+def test_no_nearest_piece_is_lost_to_a_single_point(contour: Contour, reach: float) -> None:
+    """As of a way of points, whose spacing is allowed for; a point by itself has none to spare."""
+    whole = Polyarc([contour])
+    for point in GRID[:: len(GRID) // 150]:
+        wanted = whole.signed(point[None])
+        if abs(wanted) <= reach:
+            assert whole.near(point[None], reach).signed(point[None]) == wanted
+
+
+def test_no_piece_within_reach() -> None:
+    whole = Polyarc([square()])
+    far = np.array([[500.0, 300.0]])
+    assert whole.near(far, 1.0).signed(far) == whole.signed(far)
+
+
+@QUICK
+@given(contours("la"), st.floats(1e-3, 1.0), st.floats(0.5, 40.0))
+def test_samples_are_on_the_outline_and_dense(
+    contour: Contour, sagitta: float, longest: float
+) -> None:
+    boundary = Polyarc([contour])
+    points = boundary.samples(sagitta, longest)
+    corners = {segment.start for segment in contour.segments}
+    assert corners <= {(x, y) for x, y in points}
+    # 200 mm, and arcs of some metres: a few units in the last place of 1e4 mm
+    assert np.abs(boundary.signed(points)).max() < 1e-11
+    steps = np.hypot(*np.diff(np.vstack((points, points[:1])), axis=0).T)
+    assert steps.max() <= longest * (1.0 + 1e-9)
+    # Between the samples the outline strays from their chords by no more than the sagitta.
+    chords = shapely.linestrings(np.vstack((points, points[:1])))
+    fine = shapely.points(np.array(vertices(contour, 1e-3 * sagitta)))
+    assert shapely.distance(chords, fine).max() <= sagitta * (1.0 + 1e-6)
+
+
+def exact(piece: Line | Arc, x: float, y: float) -> tuple[float, float, bool]:
+    """The distance of a point from one piece in 30 digits, its side (> 0 on the left), and whether
+    the nearest is between the piece's ends."""
+    with mpmath.workdps(30):
+        p, q, s = mpmath.mpc(*piece.start), mpmath.mpc(*piece.end), mpmath.mpc(x, y)
+        if isinstance(piece, Line):
+            share = mpmath.re((s - p) * mpmath.conj(q - p)) / abs(q - p) ** 2
+            foot = p + min(max(share, 0), 1) * (q - p)
+            side = float(mpmath.im(mpmath.conj(q - p) * (s - p)))
+            return float(abs(s - foot)), side, bool(0 < share < 1)
+        sweep = 4 * mpmath.atan(mpmath.mpf(piece.bulge))
+        centre = (p + q) / 2 + mpmath.mpc(0, 1) * (q - p) / 2 / mpmath.tan(sweep / 2)
+        # how far the point's direction is beyond the start, along the sweep
+        turn = mpmath.arg((s - centre) / (p - centre)) * mpmath.sign(sweep)
+        within = turn % (2 * mpmath.pi) <= abs(sweep)
+        away = abs(p - centre) - abs(s - centre)
+        nearest = abs(away) if within else min(abs(s - p), abs(s - q))
+        return float(nearest), float(away * mpmath.sign(sweep)), bool(within)
+
+
+PIECES = [
+    Line((-3.0, 1.0), (5.0, 7.0)),
+    Line((1.0, 0.0), (1.0, 1e-3)),
+    *[Arc((2.0, -1.0), (6.0, 3.0), math.tan(math.radians(d) / 4.0)) for d in (20, 179, 180, 300)],
+    *[Arc((2.0, -1.0), (6.0, 3.0), -math.tan(math.radians(d) / 4.0)) for d in (20, 179, 180, 300)],
+]
+
+
+@pytest.mark.parametrize("piece", PIECES)
+def test_one_piece_against_thirty_digits(piece: Line | Arc) -> None:
+    """The piece closed by two lines: the side is asked for where it is the nearest of the three."""
+    far = (-40.0, -90.0)
+    pieces = [piece, Line(piece.end, far), Line(far, piece.start)]
+    boundary = Polyarc([closed("X", pieces)])
+    centre = np.add(piece.start, piece.end) / 2.0
+    spread = 1.5 * math.dist(piece.start, piece.end)
+    points = centre + spread * np.random.default_rng(1).standard_normal((200, 2))
+    sides = 0
+    for point, value in zip(points, boundary.signed(points), strict=True):
+        (distance, side, ahead), *others = (exact(p, *point) for p in pieces)
+        nearest = min(distance, *(d for d, _, _ in others))
+        # distances and radii reach some 100 mm: two units in the last place of that
+        assert abs(value) == pytest.approx(nearest, abs=2.0 * math.ulp(100.0))
+        if ahead and distance == nearest:
+            assert (value < 0.0) == (side > 0.0)
+            sides += 1
+    assert sides >= 20
+
+
+@pytest.mark.parametrize("flip", [1.0, -1.0])
+@pytest.mark.parametrize("turn_deg", [1e-3, 1.0, 60.0, 90.0, 150.0, 179.0, 179.999])
+@pytest.mark.parametrize("bend", [0.0, 0.2, -0.2])
+def test_corners(flip: float, turn_deg: float, bend: float) -> None:
+    """Straight and arced edges that meet in a corner, convex (flip = 1) and hollow: all around it
+    the sign is right. The witness is the angle from the outgoing edge to the incoming one."""
+    turn = math.radians(turn_deg)
+    before, after = (-5.0, 0.0), (5.0 * math.cos(turn), 5.0 * math.sin(turn))
+    # The edges' own tangents at the corner are those of the straight ones.
+    ways = [(math.pi, before), (turn, after)]
+    tips = [
+        (d * math.cos(a + s * 2.0 * math.atan(bend)), d * math.sin(a + s * 2.0 * math.atan(bend)))
+        for (a, _), d, s in zip(ways, (5.0, 5.0), (-1.0, 1.0), strict=True)
+    ]
+    edges = [_edge(tips[0], (0.0, 0.0), bend), _edge((0.0, 0.0), tips[1], bend)]
+    far = (30.0, -100.0)  # what closes the contour passes the corner at millimetres
+    contour = closed("X", [*edges, Line(tips[1], far), Line(far, tips[0])])
+    boundary = Polyarc([contour if flip > 0.0 else backwards(contour)])
+    angles = np.linspace(0.0, math.tau, 720, endpoint=False) + 1e-3
+    small = 1e-6  # mm, where the arcs turn by 1e-7; directions near an edge are left out
+    points = small * np.column_stack((np.cos(angles), np.sin(angles)))
+    inside = (angles > turn) & (angles < math.pi)
+    clear = np.minimum.reduce([np.abs(angles - a) for a in (turn, math.pi, turn + math.tau)]) > 1e-3
+    found = boundary.signed(points) < 0.0
+    assert np.array_equal(found[clear], (inside if flip > 0.0 else ~inside)[clear])
+
+
+def _edge(start: tuple[float, float], end: tuple[float, float], bend: float) -> Line | Arc:
+    return Arc(start, end, bend) if bend else Line(start, end)
+
+
+def test_a_hole_is_outside() -> None:
+    """Several contours: a ring, and the part in its hole."""
+    ring = [
+        closed("X", [about((0.0, 0.0), 50.0, k, math.pi) for k in (0.0, math.pi)]),
+        backwards(closed("X", [about((3.0, 0.0), 20.0, k, math.pi) for k in (0.0, math.pi)])),
+    ]
+    found = Polyarc(ring).signed(GRID)
+    rho, hole = np.hypot(*GRID.T), np.hypot(GRID[:, 0] - 3.0, GRID[:, 1])
+    # two units in the last place of 200 mm
+    assert found == pytest.approx(np.maximum(rho - 50.0, 20.0 - hole), abs=6e-14)
+
+
+def test_smooth_joints_have_no_corner() -> None:
+    """Beside the joints of a slot the side is the piece's own, to the last digit: on the flank and
+    at the round end, inside and out by a hundred-thousandth of a micrometre."""
+    w, mouth = 7.3, 60.0
+    pieces = [
+        Line((mouth, -w), (11.0, -w)),
+        about((11.0, 0.0), w, 1.5 * math.pi, -math.pi),
+        Line((11.0, w), (mouth, w)),
+        Arc((mouth, w), (mouth, -w), 1.4),
+    ]
+    slot = Polyarc([closed("X", pieces)])
+    for turn in np.concatenate((-np.geomspace(1e-12, 1e-2, 11), [0.0], np.geomspace(1e-12, 1e-2))):
+        for by in (-1e-8, 1e-8, 1.0):
+            x = 11.0 + (turn * 50.0 if turn > 0.0 else (w + by) * math.sin(turn))
+            y = -(w + by) * (math.cos(turn) if turn < 0.0 else 1.0)
+            # 1e-14 is a unit in the last place of 60 mm
+            assert slot.signed(np.array([[x, y]]))[0] == pytest.approx(-by, abs=2e-14)
+
+
+def test_blocks_of_points_agree() -> None:
+    """More distances than are held at once come in blocks; none is lost or moved."""
+    boundary = Polyarc([square()])
+    rng = np.random.default_rng(3)
+    points = 20.0 * rng.random((700_000, 2)) - 5.0
+    found = boundary.signed(points)
+    assert len(found) == len(points)
+    x, y = points.T
+    inside = np.minimum(np.minimum(x, 10.0 - x), np.minimum(y, 10.0 - y))
+    outside = np.hypot(np.maximum(np.abs(x - 5.0) - 5.0, 0), np.maximum(np.abs(y - 5.0) - 5.0, 0))
+    wanted = np.where(inside > 0.0, -inside, outside)
+    assert np.abs(found - wanted).max() < 1e-14  # a few units in the last place of 10 mm
+
+
+def test_no_points_no_distances() -> None:
+    assert Polyarc([square()]).signed(np.empty((0, 2))).shape == (0,)

@@ -1,0 +1,647 @@
+"""The contract of every machine: each kind of drive, each gearing, and what they make together.
+
+Accuracy: against 50 digits at 60 angles, the error of position, velocity, acceleration and jerk is
+at most 16 units in the last place of that quantity's own peak, times max(1, condition number),
+|x q'(x)| / peak: what one such unit of the input angle x does. To this is added what the rounding
+of the places of entry, middle and exit to doubles does whatever the method: |q'(x)| times half a
+unit of the largest of the three. A linkage's lengths are rounded, too: how far its path
+reaches, over the pin's least distance from the wheel's axis, counts as a condition number.
+"""
+
+import math
+from functools import cache
+from itertools import pairwise
+
+import machine_witness
+import numpy as np
+import pytest
+from witness import mp, to_degrees, to_radians
+from words import Spec, load
+
+from geneva_cli.analysis.loads.loads import state
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.analysis.peaks import QUANTITIES, worst
+from geneva_cli.analysis.timing import timings
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.transmission import Transmission
+from geneva_cli.machine.mechanism import build
+
+NAMES = ("position", "velocity", "acceleration", "jerk")
+SIDE = 'kind = "side-crank", A = '
+GEARS = 'kind = "elliptical-gears", eccentricity = '
+QUICK = ', phase = "quick"'
+SPHERE = 'gearing = "spherical"'
+INSIDE = 'gearing = "internal"'
+NONCIRCULAR = 'kind = "noncircular-gears", A = '
+FOUR_BAR = 'kind = "four-bar", crank_mm = 40, ground_mm = 90, coupler_mm = 100, rocker_mm = 100, '
+SLIDER = 'kind = "slider-crank", crank_mm = 40, rod_mm = 120, '
+PAIR = 'kind = "geneva-pair", first_z = '
+PLANET = 'kind = "epicyclic", planet_ratio = '
+
+
+def text(wheel, drive="", motion=""):
+    return f"wheel = {{{wheel}}}\ndrive = {{{drive}}}\nmotion = {{{motion}}}\n"
+
+
+CASES = {
+    "external": text("z = 3"),
+    "external-two-rollers": text("z = 8", "rollers = 2"),
+    "internal": text(f"z = 5, {INSIDE}"),
+    "spherical-3": text(f"z = 3, {SPHERE}"),
+    "spherical-6": text(f"z = 6, {SPHERE}"),
+    "spherical-24": text(f"z = 24, {SPHERE}"),
+    "spherical-60-deg": text(f"z = 5, {SPHERE}, axes_deg = 60"),
+    "spherical-130-deg": text(f"z = 4, {SPHERE}, axes_deg = 130"),
+    "spherical-nearly-flat": text(f"z = 6, {SPHERE}, axes_deg = 0.7"),
+    "spherical-two-rollers": text(f"z = 6, {SPHERE}, axes_deg = 50", "rollers = 2"),
+    "offset": text("z = 6, offset_mm = 20"),
+    "offset-negative": text("z = 4, offset_mm = -13.7"),
+    "offset-near-its-limit": text("z = 5, offset_mm = 40"),
+    "steps": text("z = 6, steps_deg = [70, 50]"),
+    "steps-three": text("z = 3, steps_deg = [100, 122.5, 137.5]"),
+    "angles": text("z = 4", "roller_angles_deg = [0, 90]"),
+    "angles-spherical": text(f"z = 6, {SPHERE}, axes_deg = 50", "roller_angles_deg = [0, 161.3]"),
+    "side-crank": text("z = 6", f"{SIDE}0.6"),
+    "side-crank-quick": text("z = 6", f"{SIDE}-0.3"),
+    "side-crank-two-rollers": text("z = 8", f"{SIDE}0.4, rollers = 2"),
+    "side-crank-internal": text(f"z = 6, {INSIDE}", f"{SIDE}0.3"),
+    "side-crank-spherical": text(f"z = 5, {SPHERE}, axes_deg = 80", f"{SIDE}0.5"),
+    "side-crank-offset": text("z = 6, offset_mm = 15", f"{SIDE}0.5"),
+    "side-crank-steps": text("z = 6, steps_deg = [70, 50]", f"{SIDE}0.35"),
+    "side-crank-angles": text("z = 6", f"{SIDE}0.35, roller_angles_deg = [0, 130]"),
+    "gears": text("z = 6", f"{GEARS}0.3"),
+    "gears-quick": text("z = 4", f"{GEARS}0.2{QUICK}"),
+    "gears-internal": text(f"z = 6, {INSIDE}", f"{GEARS}0.2{QUICK}"),
+    "gears-spherical": text(f"z = 6, {SPHERE}", f"{GEARS}0.35"),
+    "gears-offset": text("z = 6, offset_mm = -20", f"{GEARS}0.25"),
+    "gears-two-rollers": text("z = 8", f"{GEARS}0.3{QUICK}, rollers = 2"),
+    "gears-angles": text("z = 6", f"{GEARS}0.25, roller_angles_deg = [0, 150]"),
+    "noncircular": text("z = 6", f"{NONCIRCULAR}0.5"),
+    "noncircular-internal": text(f"z = 6, {INSIDE}", f"{NONCIRCULAR}-0.2"),
+    "noncircular-spherical": text(f"z = 4, {SPHERE}", f"{NONCIRCULAR}0.3"),
+    "noncircular-offset": text("z = 6, offset_mm = 10", f"{NONCIRCULAR}0.3"),
+    "noncircular-two-rollers": text("z = 8", f"{NONCIRCULAR}0.3, rollers = 2"),
+    "crank-offset-two-rollers": text("z = 8, offset_mm = 7", "rollers = 2"),
+    "pair": text("z = 4", f"{PAIR}3"),
+    "pair-alike": text("z = 4", f"{PAIR}4"),
+    "pair-offset": text("z = 4, offset_mm = 5", f"{PAIR}3"),
+    "gears-curved": text("z = 6", f"{GEARS}0.2", 'law = "cycloidal", ratio = "matched"'),
+    "curved": text("z = 6", "", 'law = "3-4-5", ratio = "matched"'),
+    "curved-internal": text(f"z = 8, {INSIDE}", "", 'law = "cycloidal", ratio = "matched"'),
+    "planet-sun-4": text("z = 4", f'{PLANET}"shockless"'),
+    "planet-ring-4": text("z = 4", f'{PLANET}"shockless", fixed = "ring"'),
+    "planet-sun-3": text("z = 3", f"{PLANET}0.01"),
+    "planet-sun-6": text("z = 6", f"{PLANET}-0.0125"),
+    "planet-ring-6": text("z = 6", f'{PLANET}0.07, fixed = "ring"'),
+    "cam": text("z = 6", 'kind = "cam"', 'law = "cycloidal"'),
+    "cam-early": text("z = 4", 'kind = "cam"', 'law = "modified-sine", alpha0_deg = 10'),
+    "cam-two-rollers": text("z = 8", 'kind = "cam", rollers = 2', 'law = "3-4-5"'),
+    "cam-internal": text(f"z = 8, {INSIDE}", 'kind = "cam"', 'law = "4-5-6-7"'),
+    "four-bar": text("z = 6", f"{FOUR_BAR}point_mm = 170, point_deg = 0"),
+    "slider-crank": text("z = 4", f"{SLIDER}point_mm = 200, point_deg = 20, height_mm = 10"),
+    "slider-crank-turned": text("z = 3", f"{SLIDER}point_mm = 60, point_deg = 30"),
+}
+# Machines on a linkage's path, with places near which their wheel's entry and exit are.
+ON_PATH = {
+    "four-bar": (59.15, 289.43),
+    "slider-crank": (239.58, 372.26),
+    "slider-crank-turned": (50.82, 150.71),
+}
+
+
+@pytest.fixture(scope="module")
+def machine(tmp_path_factory):
+    """A function from a spec's text, or a case's name, to the mechanism, by the public reader."""
+    folder = tmp_path_factory.mktemp("machines")
+
+    @cache
+    def make(case):
+        path = folder / "spec.toml"
+        path.write_text(CASES.get(case, case), encoding="utf-8")
+        return load(path)
+
+    return make
+
+
+@pytest.fixture(scope="module")
+def witness(machine):
+    """A function from a case's name to its witnesses, one an engagement."""
+
+    @cache
+    def make(case):
+        spec = machine(case).spec
+        if case in ON_PATH:
+            return (machine_witness.on_path(spec, *ON_PATH[case]),)
+        return tuple(machine_witness.motions(spec))
+
+    return make
+
+
+def angles(engagement):
+    """60 input angles: even, both ends and their neighbourhoods, and around the middle."""
+    first, last = engagement.entry_deg, engagement.exit_deg
+    near = [1e-12, 1e-9, 1e-6, 1e-3, 0.1]
+    out = {0.0, first, last, math.nextafter(first, 0.0), math.nextafter(last, 0.0)}
+    out |= {first + abs(first) * t for t in near} | {last - abs(last) * t for t in near}
+    out |= {s * t for t in (1e-12, 1e-6, 0.01, 0.05, 0.07) for s in (-1.0, 1.0)}
+    even = np.linspace(first, last, 60 - len(out) + 2)[1:-1]
+    return np.array(sorted(out | {float(x) for x in even}))
+
+
+@pytest.fixture(scope="module")
+def exact(machine, witness):
+    """A function from a case and an engagement to angles with the witness's derivatives 0..4."""
+
+    @cache
+    def make(case, i):
+        x = angles(machine(case).engagements[i])
+        return x, np.array([witness(case)[i].derivatives(v) for v in x]).T
+
+    return make
+
+
+def slack(engagement):
+    """Half a unit of the largest of the places that were rounded to doubles, radians."""
+    far = abs(engagement.mid_deg) + max(-engagement.entry_deg, engagement.exit_deg)
+    return float(to_radians(math.ulp(far))) / 2.0
+
+
+def bars(engagement, x, reference, k, units, case=""):
+    """The error allowed of derivative k at each angle: see the top of this file."""
+    peak = float(np.max(np.abs(reference[k])))
+    slope = np.abs(reference[k + 1]).astype(float)
+    condition = np.abs(np.radians(x)) * slope / peak
+    if case in ON_PATH:
+        condition = np.maximum(condition, 1.0 / min(a.along for a in engagement.path.anchors))
+    return units * math.ulp(peak) * np.maximum(1.0, condition) + slope * slack(engagement)
+
+
+every = pytest.mark.parametrize("case", CASES)
+
+
+def test_every_kind_and_every_gearing_has_an_entry(machine):
+    specs = [machine(case).spec for case in CASES]
+    # a gear sector's motion is in pieces: test_gear_sector.py has its witness
+    assert {s.drive.NAME for s in specs} | {"gear-sector"} == set(registry.DRIVES)
+    assert {s.wheel.NAME for s in specs} == set(registry.GEARINGS)
+    for kind in registry.DRIVES:  # and each transmission before each gearing and each kind of slot
+        # a pair's first wheel turns its crank through less than half a turn, and back at once
+        if issubclass(registry.drive(kind), Transmission) and kind != "geneva-pair":
+            mine = [s for s in specs if kind == s.drive.NAME]
+            assert {s.wheel.NAME for s in mine} == set(registry.GEARINGS), kind
+            assert any(s.wheel.as_dict().get("offset_mm") for s in mine), kind
+            assert any(s.drive.rollers > 1 for s in mine), kind
+
+
+@every
+def test_stations_and_their_places(machine, witness, case):
+    m, reference = machine(case), witness(case)
+    assert len(m.engagements) == len(reference)
+    for i, (s, w) in enumerate(zip(m.engagements, reference, strict=True)):
+        # three roundings of a sum, and the crank's own angle, 45 degrees and more, is a double that
+        # counts up to twice
+        bar = 6 * math.ulp(max(45.0, abs(s.mid_deg) + max(-s.entry_deg, s.exit_deg)))
+        for value, want in ((s.mid_deg, w.mid), (s.entry_deg, w.entry), (s.exit_deg, w.exit)):
+            assert abs(mp.mpf(value) - to_degrees(want)) <= bar
+        assert s.half_step == pytest.approx(float(w.b), rel=2e-16)
+        assert m.index_deg(i) == pytest.approx(float(to_degrees(2 * w.b)), rel=2e-16)
+        # A second roller's motion is symmetric too, but its two ends are rounded apart.
+        mirrored = abs(w.entry + w.exit) < mp.mpf(10) ** -30
+        assert mirrored if s.motion.symmetric else i or not mirrored or case in ON_PATH
+
+
+@every
+def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
+    for s, w in zip(machine(case).engagements, witness(case), strict=True):
+        x = np.array([s.entry_deg, s.exit_deg])
+        for wheel, velocity in (
+            tuple(zip(*[s.motion(v).derivatives()[:2] for v in x.tolist()], strict=True)),
+            s.motion(x).derivatives()[:2],
+            s.motion.derivatives(x, (0, 1)),
+        ):
+            assert list(velocity) == [0.0, 0.0]
+            assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
+
+
+@every
+def test_error_within_16_ulp_of_the_peak(machine, exact, case):
+    over = []
+    for i, s in enumerate(machine(case).engagements):
+        x, reference = exact(case, i)
+        for how, got in (
+            ("jets", s.motion(x, 3).derivatives()),
+            ("arrays", s.motion.derivatives(x)),
+        ):
+            for k, name in enumerate(NAMES):
+                bar = bars(s, x, reference, k, 16.0, case)
+                values = [mp.mpf(float(v)) for v in got[k]]
+                error = np.abs(np.array(values) - reference[k]).astype(float)
+                over += [
+                    f"{name} ({how}) of engagement {i} at {x[j]:.17g}: {error[j] / bar[j]:.3g} bars"
+                    for j in np.flatnonzero(~(error <= bar))
+                ]
+    assert not over, "\n".join(over[:40])
+
+
+@every
+def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
+    for i in range(len(machine(case).engagements)):
+        w = witness(case)[i]
+        if w.closed is None:  # a law or a linkage: nobody derived it by hand
+            continue
+        x, reference = exact(case, i)
+        for j in range(0, len(x), 5):
+            for k, value in enumerate(w.closed(to_radians(x[j])), 1):
+                assert abs(value - reference[k][j]) <= mp.mpf(10) ** -40 * (1 + abs(value))
+
+
+@every
+def test_numbers_and_arrays_agree(machine, exact, case):
+    for i, s in enumerate(machine(case).engagements):
+        x, reference = exact(case, i)
+        many = s.motion(x, 3).derivatives()
+        one = np.array([s.motion(float(v), 3).derivatives() for v in x]).T
+        for k, name in enumerate(NAMES):
+            # 6: the two libraries' sines differ by a unit, and a front drive takes two of them
+            bar = bars(s, x, reference, k, 6.0, case)
+            assert np.all(np.abs(many[k] - one[k]) <= bar), name
+
+
+@every
+def test_a_symmetric_motion_is_mirrored(machine, exact, case):
+    for i, s in enumerate(machine(case).engagements):
+        if not s.motion.symmetric:
+            continue
+        x, reference = exact(case, i)
+        ahead, back = s.motion(x, 3).derivatives(), s.motion(-x, 3).derivatives()
+        for k, name in enumerate(NAMES):
+            mirrored = back[k] if k % 2 else -back[k]
+            # 16: the two halves may each be off by half of what either may be
+            assert np.all(np.abs(ahead[k] - mirrored) <= bars(s, x, reference, k, 16.0, case)), name
+
+
+@every
+def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
+    """The pin's place, the slot's axis and the pitch curve are three views of one thing."""
+    for i, s in enumerate(machine(case).engagements):
+        w, x = witness(case)[i], exact(case, i)[0]
+        px, py = (c.c[0] for c in s.path(x, 1))
+        wheel = s.motion(x, 0).c[0]
+        across = py * np.cos(wheel) - px * np.sin(wheel)
+        along = px * np.cos(wheel) + py * np.sin(wheel)
+        u, v = (c.c[0] for c in s.slot(x, 1))
+        # 1e-14: a few roundings of lengths up to 2 L, and the anchors' of the input angle; 1e-12
+        # where the law of sines divides two small angles, one of them known to 1e-16 of a step
+        bar = 1e-12 if s.slot.axis(s.entry_deg) and w.law else 1e-14
+        for j in range(0, len(x), 3):
+            if x[j] == 0.0 and w.law:
+                continue  # 0/0 in the law of sines
+            true = w.path(to_radians(x[j]))
+            assert abs(complex(px[j], py[j]) - complex(true)) <= bar
+        if not machine(case).spec.wheel.FLAT:
+            assert np.max(np.abs(across)) <= 1e-14
+            polar = [float(w.polar(to_radians(t))) for t in x]
+            assert np.max(np.abs(u - polar)) <= 1e-14
+            assert not v.any()
+            continue
+        assert np.max(np.hypot(u - along, v - across)) <= 1e-14
+        if s.slot.curved:
+            continue
+        # A straight slot: every place of the pin is on one line, offset from the wheel's centre.
+        turn = np.polyfit(u, v, 1)[0] if np.ptp(u) else 0.0
+        off = v * math.cos(math.atan(turn)) - u * math.sin(math.atan(turn))
+        assert np.ptp(off) <= 2e-14  # the fitted slope is rounded, too
+        assert abs(abs(off[0]) - abs(float(w.offset))) <= 2e-14
+
+
+@every
+def test_lever_and_speed_in_the_slot(machine, witness, case):
+    for s, w in zip(machine(case).engagements, witness(case), strict=True):
+        for t in (0.9, 0.5, 0.2, -0.3, -0.7):
+            x = t * (s.entry_deg if t > 0.0 else -s.exit_deg)
+            found = s.slot.axis(x)
+            if s.slot.curved:
+                assert found is None
+                continue
+            lever, speed = (float(v) for v in w.axis(to_radians(x)))
+            assert [j.c[0] for j in found] == [
+                pytest.approx(lever, rel=1e-13),
+                pytest.approx(speed, rel=1e-13),
+            ]
+
+
+@every
+def test_loads_keep_the_energy(machine, case):
+    """Without friction the input does what the wheel takes, and nothing is lost between."""
+    m = machine(case)
+    load_ = m.spec.load.but(inertia_kgm2=0.02, torque_Nm=3.0)
+    loaded = m._replace(spec=m.spec.but(load=load_))
+    w = m.spec.drive.n_rpm * math.pi / 30.0
+    L = m.center_distance_mm / 1000.0
+    for s in m.engagements:
+        for t in (0.8, 0.3, -0.4):
+            x = t * (s.entry_deg if t > 0.0 else -s.exit_deg)
+            _, v, a, _ = s.motion(x).derivatives()
+            found = state(loaded, s, x)
+            torque = 0.02 * w * w * a + 3.0
+            assert found.torque_Nm == pytest.approx(torque, rel=1e-12)
+            assert found.input_torque_Nm == pytest.approx(torque * v, rel=1e-12)
+            if s.slot.axis(x):
+                lever = s.slot.axis(x)[0].c[0]
+                assert math.tan(math.radians(found.pressure_deg)) == pytest.approx(
+                    abs(s.slot.offset) / lever, rel=1e-12
+                )
+                assert found.pin_force_N * lever * L == pytest.approx(abs(torque), rel=1e-12)
+
+
+@every
+def test_peaks_against_a_dense_grid(machine, case):
+    m = machine(case)
+    found = worst(m)
+    for quantity in ("velocity", "acceleration", "jerk", "power"):
+        pick = QUANTITIES[quantity]
+        peak = getattr(found, quantity)
+        grids = []
+        for s in m.engagements:
+            parts = [np.linspace(a, b, 4001) for a, b in pairwise(s.motion.breaks_deg)]
+            values = s.motion(np.concatenate(parts), 5).derivatives()
+            grids.append(np.max(np.abs(pick(values)[0])))
+        # a grid this fine misses a smooth peak by less than 1e-5 of it, and never exceeds it
+        assert max(grids) * (1.0 - 1e-12) <= peak.max <= max(grids) * (1.0 + 1e-5), quantity
+        # shown between -180 and 180 from the machine's mid-motion: whole turns do not count
+        turn = 360.0 * m.spec.drive.turns
+        places = [(s, math.remainder(peak.at_deg - s.mid_deg, turn)) for s in m.engagements]
+        there = [
+            abs(pick(s.motion(x, 5).derivatives())[0])
+            for s, x in places
+            if s.entry_deg - 1e-9 <= x <= s.exit_deg + 1e-9
+        ]
+        assert peak.max == pytest.approx(max(there), rel=1e-9), quantity
+    ends = [(s.motion(s.entry_deg), s.motion(s.exit_deg)) for s in m.engagements]
+    for k, first, last in (
+        (2, found.ends.acceleration_entry, found.ends.acceleration_exit),
+        (3, found.ends.jerk_entry, found.ends.jerk_exit),
+    ):
+        assert first == max(abs(a.derivatives()[k]) for a, _ in ends)
+        assert last == max(abs(b.derivatives()[k]) for _, b in ends)
+
+
+@every
+def test_motions_and_dwells_fill_the_period(machine, case):
+    m = machine(case)
+    times = timings(m)
+    total = math.fsum(t.motion_deg + t.dwell_deg for t in times)
+    assert total == pytest.approx(m.period_deg, rel=1e-14)
+    assert min(t.dwell_deg for t in times) >= 0.0
+    columns = motion_table(m, 721).columns
+    wheel, velocity = np.array(columns[2]), np.array(columns[3])
+    assert np.all(np.diff(wheel) >= -1e-12)  # never back
+    assert wheel[-1] - wheel[0] == pytest.approx(math.fsum(t.index_deg for t in times), abs=1e-12)
+    assert np.min(velocity) >= -1e-15
+
+
+# ---- numbers in print, and closed forms ----
+
+# Shafts at 90 degrees: z, peak velocity tan b, sine of the angle of the peak acceleration, the
+# peak and the jump at entry sin(2 b)/2. Theory notes, section 7, 30 digits.
+SPHERICAL = """
+3 1.73205080756887729352744634151 0.313740917148940420072438293397 2.1715525461288102377631236099 0.433012701892219323381861585376
+4 1.0 0.505408105853053508532167527628 0.88008629652304345970259232485 0.5
+5 0.726542528005360885895466757481 0.660118536998882404696258207907 0.578748386677918931511667749483 0.47552825814757678605821966669
+6 0.577350269189625764509148780502 0.801363405952288776094330211485 0.455969184010703339921157703529 0.433012701892219323381861585376
+7 0.481574618807528644332162353057 0.937092669054876433059034550815 0.392530799277146272979918311401 0.390915741234014904354222263337
+8 0.41421356237309504880168872421 1.0 0.353553390593273762200422181052 0.353553390593273762200422181052
+10 0.324919696232906326155871412215 1.0 0.29389262614623656458435297732 0.29389262614623656458435297732
+12 0.267949192431122706472553658494 1.0 0.25 0.25
+24 0.13165249758739585347152645741 1.0 0.129409522551260381174449418812 0.129409522551260381174449418812
+"""  # noqa: E501
+# The spherical rows of reference/sample_points.csv: z = 6, input angle, position to jerk.
+POINTS = """
+-80 -0.516995355101713859305044224573 0.0757630000873004085625906744802 0.43620064875562416526740688788 0.0352656510420033862551189234791
+-30 -0.281034901502813597720014950362 0.461538461538461538461538461538 0.389455211169333355941082609333 -0.395994538006372325898953117888
+0 0.0 0.577350269189625764509148780502 0.0 -0.96225044864937627418191463417
+45 0.387596686655180653602046855591 0.349927106111882585456754867815 -0.449906279286706181301541972905 -0.092837803662336196141588026155
+"""  # noqa: E501
+
+
+def rows(table):
+    return [line.split() for line in table.strip().split("\n")]
+
+
+@pytest.mark.parametrize("row", rows(SPHERICAL), ids=lambda row: f"z{row[0]}")
+def test_spherical_constants(machine, row):
+    z, *exact = row
+    m = machine(text(f"z = {z}, {SPHERE}"))
+    s, found = m.engagements[0], worst(m)
+    # Motion and dwell are half a turn each, whatever z.
+    assert (s.entry_deg, s.exit_deg, timings(m)[0].k) == (-90.0, 90.0, 1.0)
+    assert found.velocity.max == pytest.approx(float(exact[0]), rel=1e-15)
+    # 1e-8: at a maximum, an angle is half as sharp as its value
+    at = math.sin(math.radians(-found.acceleration.at_deg))
+    assert at == pytest.approx(float(exact[1]), rel=1e-8)
+    assert found.acceleration.max == pytest.approx(float(exact[2]), rel=2e-15)
+    assert found.ends.acceleration_entry == pytest.approx(float(exact[3]), rel=1e-15)
+    assert found.ends.jerk_entry <= 1e-15
+
+
+@pytest.mark.parametrize("row", rows(POINTS), ids=lambda row: row[0])
+def test_spherical_sample_points(machine, row):
+    at, *exact = row
+    s = machine(text(f"z = 6, {SPHERE}")).engagements[0]
+    for value, want in zip(s.motion(float(at)).derivatives(), exact, strict=True):
+        assert value == pytest.approx(float(want), rel=0.0, abs=8 * math.ulp(1.0))
+
+
+@pytest.mark.parametrize("axes", [20.0, 60.0, 90.0, 120.0, 165.0])
+@pytest.mark.parametrize("z", [3, 6, 17])
+def test_spherical_closed_forms(machine, z, axes):
+    """Peak velocity sin th/sin(S - th), entry tan b cos² th, half the motion acos(tan th/tan S)."""
+    m = machine(text(f"z = {z}, {SPHERE}, axes_deg = {axes}"))
+    S, b = math.radians(axes), math.pi / z
+    th = math.asin(math.sin(S) * math.sin(b))
+    found = worst(m)
+    # 1e-13: S - th cancels here, and acos loses digits near 1
+    assert found.velocity.max == pytest.approx(math.sin(th) / math.sin(S - th), rel=1e-13)
+    assert found.ends.acceleration_entry == pytest.approx(
+        math.tan(b) * math.cos(th) ** 2, rel=1e-13
+    )
+    half = math.degrees(math.acos(math.tan(th) / math.tan(S)))
+    assert m.engagements[0].exit_deg == pytest.approx(half, rel=1e-13)
+
+
+@pytest.mark.parametrize("z", [3, 5, 12])
+def test_a_spherical_wheel_lies_between_the_flat_ones(machine, z):
+    """Shafts at 0 and at 180 degrees: external and internal wheels."""
+    for axes, gearing in ((1e-4, "external"), (180.0 - 1e-4, "internal")):
+        ball = machine(text(f"z = {z}, {SPHERE}, axes_deg = {axes}")).engagements[0]
+        flat = machine(text(f'z = {z}, gearing = "{gearing}"')).engagements[0]
+        # 1e-9: the flat ones' difference is of the square of the angle, 3e-12, times up to z³
+        assert ball.exit_deg == pytest.approx(flat.exit_deg, rel=1e-9)
+        for t in (0.0, 0.3, 0.8):
+            x = t * flat.exit_deg
+            wanted = pytest.approx(flat.motion(x).derivatives(), rel=1e-8, abs=1e-8)
+            assert ball.motion(x).derivatives() == wanted
+
+
+@pytest.mark.parametrize("z", [4, 6, 11])
+@pytest.mark.parametrize("share", [-0.9, -0.3, 0.2, 0.7])
+def test_offset_slots_trade_their_ends(machine, z, share):
+    """The motion angle stays 180° - 2b; entry l/cos(b - d), exit l/cos(b + d), l = sin b cos d."""
+    b = math.pi / z
+    limit = math.cos(b) * math.sin(math.pi / 2 - b)
+    e = share * limit
+    m = machine(text(f"z = {z}, offset_mm = {100.0 * e!r}"))
+    d = math.asin(e / math.cos(b))
+    l = math.sin(b) * math.cos(d)
+    s, ends = m.engagements[0], worst(m).ends
+    assert m.ratio == pytest.approx(l, rel=1e-15)
+    assert s.motion_deg == pytest.approx(180.0 - 360.0 / z, rel=1e-14)
+    assert s.exit_deg == pytest.approx(90.0 - math.degrees(b + d), rel=1e-13)
+    # 1e-13: cos(b + d) cancels near the limit
+    assert ends.acceleration_entry == pytest.approx(l / math.cos(b - d), rel=1e-13)
+    assert ends.acceleration_exit == pytest.approx(l / math.cos(b + d), rel=1e-13)
+    # The roller never reaches the foot of the axis: e < L - R.
+    assert abs(e) < 1.0 - l
+    # The other sign is the same motion backwards.
+    other = machine(text(f"z = {z}, offset_mm = {-100.0 * e!r}")).engagements[0]
+    x = 0.4 * s.exit_deg
+    ours, theirs = s.motion(x).derivatives(), other.motion(-x).derivatives()
+    back = [-v if k % 2 == 0 else v for k, v in enumerate(theirs)]
+    assert ours == pytest.approx(back, rel=1e-13)
+
+
+def test_unequal_steps_are_wheels_of_their_own(machine):
+    """Roller i has R_i = L sin b_i, and moves the wheel as a wheel of equal steps 2 b_i would."""
+    m = machine(text("z = 6, steps_deg = [72, 48]"))
+    assert [t.index_deg for t in timings(m)] == [72.0, 48.0]
+    assert [t.motion_deg for t in timings(m)] == [108.0, 132.0]
+    assert [t.dwell_deg for t in timings(m)] == [60.0, 60.0]
+    five = machine(text("z = 5")).engagements[0]
+    for x in (-54.0, -20.0, 7.0, 54.0):
+        wanted = pytest.approx(five.motion(x).derivatives(), rel=1e-14, abs=1e-15)
+        assert m.engagements[0].motion(x).derivatives() == wanted
+    x, y = (c.c[0] for c in m.engagements[1].path(30.0, 0))
+    assert math.hypot(1.0 - x, y) == pytest.approx(math.sin(math.radians(24.0)), rel=1e-15)
+
+
+def test_four_slots_and_two_pins_90_degrees_apart(machine):
+    """One turn of the wheel in two of the crank, with one dwell of zero length a turn.
+
+    In print as a curiosity. Each motion takes 90 degrees: the second follows at once, and rests
+    for half a turn after it.
+    """
+    m = machine("angles")
+    assert [(t.motion_deg, t.dwell_deg) for t in timings(m)] == [(90.0, 0.0), (90.0, 180.0)]
+    columns = dict(zip(*motion_table(m, 361)[:2], strict=True))
+    wheel = np.array(columns["wheel_deg"])
+    assert m.period_deg == 360.0
+    assert wheel[-1] - wheel[0] == pytest.approx(180.0, abs=1e-12)
+    # It moves all through the first 180 degrees, resting for a moment at 90.
+    velocity = np.array(columns["velocity"])
+    assert np.flatnonzero(velocity[:181] == 0.0).tolist() == [0, 90, 180]
+    assert np.all(wheel[180:] == wheel[180])
+
+
+def test_shockless_gear_geneva(machine):
+    """In print for z = 4: peak velocity 3.778 and acceleration 13.73, against 2.414 and 5.407."""
+    found = worst(machine("planet-sun-4"))
+    assert found.velocity.max == pytest.approx(3.778, abs=5e-4)
+    assert found.acceleration.max == pytest.approx(13.73, abs=5e-3)
+    assert found.ends.acceleration_entry <= 1e-15
+    plain = worst(machine(text("z = 4")))
+    assert plain.velocity.max == pytest.approx(2.414, abs=5e-4)
+    assert plain.acceleration.max == pytest.approx(5.407, abs=5e-4)
+
+
+def test_soft_gear_geneva(machine):
+    """In print for z = 6, rp = -R/40: peak 1.151 for 1.350, entry 0.794 for 0.577."""
+    # R is the carrier's reach at entry, R0 - rp = L/2
+    found = worst(machine("planet-sun-6"))
+    assert found.acceleration.max == pytest.approx(1.151, abs=5e-4)
+    assert found.ends.acceleration_entry == pytest.approx(0.794, abs=5e-4)
+    plain = worst(machine(text("z = 6")))
+    assert plain.acceleration.max == pytest.approx(1.350, abs=5e-4)
+    assert plain.ends.acceleration_entry == pytest.approx(0.577, abs=5e-4)
+
+
+@pytest.mark.parametrize("z", [3, 4, 6])
+@pytest.mark.parametrize("fixed", ["sun", "ring"])
+@pytest.mark.parametrize("rp", [-0.012, 0.008, 0.016])
+def test_gear_geneva_closed_forms(machine, z, fixed, rp):
+    """Entry (R0 - c² rp)/(L cos b); at mid-motion the velocity is (R0 + c rp)/(L - R0 - rp)."""
+    m = machine(text(f"z = {z}", f'{PLANET}{rp}, fixed = "{fixed}"'))
+    b = math.pi / z
+    u = 2 * z / (z - 2)
+    c = 1 + u if fixed == "sun" else 1 - u
+    R0 = math.sin(b) + rp
+    s = m.engagements[0]
+    velocity = s.motion(0.0).derivatives()[1]
+    assert velocity == pytest.approx((R0 + c * rp) / (1.0 - R0 - rp), rel=1e-14)
+    entry = (R0 - c * c * rp) / math.cos(b)
+    assert s.motion(s.entry_deg).derivatives()[2] == pytest.approx(entry, rel=1e-12)
+
+
+@pytest.mark.parametrize("e", [0.1, 0.3, 0.6])
+@pytest.mark.parametrize("phase", [1, -1])
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+def test_elliptical_gears_closed_forms(machine, e, phase, gearing):
+    """tan(phi1/2) = (1+e)/(1-e) tan(a1/2); entry tan b f1²; peak velocity l/(1-l) f1(0)."""
+    z, g = 6, 1 if gearing == "external" else -1
+    drive = f"{GEARS}{e}" + ("" if phase > 0 else QUICK)
+    m = machine(text(f'z = {z}, gearing = "{gearing}"', drive))
+    s, b, e = m.engagements[0], math.pi / z, phase * e
+    half = math.tan((math.pi / 2 - g * b) / 2)
+    entry = 2.0 * math.atan((1 + e) / (1 - e) * half)
+    assert s.entry_deg == pytest.approx(-math.degrees(entry), rel=1e-14)
+    f1 = (1 - e * e) / (1 + e * e + 2 * e * math.cos(entry))
+    acceleration = s.motion(s.entry_deg).derivatives()[2]
+    assert acceleration == pytest.approx(math.tan(b) * f1**2, rel=1e-13)
+    l = math.sin(b)
+    middle = l / (1 - g * l) * (1 - e) / (1 + e)
+    assert s.motion(0.0).derivatives()[1] == pytest.approx(middle, rel=1e-14)
+
+
+def test_a_front_drive_scales_the_jump_by_its_ratio_there(machine, witness):
+    """Entry tan b f1², whatever the gearing and the slots."""
+    for case in CASES:
+        m = machine(case)
+        if m.spec.drive.NAME in ("crank", "epicyclic", "cam") or case in ON_PATH or m.law:
+            continue
+        wheel = m.spec.wheel
+        for s, w in zip(m.engagements, witness(case), strict=True):
+            if wheel.steps:
+                jump = math.tan(float(w.b))
+            else:
+                plain = build(Spec(wheel)).engagements[0]
+                jump = plain.motion(plain.entry_deg).derivatives()[2]
+            front = machine_witness.Front(m.spec.drive)
+            f1 = float(front.closed(w.mid + w.entry)[0])
+            found = s.motion(s.entry_deg).derivatives()[2]
+            assert found == pytest.approx(jump * f1**2, rel=1e-12, abs=1e-15), case
+
+
+def test_cam_groove(machine, witness):
+    """R(0) = L V/(1 + V); R' by the law of sines; at entry R'/R = cot(phi1 + b)."""
+    for case in ("cam", "cam-early", "cam-two-rollers", "cam-internal"):
+        m, w = machine(case), witness(case)[0]
+        s, g = m.engagements[0], -1 if m.spec.wheel.NAME == "internal" else 1
+        V = s.motion(0.0).derivatives()[1]
+        assert m.ratio == pytest.approx(V / (1 + g * V), rel=1e-14)
+        for t in np.linspace(0.02, 1.0, 23):
+            phi = to_radians(x := float(t * s.exit_deg))
+            psi, psi1, *_ = w.derivatives(x)
+            both = mp.sin(phi + g * psi)
+            R = mp.sin(psi) / both
+            R1 = (psi1 * mp.sin(phi) - mp.sin(psi) * mp.cos(phi + g * psi)) / both**2
+            rho, found = s.groove.distances(x, 3)
+            # psi is known to 1e-16 of a step and divided by a small angle: digits of R'' go first
+            assert found.c[0] == pytest.approx(float(R), rel=1e-13)
+            assert found.c[1] == pytest.approx(float(R1), rel=1e-9, abs=1e-10)
+            assert rho.c[0] == pytest.approx(float(mp.sin(phi) / both), rel=1e-13)
+            gx, gy = s.groove.groove(x, 1)
+            assert math.hypot(gx.c[0], gy.c[0]) == pytest.approx(float(R), rel=1e-13)
+        end = math.radians(s.exit_deg)
+        _, last = s.groove.distances(s.exit_deg, 1)
+        assert last.c[0] == pytest.approx(math.sin(s.half_step) / math.sin(end + g * s.half_step))
+        angle = 1.0 / math.tan(end + g * s.half_step)
+        assert last.c[1] / last.c[0] == pytest.approx(-angle, abs=1e-12)

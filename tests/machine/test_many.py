@@ -1,0 +1,110 @@
+"""Peak accelerations of many designs: against the program's own search, and against 50 digits."""
+
+import math
+
+import numpy as np
+import pytest
+from witness import SIGN, Geneva
+
+from geneva_cli.analysis.peaks import peak
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak, acceleration_peaks
+
+GEARINGS = ("external", "internal")
+# What it promises, relative to the true peak; and twice that between two that promise it.
+EXACT = 4e-15
+
+
+def designs(count, seed):
+    """Half of them with z to 24, half to a million; half of A even, half crowding to +-0.999."""
+    random = np.random.default_rng(seed)
+    large = np.exp(random.uniform(np.log(3.0), np.log(1e6), count)).astype(int)
+    z = np.clip(np.where(random.random(count) < 0.5, random.integers(3, 25, count), large), 3, None)
+    near = np.sign(random.uniform(-1.0, 1.0, count)) * (1.0 - 10.0 ** random.uniform(-3, 0, count))
+    A = np.where(random.random(count) < 0.5, random.uniform(-0.999, 0.999, count), near)
+    A[:4] = (-0.999, 0.999, 0.5, -0.5)
+    A[A == 0.0] = 0.1
+    return z, random.random(count) < 0.5, A
+
+
+@pytest.mark.parametrize("part", range(10))
+def test_none_is_missed(engagement, part):
+    """5,000 designs against the adaptive search of geneva_cli.peaks, which shares no formula."""
+    z, internal, A = designs(5000, 1)
+    size, at_deg = acceleration_peaks(z, internal, A)
+    for i in range(part, len(z), 10):
+        passage = engagement(int(z[i]), GEARINGS[int(internal[i])], float(A[i]))
+        found = peak(passage.motion, "acceleration")
+        where = (int(z[i]), GEARINGS[int(internal[i])], float(A[i]))
+        # the other one's own error comes on top: jets run up to 31 units near |A| = 1
+        assert size[i] == pytest.approx(found.max, rel=2 * EXACT), where
+        assert at_deg[i] == pytest.approx(found.at_deg, abs=1e-4), where
+
+
+def test_a_finer_scan_finds_no_more(monkeypatch):
+    """Twice the scan finds nothing more among 200,000."""
+    z, internal, A = designs(200_000, 2)
+    size, _ = acceleration_peaks(z, internal, A)
+    monkeypatch.setattr("geneva_cli.machine.wheels.side_crank_peaks.SCAN", 33)
+    finer, _ = acceleration_peaks(z, internal, A)
+    assert np.abs(size / finer - 1.0).max() <= 2 * EXACT
+
+
+@pytest.mark.parametrize("gearing", GEARINGS)
+@pytest.mark.parametrize("A", [-0.999, -0.9, -0.3, 0.0, 0.324737, 0.6, 0.9, 0.999])
+@pytest.mark.parametrize("z", [3, 4, 11, 24, 1000])
+def test_against_50_digits(z, gearing, A):
+    exact, at_deg = Geneva(z, gearing, A).peak("acceleration")
+    size, place = acceleration_peak(z, SIGN[gearing], A)
+    assert abs(float(size / exact - 1)) <= EXACT
+    assert place == pytest.approx(float(at_deg), abs=1e-8)
+    many, places = acceleration_peaks(z, gearing == "internal", A)
+    assert abs(float(many[0] / exact - 1)) <= EXACT
+    assert places[0] == pytest.approx(float(at_deg), abs=1e-8)
+
+
+def test_shapes_broadcast():
+    size, at_deg = acceleration_peaks([4, 6, 8], False, 0.6)
+    assert size.shape == at_deg.shape == (3,)
+    assert size[1] == pytest.approx(0.5225298230346583, rel=EXACT)
+    assert at_deg[1] == pytest.approx(-38.20547183086933, abs=1e-9)
+
+
+def test_plain_internal_wheels_peak_at_entry():
+    z = np.arange(3, 1000)
+    size, at_deg = acceleration_peaks(z, True, 0.0)
+    assert size == pytest.approx([math.tan(math.pi / k) for k in z], rel=EXACT)
+    assert at_deg == pytest.approx(-90.0 - 180.0 / z, abs=1e-12)
+
+
+def test_no_numpy_state_changes_and_no_warning():
+    before = np.geterr()
+    acceleration_peaks(*designs(1000, 3))
+    assert np.geterr() == before
+
+
+@pytest.mark.parametrize(
+    ("z", "internal", "A", "word"),
+    [
+        (2, False, 0.0, "z must"),
+        (6.5, False, 0.0, "z must"),
+        (2_000_000, False, 0.0, "z must"),
+        (math.nan, False, 0.0, "z must"),
+        (6, 1, 0.0, "gearing"),
+        (6, False, 1.0, "A must"),
+        (6, False, math.nan, "A must"),
+    ],
+)
+def test_out_of_range(z, internal, A, word):
+    with pytest.raises(GenevaError, match=word):
+        acceleration_peaks(z, internal, A)
+
+
+def test_one_out_of_range():
+    for z, sign, A, word in (
+        (2, 1.0, 0.0, "z must"),
+        (6, 0.0, 0.0, "gearing"),
+        (6, 1.0, -1.0, "A must"),
+    ):
+        with pytest.raises(GenevaError, match=word):
+            acceleration_peak(z, sign, A)

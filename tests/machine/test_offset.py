@@ -1,0 +1,56 @@
+"""Offset slots up to the limit of their validity, |e| = cos² b, where one end's gap closes.
+
+The promise of test_machines.py, with the condition number computed: what one unit in the last
+place of the input angle, or of ``offset_mm``, moves.
+"""
+
+import math
+
+import pytest
+from stress import DIGITS, LIMIT, Table, mp, other_one, read
+
+from geneva_cli.analysis.peaks import worst
+from geneva_cli.numerics.angles import cos_squared_less
+
+NEAR = (1e-4, 1e-9, 1e-14)
+
+
+def spec(z, offset):
+    return f"wheel = {{z = {z}, offset_mm = {offset!r}}}"
+
+
+def limit(z):
+    return 100.0 * math.cos(math.pi / z) ** 2
+
+
+@pytest.mark.parametrize("z, side", [(3, -1.0), (5, 1.0), (24, -1.0), (10**6, 1.0)])
+def test_near_the_limit(z, side):
+    table = Table()
+    with mp.workdps(DIGITS // 2):
+        for gap in NEAR:
+            text = spec(z, side * (1.0 - gap) * limit(z))
+            other_one(table, "offset", text, read(text), sample=True)
+    assert table.count > 100
+    assert not table.over, LIMIT
+
+
+def test_the_numbers_of_the_report():
+    """At 0.999 of the limit; 476.1099865088 was printed."""
+    found = worst(read(spec(5, 0.999 * limit(5))))
+    assert found.acceleration.max == pytest.approx(476.1099865147, abs=5e-11)
+
+
+def test_the_limit_itself_is_refused():
+    for z in (3, 4, 6):  # 25, 50 and 75 mm are doubles
+        assert read(spec(z, math.nextafter(round(limit(z)), 0.0)))
+        assert read(spec(z, float(round(limit(z))))) is None
+
+
+@pytest.mark.parametrize("p, q", [(1, 5), (1, 7), (3, 20), (1, 10**6)])
+def test_the_distance_to_the_limit(p, q):
+    with mp.workdps(60):
+        exact = mp.cos(mp.pi * p / q) ** 2
+        for x in (0.0, 0.3, float(exact), math.nextafter(float(exact), 1.0)):
+            want = exact - mp.mpf(x)
+            # 112 bits behind the point, of which what is left after 53 of x are the digits
+            assert abs(cos_squared_less(p, q, x) - want) <= abs(want) * 2**-53 + mp.mpf(2) ** -110

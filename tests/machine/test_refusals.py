@@ -1,0 +1,354 @@
+"""What cannot be built: refused at the key's line, with the condition and the nearest that works.
+
+Each case is a spec with a gap, ``@``, for the value that is wrong. Where the message names a bound,
+the bound is tried: a millionth on its right side the machine is built, and on its wrong side not.
+"""
+
+import math
+import re
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from words import load
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+
+WHEEL = "[wheel]\nz = 6\n"
+BALL = WHEEL + 'gearing = "spherical"\n'
+INSIDE = WHEEL + 'gearing = "internal"\n'
+LAW = '[motion]\nlaw = "cycloidal"\n'
+STEPS = "steps_deg = [50, 70]\n"
+ANGLES = "[drive]\nroller_angles_deg = "
+
+
+def drive(kind, keys=""):
+    return f'[drive]\nkind = "{kind}"\n{keys}'
+
+
+GEARS = drive("elliptical-gears", "eccentricity = 0.2\n")
+CAM = drive("cam")
+PLANET = drive("epicyclic", "planet_ratio = 0.01\n")
+FOUR_BAR = drive(
+    "four-bar",
+    "crank_mm = 40\nground_mm = 90\ncoupler_mm = 100\nrocker_mm = 100\n"
+    "point_mm = 150\npoint_deg = -30\n",
+)
+SLIDER = drive(
+    "slider-crank",
+    "crank_mm = 40\nrod_mm = 120\npoint_mm = 200\npoint_deg = 20\nheight_mm = 10\n",
+)
+PAIR = drive("geneva-pair", "first_z = 3\n")
+OWN_PATH = {"cam": CAM + LAW, "epicyclic": PLANET, "four-bar": FOUR_BAR}
+
+
+class Case(NamedTuple):
+    """A spec, the value that is wrong, its line, and what the message must hold."""
+
+    spec: str
+    wrong: str
+    line: int
+    wants: tuple[str, ...]
+
+
+class Bound(NamedTuple):
+    """A bound that a message names, and values that lie on either side of it."""
+
+    spec: str
+    wrong: str
+    pattern: str
+    side: float  # +1: what works is above
+
+
+def case(name, spec, wrong, line, *wants):
+    return pytest.param(Case(spec, wrong, line, wants), id=name)
+
+
+def bound(name, spec, wrong, pattern, side):
+    return pytest.param(Bound(spec, wrong, pattern, side), id=name)
+
+
+OFFSET = [
+    case("offset", WHEEL + "offset_mm = @", "80", 3, "offset_mm = 80", "shock", "below 75"),
+    case("offset-at-the-limit", WHEEL + "offset_mm = @", "75", 3, "below 75"),
+    case("offset-negative", WHEEL + "offset_mm = @", "-75", 3, "offset_mm = -75", "below 75"),
+    case("offset-nan", WHEEL + "offset_mm = @", "nan", 3, "offset_mm = nan"),
+    case("offset-internal", INSIDE + "offset_mm = @", "5", 4, "internal", 'gearing = "external"'),
+    case("offset-spherical", BALL + "offset_mm = @", "5", 4, "spherical", 'gearing = "external"'),
+    case("offset-law", WHEEL + "offset_mm = @\n" + LAW, "5", 3, "law", "remove"),
+    case("offset-steps", WHEEL + STEPS + "offset_mm = @\n", "5", 4, "steps_deg", "one of them"),
+]
+
+STEP = [
+    case("sum", WHEEL + "steps_deg = @", "[70, 60]", 3, "390", "must be 360", "120"),
+    case("sum-short", WHEEL + "steps_deg = @", "[20]", 3, "120", "must be 360", "60"),
+    case("sum-hardly", WHEEL + "steps_deg = @", "[70, 50.001]", 3, "360.003", "120"),
+    case("no-multiple", WHEEL + "steps_deg = @", "[20, 25, 35, 10]", 3, "z = 6", "multiple", "4"),
+    case("out-of-reach", "[wheel]\nz = 3\nsteps_deg = @", "[80, 90, 190]", 3, "190", "below 180"),
+    case("half-turn", "[wheel]\nz = 3\nsteps_deg = @", "[80, 100, 180]", 3, "180", "below 180"),
+    case("no-dwell", WHEEL + "steps_deg = @", "[40, 60, 80]", 3, "360", "dwell", "fewer"),
+    case("zero", WHEEL + "steps_deg = @", "[0, 120]", 3, "steps_deg = 0", "above 0"),
+    case("negative", WHEEL + "steps_deg = @", "[-10, 130]", 3, "steps_deg = -10", "above 0"),
+    case("nan", WHEEL + "steps_deg = @", "[nan, 60]", 3, "nan", "above 0"),
+    case("empty", WHEEL + "steps_deg = @", "[]", 3, "list of 1"),
+    case("number", WHEEL + "steps_deg = @", "60", 3, "list of numbers"),
+    case("text", WHEEL + "steps_deg = @", '["sixty", 60]', 3, "number", "sixty"),
+    case("internal", INSIDE + "steps_deg = @", "[70, 50]", 4, "external"),
+    case("spherical", BALL + "steps_deg = @", "[70, 50]", 4, "external"),
+    case("law", WHEEL + "steps_deg = @\n" + LAW, "[70, 50]", 3, "law", "remove"),
+    case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "leave rollers out"),
+    case("angles", WHEEL + "steps_deg = @\n" + ANGLES + "[0, 180]", "[50, 70]", 3, "remove roller"),
+]
+
+ROLLERS = [
+    case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 between"),
+    case("close-behind", WHEEL + ANGLES + "@", "[0, 241]", 4, "241 and 0", "120", "119 between"),
+    case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions of 120", "dwell"),
+    case("unsorted", WHEEL + ANGLES + "@", "[0, 150, 140]", 4, "rise from 0"),
+    case("twice", WHEEL + ANGLES + "@", "[0, 0]", 4, "rise from 0"),
+    case("not-from-0", WHEEL + ANGLES + "@", "[10, 150]", 4, "rise from 0"),
+    case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
+    case("empty", WHEEL + ANGLES + "@", "[]", 4, "list of 1"),
+    case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 between"),
+    case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "180", "dwell"),
+    case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
+    case(
+        "count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "leave rollers out"
+    ),
+]
+
+SPHERICAL = [
+    case("axes-0", BALL + "axes_deg = @", "0", 4, "axes_deg = 0", "above 0"),
+    case("axes-180", BALL + "axes_deg = @", "180", 4, "axes_deg = 180", "below 180"),
+    case("axes-negative", BALL + "axes_deg = @", "-30", 4, "above 0"),
+    case("axes-nan", BALL + "axes_deg = @", "nan", 4, "axes_deg = nan"),
+    case(
+        "axes-of-a-flat-wheel", WHEEL + "axes_deg = @", "80", 3, 'gearing = "spherical"', "external"
+    ),
+    case("axes-of-an-internal-one", INSIDE + "axes_deg = @", "80", 4, '"spherical"'),
+    case("two-rollers", BALL + "[drive]\nrollers = @", "2", 5, "180", "at most 1"),
+    case("three", BALL + "axes_deg = 60\n[drive]\nrollers = @", "3", 6, "147.796", "at most 2"),
+    case("law", BALL + "[motion]\nlaw = @", '"cycloidal"', 5, "straight", "remove law"),
+    case("law-gears", BALL + GEARS + "[motion]\nlaw = @", '"cycloidal"', 8, "straight"),
+]
+
+FRONTS = [
+    case("e-1", WHEEL + GEARS.replace("0.2", "@"), "1", 5, "eccentricity = 1", "below 1"),
+    case("e-near-1", WHEEL + GEARS.replace("0.2", "@"), "0.9999999999999", 5, "at most 1 - 1e-12"),
+    case("e-negative", WHEEL + GEARS.replace("0.2", "@"), "-0.1", 5, "at least 0"),
+    case("e-text", WHEEL + GEARS.replace("0.2", "@"), '"some"', 5, "must be a number"),
+    case("e-missing", WHEEL + drive("@"), "elliptical-gears", 3, "needs eccentricity", "below 1"),
+    case("e-elsewhere", WHEEL + "[drive]\neccentricity = @", "0.2", 4, '"elliptical-gears"'),
+    case("phase", WHEEL + GEARS + "phase = @", '"fast"', 6, '"slow", "quick"'),
+    case("rollers", WHEEL + GEARS + "rollers = @", "3", 6, "120", "at most 2"),
+    case("rollers-law", WHEEL + GEARS + "rollers = @\n" + LAW, "2", 6, "slot", "rollers = 1"),
+    case("internal-rollers", INSIDE + GEARS + "rollers = @", "2", 7, "one roller", "at most 1"),
+    case("spherical-rollers", BALL + GEARS + "rollers = @", "2", 7, "180", "at most 1"),
+]
+
+PLANETS = [
+    case("z", "[wheel]\nz = @\n" + PLANET, "5", 2, "z = 5", "3, 4 or 6"),
+    case("z-24", "[wheel]\nz = @\n" + PLANET, "24", 2, "z = 24", "3, 4 or 6"),
+    case("large", WHEEL + PLANET.replace("0.01", "@"), "0.39", 5, "0.39", "at most 0."),
+    case("small", WHEEL + PLANET.replace("0.01", "@"), "-0.39", 5, "-0.39", "above -0.1"),
+    case("huge", WHEEL + PLANET.replace("0.01", "@"), "1e300", 5, "at most 0.4"),
+    case("word", WHEEL + PLANET.replace("0.01", "@"), '"shock"', 5, '"shockless"'),
+    case("missing", WHEEL + drive("@"), "epicyclic", 3, "needs planet_ratio"),
+    case("fixed", WHEEL + PLANET + "fixed = @", '"moon"', 6, '"sun", "ring"'),
+    case("rollers", WHEEL + PLANET + "rollers = @", "2", 6, "one roller"),
+]
+
+CAMS = [
+    case("no-law", WHEEL + drive("@"), "cam", 4, "needs a law"),
+    case("ratio", WHEEL + CAM + LAW + "ratio = @", "0.5", 7, "ratio has no meaning"),
+    case("matched", WHEEL + CAM + LAW + "ratio = @", '"matched"', 7, "ratio has no meaning"),
+    case("alpha0", WHEEL + CAM + LAW + "alpha0_deg = @", "120", 7, "above -240", "below 120"),
+    case("alpha0-low", WHEEL + CAM + LAW + "alpha0_deg = @", "-240", 7, "above -240", "below 120"),
+    case("parallel", WHEEL + CAM + LAW + "alpha0_deg = @", "-180", 7, "300", "parallel", "larger"),
+    case("fast-inside", INSIDE + CAM + LAW + "alpha0_deg = @", "130", 7, "1.091", "less than 1"),
+    case("rollers", WHEEL + CAM + "rollers = @\n" + LAW, "3", 5, "120", "at most 2"),
+    case("law", WHEEL + CAM + "[motion]\nlaw = @", '"cycloid"', 6, '"cycloidal"'),
+]
+
+# What no drive with a roller path of its own can turn.
+PATHS = [
+    case(f"{kind}-{name}", text + spec, wrong, line, f'"{kind}"')
+    for kind, spec in OWN_PATH.items()
+    for name, text, wrong, line in (
+        ("offset", WHEEL + "offset_mm = @\n", "5", 5),
+        ("steps", WHEEL + "steps_deg = @\n", "[70, 50]", 5),
+        ("spherical", WHEEL + "gearing = @\n", '"spherical"', 3),
+        ("internal", WHEEL + "gearing = @\n", '"internal"', 3),
+    )
+    # with a law the law is what is in the way, and a cam drives an internal wheel
+    if kind != "cam"
+] + [
+    case(f"{kind}-law", WHEEL + spec + "[motion]\nlaw = @", '"cycloidal"', line, "straight", kind)
+    for kind, spec, line in (("epicyclic", PLANET, 7), ("four-bar", FOUR_BAR, 12))
+]
+
+LINKS = [
+    case("grashof", WHEEL + FOUR_BAR.replace("40", "@"), "95", 5, "crank_mm = 95", "below 90"),
+    case("size", WHEEL + FOUR_BAR + "[size]\ncenter_distance_mm = @", "120", 12, "remove"),
+    case("branch", WHEEL + FOUR_BAR + "branch = @", '"up"', 11, '"+", "-"'),
+    case("rollers", WHEEL + FOUR_BAR + "rollers = @", "2", 11, "one roller"),
+]
+
+SLIDES = [
+    case("all-round", WHEEL + SLIDER.replace("40", "@"), "115", 5, "crank_mm = 115", "below 110"),
+    case("height", WHEEL + SLIDER.replace("= 10", "= @"), "-100", 5, "crank_mm = 40", "below 20"),
+    case("rollers", WHEEL + SLIDER + "rollers = @", "2", 10, "one roller"),
+    case("internal", WHEEL + "gearing = @\n" + SLIDER, '"internal"', 3, "external wheel"),
+    case("size", WHEEL + SLIDER + "[size]\ncenter_distance_mm = @", "120", 11, "remove"),
+]
+
+NONCIRCULAR = [
+    case("neither", WHEEL + drive("@"), "noncircular-gears", 4, "A", "ratio_file"),
+    case("A", WHEEL + drive("noncircular-gears", "A = @"), "1", 5, "A = 1", "below 1"),
+    case("no-file", WHEEL + drive("noncircular-gears", "ratio_file = @"), '"gone.csv"', 5, "gone"),
+    case(
+        "both",
+        WHEEL + drive("@", 'A = 0.2\nratio_file = "ratio.csv"'),
+        "noncircular-gears",
+        4,
+        "both",
+    ),
+]
+
+SECTORS = [
+    case("long", WHEEL + drive("gear-sector", "sector_deg = @"), "331", 5, "331", "at most 330"),
+]
+PAIRS = [
+    case("first-2", WHEEL + drive("geneva-pair", "first_z = @"), "2", 5, "first_z = 2", "least 3"),
+    case("short", "[wheel]\nz = @\n" + drive("geneva-pair", "first_z = 4"), "8", 2, "67.5", "45"),
+    case("rollers", WHEEL + drive("geneva-pair", "first_z = 3\nrollers = @"), "2", 6, "one roller"),
+    case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "135", "60"),
+]
+
+GROUPS = {
+    "offset": OFFSET,
+    "steps": STEP,
+    "rollers": ROLLERS,
+    "spherical": SPHERICAL,
+    "fronts": FRONTS,
+    "planets": PLANETS,
+    "cams": CAMS,
+    "paths": PATHS,
+    "links": LINKS,
+    "slides": SLIDES,
+    "noncircular": NONCIRCULAR,
+    "pairs": PAIRS,
+    "sectors": SECTORS,
+}
+
+OWN_ARM = PLANET.replace("0.01", "@")
+RING = "[wheel]\nz = 4\n" + OWN_ARM + 'fixed = "ring"'
+SMALL = "[size]\ncenter_distance_mm = 37"
+BELOW, ABOVE = r"below (\S+)", r"above (\S+)"
+BOUNDS = [
+    bound("offset", WHEEL + "offset_mm = @", "80", BELOW, -1),
+    bound("offset-3", "[wheel]\nz = 3\noffset_mm = @", "80", BELOW, -1),
+    bound("offset-L", WHEEL + "offset_mm = @\n" + SMALL, "30", BELOW, -1),
+    bound("alpha0-high", WHEEL + CAM + LAW + "alpha0_deg = @", "200", BELOW, -1),
+    bound("planet-low", WHEEL + OWN_ARM, "-0.3", ABOVE, 1),
+    bound("planet-high", WHEEL + OWN_ARM, "0.3", r"at most (\S+)", -1),
+    bound("ring-low", RING, "-0.39", ABOVE, 1),
+    bound("ring-high", RING, "0.39", r"at most (\S+)", -1),
+    bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"crank below (\S+)", -1),
+]
+TAKE = r"motions take (\S+) deg"
+# Values that messages name, and how they are put into the gap.
+NAMED = [
+    (WHEEL + GEARS + "rollers = @", "3", r"at most (\d+)", str),
+    (BALL + "axes_deg = 60\n[drive]\nrollers = @", "3", r"at most (\d+)", str),
+    (BALL + "[drive]\nrollers = @", "2", r"at most (\d+)", str),
+    (WHEEL + CAM + "rollers = @\n" + LAW, "3", r"at most (\d+)", str),
+    (WHEEL + "steps_deg = @", "[20]", r"its steps (\S+)", lambda v: f"[{v}]"),
+    (WHEEL + "steps_deg = @", "[70, 60]", r"its steps (\S+)", lambda v: f"[70, {float(v) - 70}]"),
+    (WHEEL + ANGLES + "@", "[0, 90]", TAKE, lambda v: f"[0, {v}]"),
+    # rounded to six digits: a little more is surely enough
+    (BALL + "axes_deg = 70\n" + ANGLES + "@", "[0, 90]", TAKE, lambda v: f"[0, {float(v) + 1e-3}]"),
+    ("[wheel]\nz = @\n" + PLANET, "5", r"(\d+) or 6", str),
+    (WHEEL + "gearing = @\noffset_mm = 5", '"internal"', r'belongs to gearing = ("\w+")', str),
+]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rows = "".join(f"{x},1\n" for x in range(0, 361, 30))
+    (tmp_path / "ratio.csv").write_text(rows, encoding="utf-8")
+
+
+def built(spec, value):
+    """The mechanism of a spec with its gap filled."""
+    with open("spec.toml", "w", encoding="utf-8") as file:
+        file.write(spec.replace("@", value))
+    return load("spec.toml")
+
+
+def refused(spec, value):
+    """The message with which it is refused."""
+    with pytest.raises(GenevaError) as caught:
+        built(spec, value)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_refused_with_line_condition_and_value(group):
+    for param in GROUPS[group]:
+        wrong = param.values[0]
+        said = refused(wrong.spec, wrong.wrong)
+        assert said.startswith(f"spec.toml:{wrong.line}: "), (param.id, said)
+        for want in wrong.wants:
+            assert want in said, (param.id, want, said)
+        assert len(said) < 400
+
+
+@pytest.mark.parametrize("limit", BOUNDS)
+def test_the_bound_in_a_message_is_the_bound(limit):
+    said = refused(limit.spec, limit.wrong)
+    named = float(re.search(limit.pattern, said).group(1).rstrip(",;."))
+    step = limit.side * max(abs(named), 1.0) * 1e-6  # messages show six digits
+    built(limit.spec, repr(named + 2.0 * step))
+    refused(limit.spec, repr(named - 2.0 * step))
+
+
+@pytest.mark.parametrize(("spec", "wrong", "pattern", "fill"), NAMED)
+def test_the_value_that_a_message_names_works(spec, wrong, pattern, fill):
+    said = refused(spec, wrong)
+    named = re.search(pattern, said).group(1).rstrip(",;.")
+    built(spec, fill(named))
+
+
+@pytest.mark.parametrize("fixed", ["sun", "ring"])
+@pytest.mark.parametrize("z", [3, 4, 6])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_gear_geneva_that_is_built_never_turns_back(z, fixed, side):
+    """At entry R0 - c² rp >= 0 (else the wheel starts backwards) and R0 - c rp > 0 (else the
+    roller moves out of its slot), at mid-motion R0 + c rp > 0.
+    """
+    spec = f'[wheel]\nz = {z}\n[drive]\nkind = "epicyclic"\nfixed = "{fixed}"\nplanet_ratio = @'
+    for size in (0.005, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.399):
+        try:
+            s = built(spec, repr(side * size)).engagements[0]
+        except GenevaError:
+            continue
+        x = np.linspace(s.entry_deg, s.exit_deg, 401)
+        assert np.min(s.motion(x).derivatives()[1]) >= -1e-15, size
+        px, py = s.path(x, 1)
+        rho = np.hypot(px.c[0], py.c[0])
+        assert np.max(rho) <= math.cos(math.pi / z) * (1.0 + 1e-12), size
+
+
+@pytest.mark.parametrize("offset", ["20", "-20"])
+def test_a_pair_whose_first_wheel_still_rests_is_refused(offset):
+    """Radial slots of 4 and 4 just do: offset ones are entered before the first wheel moves."""
+    refused("[wheel]\nz = 4\noffset_mm = @\n" + PAIR.replace("3", "4"), offset)
+
+
+def test_every_kind_has_its_refusals():
+    cases = [p.values[0].spec.replace("@", p.values[0].wrong) for g in GROUPS.values() for p in g]
+    for kind in set(registry.DRIVES) - {"crank", "side-crank"}:  # these: test_errors.py
+        assert any(f'"{kind}"' in c for c in cases), kind

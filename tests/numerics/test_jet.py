@@ -1,0 +1,127 @@
+"""Jets against numerical Taylor expansion at 100 digits."""
+
+import math
+
+import numpy as np
+import pytest
+from witness import mp, near, taylor
+
+from geneva_cli.numerics.jet import Jet, atan2, integral, piecewise, sin_cos, sqrt
+
+ORDER = 5
+
+
+def sin(x):
+    return sin_cos(x)[0]
+
+
+def cos(x):
+    return sin_cos(x)[1]
+
+
+# name: (with jets, with mpmath)
+COMPOSED = {
+    "sum": (lambda x: 2.5 + x - 3.0 * x + (1.0 - x), lambda x: mp.mpf(3.5) - 3 * x),
+    "product": (lambda x: x * x * (x - 2.0) * 3.0, lambda x: 3 * x * x * (x - 2)),
+    "quotient": (lambda x: (x + 1.0) / (x * x + 2.0), lambda x: (x + 1) / (x * x + 2)),
+    "number over jet": (lambda x: 3.0 / (x - 4.0), lambda x: 3 / (x - 4)),
+    "jet over number": (lambda x: x * x / 3.0, lambda x: x * x / 3),
+    "negative": (lambda x: -(x * x), lambda x: -(x * x)),
+    "sine": (lambda x: sin(2.0 * x), lambda x: mp.sin(2 * x)),
+    "cosine": (lambda x: cos(x * x), lambda x: mp.cos(x * x)),
+    "square root": (lambda x: sqrt(x * x + 0.5), lambda x: mp.sqrt(x * x + mp.mpf(0.5))),
+    "angle": (
+        lambda x: atan2(sin(x) * 0.5, 1.0 - cos(x) * 0.5),
+        lambda x: mp.atan2(mp.sin(x) / 2, 1 - mp.cos(x) / 2),
+    ),
+    "angle behind": (
+        lambda x: atan2(x - 3.0, -1.0 - x * x),
+        lambda x: mp.atan2(x - 3, -1 - x * x),
+    ),
+    "chain": (
+        lambda x: sin(sqrt(cos(x) + 1.5) / (x * x + 1.0)),
+        lambda x: mp.sin(mp.sqrt(mp.cos(x) + mp.mpf(1.5)) / (x * x + 1)),
+    ),
+    "two cranks": (
+        lambda x: atan2(sin(atan2(sin(x), cos(x) + 0.6)), 2.0 - cos(atan2(sin(x), cos(x) + 0.6))),
+        lambda x: mp.atan2(
+            mp.sin(mp.atan2(mp.sin(x), mp.cos(x) + mp.mpf(0.6))),
+            2 - mp.cos(mp.atan2(mp.sin(x), mp.cos(x) + mp.mpf(0.6))),
+        ),
+    ),
+}
+POINTS = (-1.25, -0.3, 0.0, 0.5, 1.1)
+
+
+@pytest.mark.parametrize("name", COMPOSED)
+def test_derivatives(name):
+    ours, theirs = COMPOSED[name]
+    for x in POINTS:
+        got = ours(Jet.variable(x, ORDER)).derivatives()
+        exact = [float(v) for v in taylor(theirs, x, ORDER)]
+        scale = 1.0
+        for k, (value, true) in enumerate(zip(got, exact, strict=True)):
+            # Every recurrence adds up at most k + 1 products; intermediate coefficients here stay
+            # below some 10^k/k!, so rounding stays below a few units of the largest so far.
+            scale = max(scale, abs(true))
+            assert value == pytest.approx(true, rel=0.0, abs=2e-15 * 5.0**k * scale), (x, k)
+
+
+@pytest.mark.parametrize("name", COMPOSED)
+def test_arrays_and_lower_orders_agree(name):
+    ours, _ = COMPOSED[name]
+    many = ours(Jet.variable(np.array(POINTS), ORDER)).derivatives()
+    for i, x in enumerate(POINTS):
+        one = ours(Jet.variable(x, ORDER)).derivatives()
+        for k in range(ORDER + 1):
+            # NumPy's sines may differ by one unit in the last place
+            value = many[k][i] if np.ndim(many[k]) else many[k]
+            assert value == pytest.approx(one[k], rel=1e-13, abs=1e-14 * 5.0**k)
+        for order in range(ORDER):
+            low = ours(Jet.variable(x, order))
+            assert low.order == order
+            assert low.derivatives() == one[: order + 1]
+
+
+def test_variable_and_orders():
+    x = Jet.variable(2.0, 3)
+    assert x.c == (2.0, 1.0, 0.0, 0.0)
+    assert x.order == 3
+    assert Jet.variable(2.0, 0).c == (2.0,)
+
+
+def test_derivative_and_integral_are_inverse():
+    x = Jet.variable(0.7, 4)
+    f = x * x * x
+    assert integral(f.derivative(), f.c[0]).c == near(f.c, 4e-16)
+    assert f.derivative().derivatives() == near(f.derivatives()[1:], 4e-16)
+
+
+def test_sine_squared_and_cosine_squared_add_up():
+    s, c = sin_cos(Jet.variable(1.3, ORDER) * 1.7)
+    assert (s * s + c * c).c == pytest.approx([1.0, 0, 0, 0, 0, 0], abs=4e-15)  # rounding of 1.7^5
+
+
+def test_angle_of_the_whole_circle():
+    for k in range(-17, 18):
+        a = k * math.pi / 18
+        s, c = sin_cos(Jet.variable(a, 3))
+        got = atan2(s * 3.0, c * 3.0).derivatives()
+        assert got == pytest.approx((a, 1.0, 0.0, 0.0), abs=4e-15)  # a few units of 1 and of pi
+
+
+def pieces():
+    return [lambda x: Jet.variable(x, 1) * 2.0, lambda x: Jet.variable(x, 1) + 10.0]
+
+
+def test_piecewise_gives_a_cut_to_the_piece_before_it():
+    assert piecewise(1.0, (1.0,), pieces()).c == (2.0, 2.0)
+    assert piecewise(math.nextafter(1.0, 2.0), (1.0,), pieces()).c[1] == 1.0
+    x = np.array([3.0, -1.0, 1.0, 1.5])
+    value, slope = piecewise(x, (1.0,), pieces()).derivatives()
+    assert value.tolist() == [13.0, -2.0, 2.0, 11.5]
+    assert (slope * np.ones(4)).tolist() == [1.0, 2.0, 2.0, 1.0]
+
+
+def test_piecewise_of_nothing_is_nothing():
+    assert piecewise(np.array([]), (1.0,), pieces()).c[0].size == 0

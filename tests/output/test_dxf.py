@@ -1,0 +1,377 @@
+"""DXF files, read back by ezdxf: the same shapes, true arcs, one version, the same bytes."""
+
+import hashlib
+import io
+import math
+import os
+import re
+import subprocess
+import sys
+
+import ezdxf
+import ezdxf.path
+import pytest
+import repo
+from drawing_witness import apart, contours, drawn_shapes, dxf_document, dxf_shapes
+from ezdxf import recover
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely.geometry import Polygon
+
+from geneva_cli.curves.measure import area, extent, scaled, vertices
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.output import svg
+from geneva_cli.output.dxf import FLOAT_CODES, chunks
+
+# mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
+# of a metre and a spline's joints (JOINT) come to less than 2e-9 together.
+SAME = 2e-9
+QUICK = settings(max_examples=40, deadline=None, derandomize=True)
+
+
+def text(drawing, units="mm"):
+    return "".join(chunks(drawing, units))
+
+
+def of(*shapes, title="", scale_bar=False):
+    return Drawing(title, shapes, scale_bar)
+
+
+def bow(turn=1.0, layer="WHEEL"):
+    """A half disc; with ``turn`` of -1 the line bends the other way."""
+    return closed(layer, [Arc((10.0, 0.0), (-10.0, 0.0), turn), Line((-10.0, 0.0), (10.0, 0.0))])
+
+
+def smooth(layer="CRANK"):
+    """Three smooth cubics of uneven speed, a corner, an arc and a line."""
+    return closed(
+        layer,
+        [
+            Cubic((0.0, 0.0), (5.0, 0.0), (8.0, 2.0), (10.0, 4.0)),
+            Cubic((10.0, 4.0), (16.0, 10.0), (12.0, 14.0), (10.0, 16.0)),
+            Cubic((10.0, 16.0), (9.5, 16.5), (8.0, 20.0), (0.0, 20.0)),
+            Arc((0.0, 20.0), (-5.0, 15.0), math.tan(math.pi / 8.0)),
+            Line((-5.0, 15.0), (0.0, 0.0)),
+        ],
+    )
+
+
+MANY = of(
+    bow(),
+    Circle("BORE", (0.0, 4.0), 2.0),
+    smooth(),
+    Circle("ROLLER", (3.0, 15.0), 1.5),
+    Circle("PITCH", (0.0, 0.0), 10.0),
+    Contour("PITCH", (about((0.0, 0.0), 12.0, 0.5, -2.0),), closed=False),
+    bow(-1.0, "GROOVE"),
+    title='a <title> & "more" — ünder Ωmega',
+)
+
+
+def entities(drawing, units="mm"):
+    return list(dxf_document(text(drawing, units)).modelspace())
+
+
+@QUICK
+@given(contours("la"))
+def test_lines_and_arcs_are_one_polyline(contour):
+    drawing = of(contour)
+    (found,) = entities(drawing)
+    assert found.dxftype() == "LWPOLYLINE"
+    assert found.closed
+    assert found.dxf.layer == "WHEEL"
+    assert apart(dxf_shapes(text(drawing)), drawn_shapes(drawing)) < SAME
+
+
+@QUICK
+@given(contours())
+def test_any_contour_is_read_back(contour):
+    drawing = of(contour)
+    read = dxf_shapes(text(drawing))
+    assert apart(read, drawn_shapes(drawing)) < SAME
+    # against the other format: its last decimal is 1e-9, and its arcs come to ten times that
+    assert apart(svg_read(drawing), read) < 2e-8
+
+
+def svg_read(drawing):
+    from drawing_witness import svg_shapes
+
+    return svg_shapes("".join(svg.chunks(drawing, "mm")))
+
+
+@pytest.mark.parametrize("degrees", [0.01, 1, 90, 179.99, 180, 181, 270, 299, 301, 359, 359.99])
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+def test_arcs_of_any_sweep(degrees, turn):
+    """Alone in a polyline, and as an ARC beside a cubic."""
+    arc = about((3.0, 4.0), 25.0, 0.3, turn * math.radians(degrees))
+    for back in (
+        Line(arc.end, arc.start),
+        Cubic(arc.end, (60.0, 0.0), (0.0, 60.0), arc.start),
+    ):
+        drawing = of(closed("WHEEL", [arc, back]))
+        read = dxf_shapes(text(drawing))
+        assert apart(read, drawn_shapes(drawing)) < SAME
+        # also the circle that was meant: a bulge near a whole turn knows it to fewer digits, as
+        # its chord of 4e-3 mm is rounded in the 15th digit of 25
+        for piece in read["WHEEL"][0][:1]:
+            for share in (0.2, 0.5, 0.9):
+                assert math.dist(piece[2](share), (3.0, 4.0)) == pytest.approx(25.0, abs=1e-7)
+
+
+def test_a_contour_with_cubics_is_end_to_end():
+    found = entities(of(smooth()))
+    assert [e.dxftype() for e in found] == ["SPLINE", "ARC", "LINE"]
+    spline, arc, line = found
+    assert spline.dxf.degree == 3
+    assert len(spline.control_points) == 8  # 2 a cubic and the ends: joints need none
+    ends = [spline.control_points[-1], arc.start_point, arc.end_point, line.dxf.start]
+    ends += [line.dxf.end, spline.control_points[0]]
+    for a, b in zip(ends[::2], ends[1::2], strict=True):
+        # an ARC's ends are computed from its centre and angles by whoever reads it
+        assert math.dist(tuple(a)[:2], tuple(b)[:2]) < 1e-11
+    assert tuple(line.dxf.end) == tuple(spline.control_points[0])  # these are written
+    assert apart(dxf_shapes(text(of(smooth()))), drawn_shapes(of(smooth()))) < 1e-11
+
+
+@QUICK
+@given(
+    st.lists(st.tuples(st.floats(-1.5, 1.5), st.floats(0.5, 9.0), st.floats(0.5, 9.0)), min_size=3)
+)
+def test_smooth_cubics_are_one_spline(joints):
+    """Each joint has a direction and two handles; what is uneven past a hundred is cut."""
+    segments = []
+    for i, ((a, _, out), (b, back, _)) in enumerate(zip(joints, joints[1:], strict=False)):
+        p, q = (20.0 * i, 0.0), (20.0 * (i + 1), 0.0)
+        first = p[0] + out * math.cos(a), p[1] + out * math.sin(a)
+        second = q[0] - back * math.cos(b), q[1] - back * math.sin(b)
+        segments.append(Cubic(p, first, second, q))
+    drawing = of(Contour("WHEEL", tuple(segments), closed=False))
+    found = entities(drawing)
+    scale, breaks = 1.0, 1
+    for _, back, out in joints[1:-1]:
+        scale *= out / back
+        if not 0.01 < scale < 100.0:
+            scale, breaks = 1.0, breaks + 1
+    assert [e.dxftype() for e in found] == ["SPLINE"] * breaks
+    assert apart(dxf_shapes(text(drawing)), drawn_shapes(drawing)) < SAME
+
+
+def test_a_corner_cuts_a_spline():
+    corner = [
+        Cubic((0.0, 0.0), (5.0, 0.0), (8.0, 0.0), (10.0, 0.0)),
+        Cubic((10.0, 0.0), (12.0, 1e-6), (16.0, 14.0), (10.0, 16.0)),
+    ]
+    drawing = of(Contour("WHEEL", tuple(corner), closed=False))
+    assert [e.dxftype() for e in entities(drawing)] == ["SPLINE", "SPLINE"]
+    straight = [corner[0], corner[1]._replace(first=(12.0, 0.0))]
+    drawing = of(Contour("WHEEL", tuple(straight), closed=False))
+    assert [e.dxftype() for e in entities(drawing)] == ["SPLINE"]
+
+
+def test_a_nearly_straight_arc_keeps_its_ends_beside_cubics():
+    arc = Arc((0.0, 0.0), (100.0, 0.0), 1e-9)  # 5e-8 mm high: its centre is 25 000 km off
+    drawing = of(closed("WHEEL", [arc, Cubic((100.0, 0.0), (90.0, 50.0), (0.0, 50.0), (0.0, 0.0))]))
+    assert apart(dxf_shapes(text(drawing)), drawn_shapes(drawing)) < SAME
+
+
+@pytest.mark.parametrize("shape", [bow(), bow(-0.3), smooth()])
+def test_ezdxf_makes_the_same_of_it(shape):
+    """By its own paths; it turns arcs into cubics, which are 3e-4 of the radius off at most."""
+    points = []
+    for entity in entities(of(shape)):
+        path = ezdxf.path.make_path(entity)
+        part = [tuple(p)[:2] for p in path.flattening(1e-3)]
+        if points and math.dist(points[-1], part[0]) > 1e-6:
+            part.reverse()
+        points += part
+    assert Polygon(points).area == pytest.approx(abs(area(shape)), rel=1e-3)
+    wanted = Polygon(vertices(shape, 1e-4))
+    # buffer(0) takes out the overlaps of 1e-16 where one entity's end meets the next one's start
+    other = Polygon(points).buffer(0.0).symmetric_difference(wanted)
+    assert other.area < 1e-3 * wanted.area
+
+
+@pytest.mark.parametrize(
+    ("units", "number", "measurement", "unit"), [("mm", 4, 1, 1.0), ("inch", 1, 0, 25.4)]
+)
+def test_the_header(units, number, measurement, unit):
+    document = dxf_document(text(MANY, units))
+    header = document.header
+    assert document.dxfversion == "AC1015"
+    assert (header["$INSUNITS"], header["$MEASUREMENT"]) == (number, measurement)
+    box = extent(MANY)
+    low, high = tuple(header["$EXTMIN"]), tuple(header["$EXTMAX"])
+    assert low == pytest.approx((box.x0 / unit, box.y0 / unit, 0.0), abs=1e-11)
+    assert high == pytest.approx((box.x1 / unit, box.y1 / unit, 0.0), abs=1e-11)
+    wanted = drawn_shapes(scaled(MANY, 1.0 / unit))
+    assert apart(dxf_shapes(text(MANY, units)), wanted) < SAME
+    center = document.linetypes.get("CENTER").simplified_line_pattern()
+    assert sum(center) == pytest.approx(12.5 / unit, abs=1e-9)
+
+
+def test_an_inch_is_an_inch():
+    (found,) = entities(of(Circle("BORE", (25.4, -50.8), 12.7)), "inch")
+    assert (*found.dxf.center.vec2, found.dxf.radius) == (1.0, -2.0, 0.5)
+
+
+def test_a_corner_at_the_origin_has_extents():
+    header = dxf_document(text(of(Circle("BORE", (5.0, 5.0), 5.0)))).header
+    assert (tuple(header["$EXTMIN"]), tuple(header["$EXTMAX"])) == ((0, 0, 0), (10, 10, 0))
+
+
+def test_layers():
+    document = dxf_document(text(MANY))
+    assert {"WHEEL", "BORE", "CRANK", "ROLLER", "PITCH", "GROOVE"} <= {
+        layer.dxf.name for layer in document.layers
+    }
+    lines = {layer.dxf.name: layer.dxf.linetype for layer in document.layers}
+    assert {name for name, linetype in lines.items() if linetype != "Continuous"} == {"PITCH"}
+    assert all(linetype in document.linetypes for linetype in lines.values())
+    colours = [document.layers.get(name).color for name in MANY.layers]
+    assert len(set(colours)) == len(colours)
+    assert {e.dxftype() for e in document.modelspace()} == {
+        "LWPOLYLINE",
+        "CIRCLE",
+        "SPLINE",
+        "ARC",
+        "LINE",
+    }  # and no text, which a shop would cut
+
+
+def test_audit_finds_nothing():
+    for drawing in (MANY, of(bow()), of(smooth())):
+        for units in ("mm", "inch"):
+            written = text(drawing, units)
+            audit = dxf_document(written).audit()
+            assert not audit.errors
+            assert not audit.fixes
+            _, audit = recover.read(io.BytesIO(written.encode()))
+            assert not audit.errors
+            assert not audit.fixes
+
+
+def floats(written):
+    lines = written.split("\n")
+    for code, value in zip(lines[::2], lines[1::2], strict=False):
+        if int(code) in FLOAT_CODES:
+            yield value
+
+
+FIXED = re.compile(r"-?\d+\.\d{12}(\d{3})?")
+
+
+def bad(value):
+    return not FIXED.fullmatch(value) or (float(value) == 0.0 and "-" in value)
+
+
+TINY = of(
+    closed("WHEEL", [Arc((1e-17, -0.0), (30.0, 1e-13), 1e-3), Line((30.0, 1e-13), (1e-17, -0.0))]),
+    Circle("BORE", (-1e-17, -1e-14), 1e-5),
+    Circle("BORE", (1e7, -1e7), 1e6),
+    smooth(),
+)
+
+
+@pytest.mark.parametrize("units", ["mm", "inch"])
+def test_decimals_are_fixed(units):
+    values = list(floats(text(TINY, units)))
+    assert len(values) > 300
+    assert not [value for value in values if bad(value)]
+    assert all(bad(value) for value in ("1e-17", "-0.000000000000", "1.5", "nan", "1e+20"))
+
+
+def test_nothing_is_doubled_or_of_no_length():
+    contour = closed(
+        "WHEEL",
+        [
+            Line((0.0, 0.0), (10.0, 0.0)),
+            Line((10.0, 0.0), (10.0, 0.0)),
+            Arc((10.0, 0.0), (10.0, 1e-12), 0.3),
+            Line((10.0, 1e-12), (10.0, 10.0)),
+            Cubic(*[(10.0, 10.0)] * 4),
+            Line((10.0, 10.0), (0.0, 0.0)),
+        ],
+    )
+    none = Circle("BORE", (0.0, 0.0), 0.0)
+    bore = Circle("BORE", (5.0, 2.0), 1.0)
+    found = entities(of(contour, bore, none, contour, bore))
+    assert [e.dxftype() for e in found] == ["LWPOLYLINE", "CIRCLE"]
+    assert [p[:2] for p in found[0].get_points("xyb")] == [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0)]
+
+
+RUN = """
+import hashlib, sys
+sys.path.insert(0, {tests!r})
+import geneva_cli.output.dxf  # before the tests import ezdxf
+from test_dxf import MANY, TINY
+from geneva_cli.output import dxf, svg
+for drawing in (MANY, TINY):
+    for module in (dxf, svg):
+        text = "".join(module.chunks(drawing, "mm"))
+        print(hashlib.sha256(text.encode()).hexdigest())
+"""
+
+
+def test_the_same_bytes_everywhere(tmp_path):
+    """Another hash seed, folder, time zone and home; an ezdxf.ini that is none."""
+    tests = str(repo.TESTS)
+    found = set()
+    for seed, zone in (("1", "UTC"), ("2", "Asia/Tokyo")):
+        folder = tmp_path / seed
+        folder.mkdir()
+        (folder / "ezdxf.ini").write_text("no settings at all\n")
+        change = {"PYTHONHASHSEED": seed, "TZ": zone, "HOME": str(folder), "LC_ALL": "C"}
+        # Before 3.13, Python reads an editable install's path in the locale's encoding and will not
+        # start in one without the folder's letters; so it is told its path, and runs without site.
+        change["PYTHONPATH"] = os.pathsep.join([os.path.dirname(tests), *sys.path])
+        run = subprocess.run(
+            [sys.executable, "-S", "-c", RUN.format(tests=tests)],
+            cwd=folder,
+            env=os.environ | change,
+            capture_output=True,
+            text=True,
+        )
+        assert run.returncode == 0, run.stderr
+        assert os.listdir(folder) == ["ezdxf.ini"]  # no cache in the user's home
+        found.add(run.stdout)
+    assert len(found) == 1
+    assert hashlib.sha256(text(MANY).encode()).hexdigest() in found.pop()
+
+
+def test_no_trace_of_the_run():
+    written = text(MANY)
+    assert not re.search(r"\n20[2-9]\d-|" + re.escape(ezdxf.__version__) + " @", written)
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    assert before is False  # what had to be set is as it was
+
+
+def test_the_title_is_a_comment_in_plain_letters():
+    written = text(MANY)
+    assert written.isascii()
+    first = written.split("\n")[:2]
+    assert first == ["999", r'a <title> & "more" \U+2014 \U+00FCnder \U+03A9mega']
+    assert text(of(bow(), title="a\n0\nEOF")).startswith("999\na 0 EOF\n  0\nSECTION\n")
+    assert text(of(bow())).startswith("  0\nSECTION\n")
+
+
+def test_the_comparison_can_fail():
+    """A bulge of the wrong sign, a point moved by a hundredth of a micrometre, a missing bore."""
+    read = dxf_shapes(text(MANY))
+    assert apart(read, drawn_shapes(MANY)) < SAME
+    others = MANY.shapes[1:]
+    assert apart(read, drawn_shapes(of(bow(-1.0), *others))) > 1.0
+    assert apart(read, drawn_shapes(of(*others))) == math.inf
+    moved = bow()._replace(
+        segments=(bow().segments[0], Line((-10.0, 0.0), (10.0, 1e-5))),
+    )
+    assert apart(read, drawn_shapes(of(moved, *others))) > 1e-6
+
+
+def test_refusals():
+    with pytest.raises(GenevaError, match="--units cm: it must be one of mm, inch"):
+        text(MANY, "cm")
+    with pytest.raises(GenevaError, match="layer BORE: a circle at nan; coordinates must be finit"):
+        text(of(Circle("BORE", (0.0, 0.0), math.nan)))
+    with pytest.raises(GenevaError, match="nothing to draw"):
+        text(of())

@@ -1,0 +1,442 @@
+"""Output files and streams: replaced whole or not at all, and quiet when nobody listens."""
+
+import csv
+import json
+import os
+import pty
+import re
+import resource
+import signal
+import stat
+import subprocess
+import sys
+import time
+
+import pytest
+from typer.testing import CliRunner
+from words import load
+
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.app import COMMANDS, app
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+OLD = "the old file, whole\n"
+TEMPORARY = re.compile(r"\.motion\.csv\.geneva-\d+\.tmp")
+LONG = ["motion", "spec.toml", "--samples", "500000"]  # seconds of writing, some 40 MB
+SHORT = ["peaks", "spec.toml"]
+
+full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    put("spec.toml", "[wheel]\nz = 6\n")
+    return tmp_path
+
+
+def put(name, text):
+    with open(name, "w", encoding="utf-8", newline="") as file:
+        file.write(text)
+
+
+def get(name):
+    with open(name, encoding="utf-8", newline="") as file:
+        return file.read()
+
+
+def geneva(*arguments, **settings):
+    settings = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | settings
+    return subprocess.run([GENEVA, *arguments], text=True, timeout=60, **settings)
+
+
+def clean_failure(found, *wants):
+    assert found.returncode == 2, found.stderr
+    assert "Traceback" not in found.stderr
+    assert len(found.stderr.splitlines()) == 1
+    for want in wants:
+        assert want in found.stderr
+
+
+def leftovers():
+    return [name for name in os.listdir() if name.endswith(".tmp")]
+
+
+# Where the file goes
+
+
+def test_new_file_honours_the_umask():
+    found = geneva(*SHORT, "-o", "peaks.json", umask=0o027)
+    assert (found.returncode, found.stdout) == (0, "")
+    assert stat.S_IMODE(os.stat("peaks.json").st_mode) == 0o640
+    assert leftovers() == []
+
+
+def test_old_file_keeps_its_permissions():
+    put("peaks.json", OLD)
+    os.chmod("peaks.json", 0o604)
+    assert geneva(*SHORT, "-o", "peaks.json").returncode == 0
+    assert stat.S_IMODE(os.stat("peaks.json").st_mode) == 0o604
+    assert "velocity" in json.loads(get("peaks.json"))
+
+
+def test_symlink_stays_a_link():
+    os.mkdir("store")
+    put("store/real.csv", OLD)
+    os.symlink("store/real.csv", "link.csv")
+    assert geneva(*SHORT, "-o", "link.csv").returncode == 0
+    assert os.readlink("link.csv") == "store/real.csv"
+    assert get("store/real.csv").startswith("spec,title,velocity.max,")
+    assert os.listdir("store") == ["real.csv"]
+
+
+def test_same_text_on_a_stream_and_in_a_file():
+    for extension, name in {"txt": "table", "csv": "csv", "json": "json", "md": "md"}.items():
+        assert geneva(*SHORT, "-o", f"peaks.{extension}").returncode == 0
+        assert get(f"peaks.{extension}") == geneva(*SHORT, "--format", name, "-o", "-").stdout
+
+
+def test_format_overrides_the_extension():
+    assert geneva(*SHORT, "-o", "peaks.csv", "--format", "json").returncode == 0
+    assert json.loads(get("peaks.csv"))
+
+
+def test_folder_missing():
+    clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
+
+
+def test_output_is_a_folder():
+    os.mkdir("peaks.csv")
+    clean_failure(geneva(*SHORT, "-o", "peaks.csv"), "peaks.csv", "directory")
+    assert os.listdir("peaks.csv") == []
+
+
+def test_name_too_long():
+    clean_failure(geneva(*SHORT, "-o", "x" * 300 + ".csv"), "too long")
+
+
+@pytest.mark.parametrize("name", ["spec.toml", "./sub/../spec.toml", "link.toml", "hard.toml"])
+def test_output_over_the_spec(name):
+    os.mkdir("sub")
+    os.symlink("spec.toml", "link.toml")
+    os.link("spec.toml", "hard.toml")
+    before = get("spec.toml")
+    clean_failure(geneva(*SHORT, "-o", name, "--format", "csv"), "input", "another name")
+    assert get("spec.toml") == before
+
+
+def test_output_over_the_laws_points():
+    rows = "".join(f"{i / 10},{i / 10}\n" for i in range(11))
+    put("law.csv", rows)
+    put("spec.toml", '[wheel]\nz = 6\n[motion]\nlaw = "table"\nfile = "law.csv"\n')
+    clean_failure(geneva("motion", "spec.toml", "-o", "law.csv"), "law.csv", "input")
+    assert get("law.csv") == rows
+
+
+# Runs that fail or are stopped
+
+
+def small_files():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+
+
+def test_failure_half_way_keeps_the_old_file():
+    put("motion.csv", OLD)
+    arguments = ["motion", "spec.toml", "--samples", "20000", "-o", "motion.csv"]
+    clean_failure(geneva(*arguments, preexec_fn=small_files), "motion.csv", "cannot write")
+    assert get("motion.csv") == OLD
+    assert leftovers() == []
+
+
+def test_wrong_spec_keeps_the_old_file():
+    put("motion.csv", OLD)
+    put("spec.toml", "[wheel]\nz = 2\n")
+    clean_failure(geneva("motion", "spec.toml", "-o", "motion.csv"), "spec.toml:2: ")
+    assert get("motion.csv") == OLD
+
+
+def stopped(number):
+    """A long export, stopped by a signal once its temporary file has appeared."""
+    put("motion.csv", OLD)
+    process = subprocess.Popen(
+        [GENEVA, *LONG, "-o", "motion.csv"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # whoever runs the tests may ignore SIGINT, and children inherit that
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    deadline = time.monotonic() + 30
+    while not leftovers() and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.005)
+    assert process.poll() is None, "the export ended before it could be stopped"
+    assert TEMPORARY.fullmatch(leftovers()[0])
+    process.send_signal(number)
+    out, err = process.communicate(timeout=30)
+    assert (out, err) == ("", "")
+    assert get("motion.csv") == OLD
+    return process.returncode
+
+
+@pytest.mark.parametrize(
+    ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+)
+def test_stopped_by_a_signal(number, status):
+    assert stopped(number) == status
+    assert leftovers() == []
+
+
+def test_killed():
+    assert stopped(signal.SIGKILL) == -signal.SIGKILL
+    (left,) = leftovers()
+    assert TEMPORARY.fullmatch(left)
+    # another file's run leaves it alone; the next run of the same file removes it
+    assert geneva("motion", "spec.toml", "-o", "motion.csv.csv").returncode == 0
+    assert leftovers() == [left]
+    assert geneva("motion", "spec.toml", "-o", "motion.csv").returncode == 0
+    assert leftovers() == []
+
+
+def test_ctrl_c_while_printing():
+    process = subprocess.Popen(
+        [GENEVA, *LONG, "--format", "csv"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert process.stdout.readline().startswith("time_s,")
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert (process.returncode, err) == (130, "")
+
+
+# Standard output that does not take what we write
+
+
+@full
+@pytest.mark.parametrize(
+    "arguments",
+    [["table"], SHORT, [*SHORT, "--format", "json"], ["motion", "spec.toml", "--samples", "20000"]],
+    ids=" ".join,
+)
+def test_full_disk_on_stdout(arguments):
+    with open("/dev/full", "w") as out:
+        clean_failure(geneva(*arguments, stdout=out), "<stdout>", "No space left")
+
+
+@full
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["table", "--help"], ["--version"]], ids=" ".join
+)
+def test_full_disk_on_help(arguments):
+    with open("/dev/full", "w") as out:
+        clean_failure(geneva(*arguments, stdout=out), "No space left")
+
+
+@full
+@pytest.mark.parametrize("arguments", [["table"], SHORT, LONG], ids=" ".join)
+def test_full_disk_on_a_file(arguments):
+    found = geneva(*arguments, "-o", "/dev/full", "--format", "csv")
+    clean_failure(found, "/dev/full", "No space left")
+    assert found.stdout == ""
+
+
+def test_stdout_file_too_large():
+    with open("out.csv", "w") as out:
+        arguments = ["motion", "spec.toml", "--samples", "20000", "--format", "csv"]
+        clean_failure(geneva(*arguments, stdout=out, preexec_fn=small_files), "cannot write")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["table"], ["--help"], [*LONG, "--format", "csv"], [*LONG, "--format", "json"], SHORT],
+    ids=" ".join,
+)
+def test_closed_pipe(arguments):
+    """``geneva table | head -1``: the reader has what it wanted, and nobody is bothered."""
+    process = subprocess.Popen(
+        [GENEVA, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    process.stdout.readline()
+    process.stdout.close()
+    err = process.stderr.read()
+    process.stderr.close()
+    assert (err, process.wait(timeout=30) in (0, 141)) == ("", True)
+
+
+@pytest.mark.parametrize("arguments", [["table"], SHORT, ["--help"], ["--version"]], ids=" ".join)
+def test_pipe_closed_before_the_start(arguments):
+    read, write = os.pipe()
+    os.close(read)
+    with open(write, "w") as out:
+        found = geneva(*arguments, stdout=out)
+    assert (found.returncode, found.stderr) == (141, "")
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("arguments", ["table", "peaks spec.toml", "peaks -", "peaks gone.toml"])
+def test_closed_streams(closed, arguments):
+    """Started by a daemon, a program may have no streams at all."""
+    script = f'"$0" {arguments} {closed}'
+    found = subprocess.run(["sh", "-c", script, GENEVA], capture_output=True, text=True)
+    assert "Traceback" not in found.stderr
+    assert found.returncode in (0, 2)
+    assert found.returncode == 0 or found.stdout == "", "a message among the data"
+
+
+def test_ascii_terminal():
+    """A title in any script, on a system that knows only ASCII, is no reason to fail."""
+    put("spec.toml", 'title = "Größe 六"\n[wheel]\nz = 6\n')
+    ascii_only = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    for command in titled():
+        found = geneva(command, "spec.toml", env=ascii_only)
+        assert "Traceback" not in found.stderr
+        assert found.returncode in (0, 1)
+
+
+# What is written
+
+
+def numbers(tree):
+    if isinstance(tree, dict):
+        return [x for value in tree.values() for x in numbers(value)]
+    if isinstance(tree, list):
+        return [x for value in tree for x in numbers(value)]
+    return [tree]
+
+
+def strict(text):
+    def refuse(constant):
+        raise AssertionError(f"{constant} in json")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_motion_columns():
+    head = get_lines("motion", "spec.toml", "--format", "csv")[0]
+    assert head.startswith("time_s,input_deg,wheel_deg,velocity,acceleration,jerk")
+
+
+def get_lines(*arguments):
+    found = CliRunner().invoke(app, list(arguments))
+    assert found.exit_code == 0, found.output
+    return found.stdout.splitlines()
+
+
+@pytest.mark.parametrize("samples", [2, 361, 8193])
+def test_csv_reads_back_equal(samples):
+    put("spec.toml", '[wheel]\nz = 7\n[drive]\nkind = "side-crank"\nA = 0.3\nn_rpm = 47\n')
+    lines = get_lines("motion", "spec.toml", "--samples", str(samples), "--format", "csv")
+    table = motion_table(load("spec.toml"), samples)
+    rows = list(csv.reader(lines))
+    assert tuple(rows[0]) == table.names
+    assert [[float(x) for x in row] for row in rows[1:]] == [list(row) for row in table.rows()]
+    assert not any(x in ("-0.0", "nan", "inf", "-inf") for row in rows for x in row)
+
+
+@pytest.mark.parametrize("arguments", [["motion", "spec.toml"], SHORT, ["table"]], ids=" ".join)
+def test_json_and_csv_hold_the_same(arguments):
+    tree = strict("\n".join(get_lines(*arguments, "--format", "json")))
+    rows = list(csv.DictReader(get_lines(*arguments, "--format", "csv")))
+    if "rows" in tree:
+        assert [{k: str(v) for k, v in row.items()} for row in tree["rows"]] == rows
+    else:
+        assert ["" if x is None else str(x) for x in numbers(tree)] == list(rows[0].values())
+
+
+def test_csv_has_unix_lines():
+    found = subprocess.run([GENEVA, "table", "--format", "csv"], capture_output=True)
+    assert b"\r" not in found.stdout
+    assert found.stdout.endswith(b"\n")
+
+
+@pytest.mark.parametrize("n_rpm", ["1e-310", "1e-300", "1e300", "1e308"])
+@pytest.mark.parametrize("command", ["motion", "peaks"])
+def test_extreme_speeds_stay_finite(n_rpm, command):
+    """Refused, or computed: but nothing that is not a number reaches a file."""
+    put("spec.toml", f"[wheel]\nz = 6\n[drive]\nn_rpm = {n_rpm}\n")
+    found = CliRunner().invoke(app, [command, "spec.toml", "--format", "json"])
+    assert found.exit_code in (0, 2), repr(found.exception)
+    if found.exit_code == 0:
+        assert None not in numbers(strict(found.stdout))
+
+
+def test_extreme_speed_of_a_table():
+    found = CliRunner().invoke(app, ["table", "--n", "1e-310", "--format", "json"])
+    assert found.exit_code in (0, 2), repr(found.exception)
+    if found.exit_code == 0:
+        assert None not in numbers(strict(found.stdout))
+
+
+# What a title may not do
+
+HOSTILE = [
+    "=HYPERLINK(1)",
+    "@SUM(1)",
+    "+1+1",
+    "-1+1",
+    r"\u001b]0;x\u0007\u001b[31mred",
+    r"\u009b31mred",
+    r"one\r\ntwo",
+    r"\ttab",
+    r"\u202eback",
+    r"a|b`c<script>",
+    r"\u2028=1",
+]
+
+
+def titled():
+    """The commands that read a spec and print something."""
+    return [name for name in COMMANDS if name not in ("table", "laws", "new", "synth", "bench")]
+
+
+@pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
+@pytest.mark.parametrize("command", titled())
+def test_hostile_title(command, format):
+    plain = None
+    for title in ["plain", *HOSTILE]:
+        # spherical: without parts that would be turned for each title
+        put("spec.toml", f'title = "{title}"\n[wheel]\nz = 6\ngearing = "spherical"\n')
+        found = CliRunner().invoke(app, [command, "spec.toml", "--format", format])
+        assert found.exit_code in (0, 1), (title, found.output, found.exception)
+        text = found.stdout
+        assert all(c.isprintable() or c == "\n" for c in text), title
+        plain = plain or text
+        assert text.count("\n") == plain.count("\n"), title
+        if format == "csv":
+            for cell in (c for row in csv.reader(text.splitlines()) for c in row):
+                assert not cell.startswith(("=", "@", "+", "-")) or float(cell) <= 0, title
+        if format == "json":
+            strict(text)
+        if format == "md":
+            assert "<script>" not in text, title
+
+
+def on_a_terminal(*arguments):
+    """What a person sees: the output of a run whose standard output is a terminal."""
+    master, slave = pty.openpty()
+    process = subprocess.Popen([GENEVA, *arguments], stdout=slave, stderr=subprocess.PIPE)
+    os.close(slave)
+    seen = b""
+    try:
+        while piece := os.read(master, 65536):
+            seen += piece
+    except OSError:  # Linux: the other end is closed
+        pass
+    os.close(master)
+    err = process.stderr.read()
+    process.stderr.close()
+    assert process.wait(timeout=30) in (0, 1), err
+    return seen.decode()
+
+
+def test_hostile_title_on_a_terminal():
+    put("spec.toml", 'title = "a\\u001b]0;x\\u0007b [red]c[/red]"\n[wheel]\nz = 6\n')
+    for command in titled():
+        assert "\x1b]" not in on_a_terminal(command, "spec.toml")
+
+
+def test_a_terminal_gets_more_than_a_pipe():
+    assert "─" in on_a_terminal("table", "--z", "6")
+    assert "─" not in geneva("table", "--z", "6").stdout

@@ -1,0 +1,37 @@
+"""A table as a Python user has it: by name, as rows, as a notebook shows it."""
+
+import numpy as np
+
+from geneva_cli.table import PIECE, Table, pieces, record_table, rows_table
+
+
+def test_a_table_made_piece_by_piece_is_whole_in_a_dict():
+    length = 2 * PIECE + 3
+    made = Table(
+        ("n", "n2"), pieces(length, 2, lambda a, b: (np.arange(a, b), np.arange(a, b) ** 2))
+    )
+    at = made.to_dict()
+    assert (at["n"] == np.arange(length)).all()
+    assert (at["n2"] == np.arange(length) ** 2).all()
+
+
+def test_a_record_is_its_values_and_its_tables_rows():
+    rows = rows_table(["name", "passes"], [("dwell_deg", True), ("ratio", False)])
+    assert record_table({"z": 6, "checks": rows}).to_dict() == {
+        "z": 6,
+        "checks": [{"name": "dwell_deg", "passes": True}, {"name": "ratio", "passes": False}],
+    }
+
+
+def test_a_notebook_shows_the_first_rows_and_no_markup():
+    page = Table(("<x>",), ([float(i) for i in range(1000)],), title="a & b")._repr_html_()
+    assert page.count("<tr>") == 61
+    assert "1000 rows" in page
+    assert "<th>&lt;x&gt;</th>" in page
+    assert "<caption>a &amp; b</caption>" in page
+
+
+def test_a_notebook_shows_a_record_line_by_line():
+    page = record_table({"z": 6, "dwell_deg": None})._repr_html_()
+    assert "<tr><td>z</td><td>6</td></tr>" in page
+    assert "<tr><td>dwell_deg</td><td></td></tr>" in page

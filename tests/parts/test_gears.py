@@ -1,0 +1,152 @@
+"""Noncircular gears: pitch curves, convexity, a ratio from a file; and the cam's groove."""
+
+import math
+
+import numpy as np
+import pytest
+from words import Drive, Keys, Motion, Spec, Wheel, points
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.gear_curves import convexity, gears_table
+from geneva_cli.parts.groove import _distances, groove_table
+from geneva_cli.spec.tables import Limits
+from geneva_cli.verdict.checks import checks
+
+TOL = 0.001
+
+
+def gears(A=None, ratio=None):
+    keys = Keys("noncircular-gears", A, ratio, 120.0)
+    return build(Spec(Wheel(6), Drive("noncircular-gears"), keys))
+
+
+def columns(table):
+    return dict(zip(table.names, (np.asarray(c) for c in table.columns), strict=True))
+
+
+def test_the_side_cranks_gears_are_convex_at_06_and_not_at_08():
+    """Published analysis of the law as gears."""
+    assert min(convexity(gears(0.6).spec.drive.gears)) > 0.0
+    assert min(convexity(gears(0.8).spec.drive.gears)) < 0.0
+
+
+def test_they_move_the_wheel_as_the_side_crank_does():
+    ours = gears(0.6).engagements[0]
+    theirs = build(Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.6))).engagements[0]
+    assert ours.motion(-30.0).derivatives() == theirs.motion(-30.0).derivatives()
+
+
+def test_pitch_curves_roll_on_each_other():
+    at = columns(gears_table(gears(0.6), TOL, 2001))
+    assert at["driver_radius_mm"] + at["driven_radius_mm"] == pytest.approx(120.0, rel=1e-15)
+    arcs = []
+    for name in ("driver", "driven"):
+        x, y = at[f"{name}_x_mm"], at[f"{name}_y_mm"]
+        arcs.append(np.hypot(np.diff(x), np.diff(y)))
+    # equal arcs, to the chords' own error of (1/2000 turn)² relative
+    assert arcs[0] == pytest.approx(arcs[1], rel=1e-5)
+
+
+def test_elliptical_gears_are_ellipses():
+    """Equal ellipses about their foci: r = C (1-e²)/2 / (1 -+ e cos), and always convex."""
+    keys = Keys("elliptical-gears", 0.3)
+    mechanism = build(Spec(Wheel(6), Drive("elliptical-gears"), keys))
+    at = columns(gears_table(mechanism, TOL, 101))
+    expected = 100.0 * 0.5 * (1.0 - 0.09) / (1.0 + 0.3 * np.cos(np.radians(at["input_deg"])))
+    assert at["driver_radius_mm"] == pytest.approx(expected, rel=1e-14)
+    assert min(convexity(mechanism.spec.drive.gears)) > 0.0
+
+
+def ratio_file(tmp_path, change=lambda ratio: ratio):
+    lines = ["input_deg,ratio"]
+    for k in range(0, 361, 2):
+        phi = math.radians(k % 360)
+        ratio = 0.91 / (1.09 + 0.6 * math.cos(phi))
+        lines.append(f"{k},{change(ratio)!r}")
+    path = tmp_path / "ratio.csv"
+    path.write_text("\n".join(lines))
+    return points(path, registry.drive("noncircular-gears"), "ratio")
+
+
+def test_a_ratio_from_a_file(tmp_path):
+    """The elliptical gears' ratio at 181 points; a quintic spline of 2 degrees is good to 1e-10."""
+    ours = gears(ratio=ratio_file(tmp_path)).engagements[0]
+    keys = Keys("elliptical-gears", 0.3)
+    theirs = build(Spec(Wheel(6), Drive("elliptical-gears"), keys)).engagements[0]
+    assert ours.entry_deg == pytest.approx(theirs.entry_deg, abs=1e-9)
+    x = np.linspace(-90.0, 90.0, 19)
+    for order, digits in ((0, 1e-11), (1, 1e-10), (2, 1e-8), (3, 1e-6)):
+        a, b = (s.motion(x).derivatives()[order] for s in (ours, theirs))
+        assert a == pytest.approx(b, abs=digits)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [(lambda r: r - 0.6, "not realisable"), (lambda r: 1.1 * r, "do not close")],
+)
+def test_a_ratio_that_no_gears_have(tmp_path, change, said):
+    with pytest.raises(GenevaError, match=said):
+        gears(ratio=ratio_file(tmp_path, change))
+
+
+def test_the_groove_against_the_law_of_sines():
+    """R = L sin psi / sin(phi + psi), from the law's closed form."""
+    spec = Spec(Wheel(6), Drive("cam"), Keys("cam"), Motion("cycloidal"))
+    at = columns(groove_table(build(spec), TOL, 25))
+    phi = np.radians(at["input_deg"])
+    u = at["input_deg"] / 120.0 + 0.5
+    psi = math.pi / 3.0 * (u - np.sin(2.0 * math.pi * u) / (2.0 * math.pi) - 0.5)
+    off = np.abs(phi) > 1e-9
+    expected = 100.0 * np.sin(psi[off]) / np.sin(phi[off] + psi[off])
+    assert at["radius_mm"][off] == pytest.approx(expected, rel=1e-13)
+    assert at["radius_mm"][~off] == pytest.approx(50.0, rel=1e-15)  # L V/(1+V), V = 1
+    assert at["curvature_radius_mm"][0] == math.inf  # entering along a slot at rest
+
+
+@pytest.mark.parametrize("table", [gears_table, groove_table])
+def test_a_plain_crank_has_neither(table):
+    with pytest.raises(GenevaError, match="has none"):
+        table(build(Spec(Wheel(6))), TOL, None)
+
+
+@pytest.mark.parametrize(("z", "alpha0"), [(6, 0.0), (4, -20.0), (8, 10.0)])
+def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
+    """No bulge, and no jump of its second derivative; derivatives against differences."""
+    spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
+    engagement = build(spec).engagements[0]
+    x = engagement.exit_deg + np.linspace(-1.0, 361.0 - engagement.motion_deg, 20001)
+    R, slope, bend = _distances(engagement.groove, x)
+    end = float(engagement.groove.distances(engagement.exit_deg, 0)[1].c[0])
+    assert np.abs(R - end).max() < 0.15 * end
+    # Differences against the mean of both sides: their error is h times a bounded derivative.
+    h = np.radians(x[1] - x[0])
+    assert np.abs(np.diff(R) / h - 0.5 * (slope[1:] + slope[:-1])).max() < 1e-4
+    assert np.abs(np.diff(slope) / h - 0.5 * (bend[1:] + bend[:-1])).max() < 1e-2
+    assert np.abs(np.diff(bend)).max() < 100.0 * h
+
+
+@pytest.mark.parametrize(("z", "law", "alpha0"), [(6, "cycloidal", 0.0), (4, "3-4-5", -20.0)])
+def test_the_grooves_greatest_pressure_angle(z, law, alpha0):
+    """All round, dwell too, against differences of the logarithm of the roller's distance.
+
+    Central differences over 1e-4 deg are good to 1e-9 rad here, and a grid of 1/100 deg misses a
+    smooth greatest by less than that.
+    """
+    motion = Motion(law, alpha0_deg=alpha0)
+    mechanism = build(Spec(Wheel(z), Drive("cam"), Keys("cam"), motion))
+    groove = mechanism.engagements[0].groove
+    x = groove.motion.entry_deg + np.arange(0.0, 360.0, 0.01)
+    h = 1e-4
+    ahead, behind = (np.log(_distances(groove, x + side * h)[0]) for side in (0.5, -0.5))
+    angle = np.degrees(np.arctan(np.abs(ahead - behind) / np.radians(h)))
+    row = next(c for c in checks(mechanism, parts=False) if c.name == "groove_pressure_deg")
+    assert row.value == pytest.approx(angle.max(), abs=1e-6)
+    turned = x[angle > angle.max() - 1e-6] - row.at_deg
+    assert min(abs(np.remainder(turned + 180.0, 360.0) - 180.0)) < 0.1
+    assert row.passes
+    limits = Limits(pressure_angle_max_deg=0.5 * row.value)
+    held = build(Spec(Wheel(z), Drive("cam"), Keys("cam"), motion, limits=limits))
+    names = {c.name: c.passes for c in checks(held, parts=False)}
+    assert names["groove_pressure_deg"] is False

@@ -1,0 +1,948 @@
+"""Parts as they are written: every design's drawings read back, options, refusals, tables.
+
+Files are read by ``drawing_witness``, which has formulas of its own, and by ezdxf; shapely measures
+them. What costs seconds, a design's outlines and its full turn, is made once and kept, as several
+tests ask for it; in processes of their own, where the same bytes are looked for, nothing is.
+"""
+
+import csv
+import io
+import json
+import math
+import os
+import random
+import re
+import socket
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import ezdxf
+import numpy as np
+import pytest
+import repo
+from drawing_witness import apart, backwards, dxf_shapes, svg_shapes
+from shapely import affinity
+from shapely.geometry import LineString, Point, Polygon
+from typer.testing import CliRunner
+from words import load
+
+from geneva_cli.app import app
+from geneva_cli.parts import outlines as outline
+from geneva_cli.parts import proof
+from geneva_cli.parts.turn import full_turn
+from geneva_cli.parts.walls import curved as curved_walls
+from geneva_cli.specfile.template import KINDS
+from geneva_cli.verdict import advice as adviser
+from geneva_cli.verdict import cautions
+
+ROOT = repo.ROOT
+DESIGNS = {path.stem: path for path in sorted((ROOT / "designs").glob("*.toml"))}
+NOT_FLAT = ("gear-sector", "spherical-60deg", "spherical-z6")
+FLAT = [name for name in DESIGNS if name not in NOT_FLAT]
+LINKAGES = ("four-bar-z4", "slider-crank")
+UNLOCKED = (*LINKAGES, "internal-curved-z8")  # lock_radius_mm = 0
+INTERNAL = ("elliptical-internal", "internal-curved-z8", "internal-z6")
+LAYERS = {"WHEEL", "CRANK", "ROLLER", "BORE", "PITCH", "GROOVE"}
+PARTS = ("slot", "wheel", "crank", "assembly")
+VARIED = (  # straight, curved, offset, uneven and internal slots; one roller and more; no lock
+    "cam-geneva",
+    "geneva-pair",
+    "internal-curved-z8",
+    "internal-z6",
+    "large-wheel-z24",
+    "offset-slots",
+    "press-curved",
+    "slider-crank",
+    "three-rollers-z4",
+    "two-pins-z4",
+    "unequal-steps",
+)
+CURVED = ("press-curved", "modified-sine-matched", "internal-curved-z8")
+# mm. An svg's last decimal is 1e-9, and its arcs come to ten times that (as in test_dxf.py).
+SAME = 2e-8
+TOLERANCE = 0.001  # mm, the default of --tolerance
+SAGITTA = 1e-4  # mm, of the chords that shapely is given
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def kept(function, key):
+    """The function, computed once for each key; its arguments are kept, so that ids stay theirs."""
+    known = {}
+
+    def once(*arguments):
+        k = key(*arguments)
+        if k not in known:
+            known[k] = function(*arguments), arguments
+        return known[k][0]
+
+    return once
+
+
+@pytest.fixture(autouse=True, scope="module")
+def made_once():
+    """Outlines, full turns, walls and cautions: the same spec has the same ones."""
+
+    def of_outlines(found):
+        return found.plane.given.spec, found.fine
+
+    def of_mechanism(mechanism, tolerance=0.0):
+        return mechanism.spec, tolerance
+
+    def of_slot(plane, sizes, engagement):
+        return id(plane), sizes, id(engagement)
+
+    outlines = kept(outline.outlines, of_mechanism)
+    turned = kept(full_turn.full_turn, of_outlines)
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (outline, proof):
+            patch.setattr(module, "outlines", outlines)
+        for module in (full_turn, proof):
+            patch.setattr(module, "full_turn", turned)
+        patch.setattr(curved_walls, "chain", kept(curved_walls.chain, of_slot))
+        patch.setattr(cautions, "cautions", kept(cautions.cautions, of_mechanism))
+        yield
+
+
+def profile(spec, part, output, *options):
+    """A run of `geneva profile`; what is neither success nor a refusal raises."""
+    arguments = ["profile", str(spec), "--part", part, "-o", output, *options]
+    found = CliRunner().invoke(app, arguments)
+    if found.exception is not None and not isinstance(found.exception, SystemExit):
+        raise found.exception
+    return found
+
+
+def written(spec, part, output, *options):
+    """The text of a file that is written."""
+    found = profile(spec, part, output, *options)
+    assert found.exit_code == 0, found.output
+    assert found.stdout == ""
+    return Path(output).read_text(encoding="utf-8")
+
+
+def refused(found, status, *wants):
+    """Exit status and one line that holds all of ``wants``, and nothing else."""
+    assert found.exit_code == status, found.output
+    assert found.stdout == ""
+    (said,) = found.stderr.splitlines()
+    for want in wants:
+        assert want in said, said
+    return said
+
+
+def spec(text, name="spec.toml"):
+    Path(name).write_text(text, encoding="utf-8")
+    return name
+
+
+def size(*lines, wheel="z = 6"):
+    return "[wheel]\n" + wheel + "\n[size]\n" + "\n".join(lines) + "\n"
+
+
+def points(chain, count=None):
+    """A chain's points, its last included; so many a piece, or else as many as SAGITTA takes."""
+    found = []
+    for _, _, point in chain:
+        n = count or _chords(point)
+        found += [point(i / n) for i in range(n)]
+    return [*found, chain[-1][1]]
+
+
+def _chords(point):
+    """How many chords a piece takes: its eighths are nearly parabolas, whose sagitta falls with
+    the square of that number; half as much again is to spare."""
+    ends = [np.array(point(i / 16)) for i in range(17)]
+    eighths = zip(ends[:-2:2], ends[1:-1:2], ends[2::2], strict=True)
+    worst = max(math.dist(b, 0.5 * (a + c)) for a, b, c in eighths)
+    return 8 * max(1, math.ceil(math.sqrt(1.5 * worst / SAGITTA)))
+
+
+def ring(chain, count=None):
+    return Polygon(points(chain, count)[:-1])
+
+
+def chains(shapes, layer):
+    return [shape for shape in shapes.get(layer, []) if isinstance(shape, list)]
+
+
+def circles(shapes, layer):
+    return [shape for shape in shapes.get(layer, []) if isinstance(shape, tuple)]
+
+
+def away(found, wanted):
+    """``apart``, whichever way round a line alone is read: the reader takes it for one of several
+    entities of a contour, of which the first one's direction is not known."""
+
+    def one_way(shapes):
+        return {k: [_ascending(shape) for shape in v] for k, v in shapes.items()}
+
+    return apart(one_way(found), one_way(wanted))
+
+
+def _ascending(shape):
+    if isinstance(shape, tuple) or len(shape) > 1:
+        return shape
+    ((start, end, _),) = shape
+    a, b = (tuple(round(x, 6) + 0.0 for x in p) for p in (start, end))
+    return shape if a <= b else [backwards(shape[0])]
+
+
+def require_end_to_end(chain, close=True):
+    """Pieces end to end and, mostly, closed: to SAME, as arcs' ends are computed by the reader."""
+    pairs = list(zip(chain, chain[1:], strict=False))
+    pairs += [(chain[-1], chain[0])] if close else []
+    for one, other in pairs:
+        assert math.dist(one[1], other[0]) < SAME
+
+
+def require_no_doubles(shapes):
+    """No piece of no length, and none that lies on another one, either way round."""
+    for layer, found in shapes.items():
+        seen = set()
+        for shape in found:
+            if isinstance(shape, tuple):
+                keys = [(round(shape[1], 6), *(round(x, 6) + 0.0 for x in shape[0]))]
+            else:
+                keys = []
+                for start, end, point in shape:
+                    middle = point(0.5)
+                    assert math.dist(start, middle) + math.dist(middle, end) > 1e-9, layer
+                    places = [tuple(round(x, 6) + 0.0 for x in p) for p in (start, end, middle)]
+                    keys.append((frozenset(places[:2]), places[2]))
+            for key in keys:
+                assert key not in seen, (layer, key)
+                seen.add(key)
+
+
+def require_sound(shapes, inside=False):
+    """One closed contour a part, bores apart; ``inside`` where a wheel has an outer circle."""
+    assert set(shapes) <= LAYERS
+    require_no_doubles(shapes)
+    for layer, found in shapes.items():
+        for chain in (shape for shape in found if isinstance(shape, list)):
+            require_end_to_end(chain, close=layer != "PITCH")
+            if layer != "PITCH":
+                assert ring(chain, 24).is_valid, layer
+    if "WHEEL" in shapes:
+        assert len(chains(shapes, "WHEEL")) == 1
+        assert len(circles(shapes, "WHEEL")) == inside
+    assert all(isinstance(shape, tuple) for k in ("BORE", "ROLLER") for shape in shapes.get(k, []))
+
+
+# 1. Every design
+
+
+@pytest.mark.parametrize("name", FLAT)
+def test_assembly_of_every_design(name):
+    """As svg: its shapes are sound, and the parts lie beside each other at input angle 0."""
+    path = DESIGNS[name]
+    text = written(path, "assembly", "machine.svg")
+    shapes = svg_shapes(text)
+    require_sound(shapes, name in INTERNAL)
+    machine = load(str(path))
+    L = machine.center_distance_mm
+
+    root = ElementTree.fromstring(text)
+    box = [float(x) for x in root.get("viewBox").split()]
+    assert (root.get("width"), root.get("height")) == tuple(f"{x:.9f}mm" for x in box[2:])
+    assert "SCALE_BAR" in [group.get("id") for group in root]
+
+    rollers = machine.spec.drive.rollers
+    angles = machine.spec.drive.roller_angles_deg
+    count = len(angles) if angles else rollers * len(machine.spec.wheel.steps or [0])
+    centres = {tuple(round(x, 6) for x in centre) for centre, _ in circles(shapes, "ROLLER")}
+    assert len(centres) == count
+    # Input angle 0 is where a roller crosses the line of centres (a linkage's mid-motion is no such
+    # place); 1e-6 mm are their rounding here.
+    assert any(abs(y) <= 1e-6 for _, y in centres) or name in LINKAGES
+
+    cranks = chains(shapes, "CRANK")
+    # A locking sector for each dwell where the wheel sweeps over the crank's axis.
+    assert len(cranks) == 0 if name in UNLOCKED else len(cranks) in (1, count)
+
+    (wheel,) = chains(shapes, "WHEEL")
+    around, t = ring(wheel, 64), 1e-3 * L  # chords of 64 a piece: far less than that
+    if name in INTERNAL:
+        ((centre, radius),) = circles(shapes, "WHEEL")
+        assert math.dist(centre, (0.0, 0.0)) < 1e-9
+        assert Point(centre).buffer(radius, 256).contains(around)
+    others = [ring(chain, 64) for chain in cranks]
+    others += [Point(centre).buffer(radius) for centre, radius in circles(shapes, "ROLLER")]
+    for other in others:
+        if name in INTERNAL:
+            assert around.buffer(t).contains(other)
+        else:
+            assert not around.buffer(-t).intersects(other)
+
+
+@pytest.mark.parametrize("part", [*PARTS, "groove"])
+@pytest.mark.parametrize("name", VARIED)
+def test_dxf_and_svg_are_the_same_part(name, part):
+    if part == "groove" and name != "cam-geneva":
+        refused(profile(DESIGNS[name], part, "part.dxf"), 2, "groove", '"cam"')
+        return
+    text = written(DESIGNS[name], part, "part.dxf")
+    document = ezdxf.readfile("part.dxf")
+    auditor = document.audit()
+    assert not auditor.has_errors
+    assert not auditor.has_fixes
+    assert document.header["$INSUNITS"] == 4  # millimetres
+    space = document.modelspace()
+    used = {entity.dxf.layer for entity in space}
+    assert used <= LAYERS
+    assert used <= {layer.dxf.name for layer in document.layers} <= used | {"0", "Defpoints"}
+
+    shapes = dxf_shapes(text)
+    inside = name in INTERNAL and part != "slot"
+    require_sound(shapes, inside)
+    assert away(svg_shapes(written(DESIGNS[name], part, "part.svg")), shapes) < SAME
+
+    kinds = [entity.dxftype() for entity in space.query('*[layer=="WHEEL"]')]
+    if part in ("slot", "wheel", "assembly"):
+        assert kinds == ["LWPOLYLINE", *["CIRCLE"] * inside]
+    for entity in space.query("LWPOLYLINE"):
+        assert entity.closed or entity.dxf.layer == "PITCH"
+
+
+def moved(shapes, angle, ahead=0.0):
+    """Shapes turned by an angle, radians, and moved along x."""
+
+    def place(p):
+        c, s = math.cos(angle), math.sin(angle)
+        return c * p[0] - s * p[1] + ahead, s * p[0] + c * p[1]
+
+    def piece(old):
+        start, end, point = old
+        return place(start), place(end), lambda t: place(point(t))
+
+    return {
+        layer: [
+            (place(shape[0]), shape[1])
+            if isinstance(shape, tuple)
+            else [piece(old) for old in shape]
+            for shape in found
+        ]
+        for layer, found in shapes.items()
+    }
+
+
+@pytest.mark.parametrize("name", ["two-pins-z4", "internal-z6", "press-curved", "unequal-steps"])
+def test_parts_make_the_assembly(name):
+    """Each part's own frame: the wheel turned as the motion says, the crank about (L, 0)."""
+    read = {p: dxf_shapes(written(DESIGNS[name], p, f"{p}.dxf")) for p in PARTS}
+    found = load(str(DESIGNS[name])).engagements[0]
+    L = load(str(DESIGNS[name])).center_distance_mm
+    # The files' last decimal is 1e-12, and an angle's rounding moves nothing by more than 1e-12.
+    psi = float(found.motion(0.0, 0).c[0])
+    wheel = moved({"WHEEL": read["wheel"]["WHEEL"]}, psi)
+    assert apart({"WHEEL": read["assembly"]["WHEEL"]}, wheel) < 1e-9
+
+    # The first roller lies ahead of the crank in its frame, and on the line of centres in both.
+    ((x, y), _) = circles(read["crank"], "ROLLER")[0]
+    assert abs(y) < 1e-9 < x
+    turn = 0.0 if name in INTERNAL else math.pi
+    layers = [k for k in ("CRANK", "ROLLER") if k in read["crank"]]
+    crank = moved({k: read["crank"][k] for k in layers}, turn, L)
+    assert apart({k: read["assembly"][k] for k in layers}, crank) < 1e-9
+
+    # The slot's walls are the wheel's first pieces: the same numbers, but for the rim.
+    (slot,), (whole,) = chains(read["slot"], "WHEEL"), chains(read["wheel"], "WHEEL")
+    for one, other in zip(slot[:-1], whole, strict=False):
+        assert math.dist(one[0], other[0]) < 1e-9
+        assert math.dist(one[2](0.5), other[2](0.5)) < 1e-9
+
+
+def test_wheel_by_hand():
+    """Six straight slots: radii from the triangle of wheel, crank and roller at entry."""
+    L, r = 441.89, 20.0
+    shapes = dxf_shapes(written(DESIGNS["press-straight"], "wheel", "wheel.dxf"))
+    (chain,) = chains(shapes, "WHEEL")
+    found = points(chain, 1)
+    rim = math.hypot(L * math.cos(math.pi / 6.0), r)
+    # interface.md: the roller touches the wall that faces the crank at the foot of its normal
+    assert max(math.hypot(*p) for p in found) == pytest.approx(rim, abs=1e-9)
+    assert min(math.dist(p, (rim, 0.0)) for p in found) < 1.1 * r
+    assert sum(abs(abs(y) - r) < 1e-9 and x > 0.0 for x, y in found[:-1]) == 4
+    assert len(chain) == 6 * (3 + 3)  # flank, round end, flank; rim, recess, rim
+
+
+# 2. Curves, units, tolerance
+
+
+def outline_of(name, part="slot", *options):
+    shapes = dxf_shapes(written(DESIGNS[name], part, "part.dxf", *options))
+    (chain,) = chains(shapes, "WHEEL")
+    return chain
+
+
+def between(one, other):
+    """The greatest distance between two closed outlines, either way; good to SAGITTA."""
+    return LineString(points(one)).hausdorff_distance(LineString(points(other)))
+
+
+@pytest.mark.parametrize("name", CURVED)
+def test_splines_are_the_same_outline_in_fewer_pieces(name):
+    arcs = outline_of(name)
+    splines = outline_of(name, "slot", "--curves", "spline")
+    kinds = {entity.dxftype() for entity in ezdxf.readfile("part.dxf").modelspace()}
+    assert "SPLINE" in kinds
+    require_end_to_end(splines)
+    assert len(splines) < len(arcs)
+    # each is within the tolerance of the true walls
+    assert between(arcs, splines) < 2.0 * TOLERANCE + SAGITTA
+
+
+@pytest.mark.parametrize("name", ["press-straight", "offset-slots", "internal-z6"])
+def test_straight_wheels_have_no_splines(name):
+    arcs = written(DESIGNS[name], "wheel", "arcs.dxf")
+    assert written(DESIGNS[name], "wheel", "spline.dxf", "--curves", "spline") == arcs
+
+
+@pytest.mark.parametrize(
+    ("name", "part", "options"),
+    [
+        ("press-straight", "wheel", ()),
+        ("three-rollers-z4", "assembly", ()),
+        ("press-curved", "slot", ()),
+        ("press-curved", "slot", ("--curves", "spline")),
+    ],
+)
+def test_inches(name, part, options):
+    """Each number a 25.4th: to SAME, which scaled up is the rounding of inches too."""
+    read = {}
+    for unit, short, number in (("mm", "mm", 4), ("inch", "in", 1)):
+        dxf = written(DESIGNS[name], part, "part.dxf", "--units", unit, *options)
+        assert ezdxf.readfile("part.dxf").header["$INSUNITS"] == number
+        svg = written(DESIGNS[name], part, "part.svg", "--units", unit, *options)
+        assert ElementTree.fromstring(svg).get("width").endswith(short)
+        read[unit] = dxf_shapes(dxf), svg_shapes(svg)
+    for mm, inch in zip(*read.values(), strict=True):
+        assert away(enlarged(inch, 25.4), mm) < 25.4 * SAME
+
+
+def enlarged(shapes, factor):
+    def place(p):
+        return factor * p[0], factor * p[1]
+
+    def piece(old):
+        start, end, point = old
+        return place(start), place(end), lambda t: place(point(t))
+
+    return {
+        layer: [
+            (place(shape[0]), factor * shape[1])
+            if isinstance(shape, tuple)
+            else [piece(old) for old in shape]
+            for shape in found
+        ]
+        for layer, found in shapes.items()
+    }
+
+
+@pytest.mark.parametrize(
+    ("curves", "tolerances"), [("arcs", (0.001, 0.01, 0.1)), ("spline", (1e-5, 1e-3, 0.1))]
+)
+@pytest.mark.parametrize("name", CURVED)
+def test_a_coarser_tolerance_takes_fewer_pieces(name, curves, tolerances):
+    """Few cubics do for a wall, so that not every step takes fewer of them."""
+    finest, *coarser = (
+        outline_of(name, "slot", "--curves", curves, "--tolerance", str(t)) for t in tolerances
+    )
+    counts = [len(chain) for chain in (finest, *coarser)]
+    assert counts[0] > counts[-1]
+    assert counts == sorted(counts, reverse=True)
+    assert curves == "spline" or len(set(counts)) == len(counts)
+    for tolerance, coarse in zip(tolerances[1:], coarser, strict=True):
+        # both are that near to the true walls
+        assert between(coarse, finest) < tolerance + tolerances[0] + SAGITTA
+
+
+def table_of(name, part, *options):
+    text = written(DESIGNS[name], part, "table.csv", *options)
+    rows = list(csv.DictReader(io.StringIO(text)))
+    return [{k: float(v) for k, v in row.items()} for row in rows]
+
+
+@pytest.mark.parametrize("name", CURVED)
+def test_arcs_are_half_as_many_as_chords(name):
+    """Rows are places of the way in and out: a wall of the slot has half of them."""
+    assert len(outline_of(name)) <= 0.5 * len(table_of(name, "slot"))
+
+
+@pytest.mark.parametrize("name", CURVED)
+def test_walls_are_where_the_roller_passes(name):
+    """Against the roller itself, moved along its pitch curve by shapely."""
+    machine = load(str(DESIGNS[name]))
+    w = machine.roller_radius_mm + machine.spec.size.slot_clearance_mm
+    way = [(row["x_mm"], row["y_mm"]) for row in table_of(name, "slot", "--tolerance", "1e-5")]
+    swept = LineString(way).buffer(w, quad_segs=512)
+    edge = LineString(swept.exterior.coords)  # an island falls out
+    rim = max(math.hypot(*p) for p in way)
+    inner = min(math.hypot(*p) for p in way)
+    # Near the mouth the slot is widened by the roller's way along its circle.
+    away = [
+        edge.distance(Point(p))
+        for p in points(outline_of(name), 20)
+        if (math.hypot(*p) > inner + 2.5 * w) == (name in INTERNAL)
+        and (name in INTERNAL or math.hypot(*p) < rim - 2.5 * w)
+    ]
+    assert len(away) > 100
+    # 512 chords a quarter turn: w (pi / 1024)^2 / 8 is below 1e-4; so is the way's tolerance
+    assert max(away) < TOLERANCE + 1e-4
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--curves", "nurbs"), "arcs or spline"),
+        (("--units", "cm"), "mm, inch"),
+        (("--tolerance", "0"), "above 0"),
+        (("--tolerance", "nan"), "above 0"),
+        (("--part", "whel"), '"wheel"'),
+        (("--units", "inch", "-o", "slot.csv"), "millimetres"),
+        (("--samples", "9"), "--tolerance"),
+    ],
+)
+def test_wrong_options(options, said):
+    arguments = ["profile", str(DESIGNS["press-straight"]), "-o", "part.dxf", *options]
+    refused(CliRunner().invoke(app, arguments), 2, said)
+    assert os.listdir() == []
+
+
+# 3. Parts that are tables, and the groove
+
+
+@pytest.mark.parametrize(("name", "axes"), [("spherical-z6", 90.0), ("spherical-60deg", 60.0)])
+def test_spherical_wheel_is_a_table_of_meridians(name, axes):
+    """theory.md 1.3: sin th = sin S sin b, mouth at d = atan2(sin S cos b, cos S), bottom S - th.
+
+    To 1e-9 of degrees and mm: a few roundings of numbers of this size.
+    """
+    z, S, b = 6, math.radians(axes), math.pi / 6
+    L = load(str(DESIGNS[name])).center_distance_mm
+    rows = table_of(name, "wheel")
+    assert len(rows) == z
+    mouth = math.degrees(math.atan2(math.sin(S) * math.cos(b), math.cos(S)))
+    bottom = math.degrees(S - math.asin(math.sin(S) * math.sin(b)))
+    for k, row in enumerate(rows):
+        assert row["slot"] == k + 1
+        assert row["azimuth_deg"] == pytest.approx(60.0 * k, abs=1e-9)
+        for end, polar in (("mouth", mouth), ("bottom", bottom)):
+            assert row[f"{end}_polar_deg"] == pytest.approx(polar, abs=1e-9)
+            x, y, up = (row[f"{end}_{axis}_mm"] for axis in "xyz")
+            assert math.hypot(x, y, up) == pytest.approx(L, abs=1e-9)
+            assert math.degrees(math.atan2(math.hypot(x, y), up)) == pytest.approx(polar, abs=1e-9)
+            assert math.cos(math.atan2(y, x) - math.radians(60.0 * k)) == pytest.approx(1.0)
+    tree = json.loads(written(DESIGNS[name], "wheel", "table.json"))
+    assert tree["rows"] == rows
+
+
+@pytest.mark.parametrize("extension", ["dxf", "svg"])
+@pytest.mark.parametrize(
+    ("name", "part", "said"),
+    [
+        ("spherical-z6", "wheel", ["spherical-z6.toml:11: ", "not flat", ".csv"]),
+        ("spherical-60deg", "crank", ["spherical-60deg.toml:11: ", "spherical"]),
+        ("spherical-60deg", "assembly", ["spherical-60deg.toml:11: ", "spherical"]),
+        ("elliptical-gears", "gears", ["--part gears", "table of points", ".csv"]),
+        ("press-straight", "gears", ["--part gears", ".csv"]),
+        *[
+            ("gear-sector", part, ["gear-sector.toml:13: ", "sectors are no outline"])
+            for part in PARTS
+        ],
+    ],
+)
+def test_no_drawing_of_it(name, part, said, extension):
+    refused(profile(DESIGNS[name], part, f"part.{extension}"), 2, *said)
+    assert os.listdir() == []
+
+
+def bend(one, other):
+    """The angle between the end of a piece and the start of the next, degrees."""
+    h = 1e-5
+    before = [a - b for a, b in zip(one[2](1.0), one[2](1.0 - h), strict=True)]
+    after = [a - b for a, b in zip(other[2](h), other[2](0.0), strict=True)]
+    turn = math.atan2(after[1], after[0]) - math.atan2(before[1], before[0])
+    return abs(math.degrees(math.remainder(turn, math.tau)))
+
+
+@pytest.mark.parametrize("curves", ["arcs", "spline"])
+def test_groove_of_a_cam(curves):
+    name = "cam-geneva"
+    text = written(DESIGNS[name], "groove", "groove.dxf", "--curves", curves)
+    shapes = dxf_shapes(text)
+    assert {k: len(v) for k, v in shapes.items()} == {"GROOVE": 2, "PITCH": 1}
+    lines = {}
+    for layer, found in shapes.items():
+        for chain in found:
+            require_end_to_end(chain)
+            # closed and smooth: the chords of ``bend`` turn by some 1e-4 degrees along a piece
+            assert max(map(bend, chain, [*chain[1:], chain[0]])) < 0.001
+            lines.setdefault(layer, []).append(LineString(points(chain)))
+    (pitch,) = lines["PITCH"]
+    rings = [Polygon(line.coords) for line in (*lines["GROOVE"], pitch)]
+    assert all(found.is_valid and found.contains(Point(0.0, 0.0)) for found in rings)
+
+    # In the motion: the table's distance from the crank's axis, and its flanks.
+    for row in table_of(name, "groove", "--samples", "181"):
+        x, y, R = row["x_mm"], row["y_mm"], row["radius_mm"]
+        assert math.hypot(x, y) == pytest.approx(R, abs=1e-9)
+        ray = LineString([(0.0, 0.0), (2.0 * x, 2.0 * y)])
+        found = ray.intersection(pitch)
+        # along the ray a curve within the tolerance is off by 1 / cos of its slope, below 2
+        assert math.hypot(found.x, found.y) == pytest.approx(R, abs=2.0 * TOLERANCE + SAGITTA)
+        for side in ("left", "right"):
+            flank = Point(row[f"{side}_x_mm"], row[f"{side}_y_mm"])
+            near = min(line.distance(flank) for line in lines["GROOVE"])
+            assert near < TOLERANCE + SAGITTA
+    # All round the flanks are a roller's radius from the pitch line: two tolerances apart.
+    r = load(str(DESIGNS[name])).roller_radius_mm
+    for chain in shapes["GROOVE"]:
+        for p in points(chain, 5):
+            assert pitch.distance(Point(p)) == pytest.approx(r, abs=2.0 * TOLERANCE + SAGITTA)
+
+
+# 4. Refusals
+
+RIM = math.hypot(20.0 * math.cos(math.pi / 4.0), 2.0)  # where the roller enters: see above
+JAMS = size(
+    "center_distance_mm = 20",
+    "roller_radius_mm = 2",
+    f"wheel_radius_mm = {RIM + 0.2:.6f}",
+    wheel="z = 4",
+)
+OLD = "the old file, whole\n"
+
+
+def advice(said):
+    """The key and the value that the message says would free the machine."""
+    found = re.search(r"(\w+_mm) = ([\d.]+) would free it", said)
+    assert found, said
+    return found[1], float(found[2])
+
+
+def test_a_machine_that_jams(monkeypatch):
+    monkeypatch.setattr(adviser, "SECONDS", 20.0)  # however busy the computer is
+    name = spec(JAMS)
+    Path("old.dxf").write_text(OLD)
+    said = refused(profile(name, "wheel", "old.dxf"), 1, "spec.toml: not written: ", "--force")
+    assert Path("old.dxf").read_text() == OLD
+    refused(profile(name, "crank", "new.svg"), 1, "not written")
+    assert sorted(os.listdir()) == ["old.dxf", "spec.toml"]
+
+    assert "roller and slot overlap" in said
+    # Half a motion is 45 degrees: it collides just before it enters, or just after it has left.
+    (at,) = re.findall(r"input angle (-?[\d.]+) deg", said)
+    assert 45.0 < abs(math.remainder(float(at), 360.0)) < 50.0
+    key, value = advice(said)
+    assert key == "wheel_radius_mm"
+    # It frees, and is no smaller than it need be: to a tenth of what was too much.
+    assert abs(value - RIM) < 0.02
+
+    forced = profile(name, "wheel", "old.dxf", "--force")
+    assert forced.exit_code == 0
+    (warning,) = forced.stderr.splitlines()
+    assert warning.startswith("spec.toml: warning: ")
+    assert "overlap" in warning
+    assert chains(dxf_shapes(Path("old.dxf").read_text()), "WHEEL")
+
+    checked = CliRunner().invoke(app, ["check", name, "--format", "json"])
+    assert checked.exit_code == 1
+    rows = {row["check"]: row for row in json.loads(checked.stdout)["rows"]}
+    gap = rows["gap_mm"]
+    assert not gap["passes"]
+    assert gap["value"] < 0.0
+    assert gap["nearest"]
+    assert f"; {gap['nearest']} would free it" in said
+
+    spec(JAMS.replace(f"{key} = {RIM + 0.2:.6f}", gap["nearest"]))
+    freed = profile(name, "wheel", "new.dxf")
+    assert (freed.exit_code, freed.stderr) == (0, "")
+    assert chains(dxf_shapes(Path("new.dxf").read_text()), "WHEEL")
+
+
+def test_an_arc_that_collides(monkeypatch):
+    """At 24 slots the relief in one arc does not clear the wheel; left out, another one does."""
+    monkeypatch.setattr(adviser, "SECONDS", 20.0)
+    text = size("center_distance_mm = 400", "roller_radius_mm = 8", wheel="z = 24")
+    name = spec(text + 'relief = "arc"\n')
+    said = refused(profile(name, "crank", "crank.dxf"), 1, "locking disc and wheel overlap by ")
+    assert re.search(r"relief\b.* would free it", said)
+    assert os.listdir() == ["spec.toml"]
+    spec(text)
+    assert profile(name, "crank", "crank.dxf").exit_code == 0
+
+
+def test_slots_that_cut_each_other():
+    """The machine would turn, but the wheel would fall apart: its outline crosses itself."""
+    text = size("slot_bottom_clearance_mm = 43", "roller_radius_mm = 5")
+    said = refused(profile(spec(text), "wheel", "wheel.dxf"), 1, "slots cut each other by 3 mm")
+    assert os.listdir() == ["spec.toml"]
+    key, value = advice(said)
+    spec(text.replace(f"{key} = 5", f"{key} = {value}"))
+    (chain,) = chains(dxf_shapes(written("spec.toml", "wheel", "wheel.dxf")), "WHEEL")
+    assert ring(chain, 64).is_valid
+
+
+def test_wheel_without_an_error_is_silent():
+    found = profile(DESIGNS["press-straight"], "wheel", "wheel.dxf", "--force")
+    assert (found.exit_code, found.output) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "said"),
+    [
+        (size("lock_radius_mm = 60"), 4, ["lock_radius_mm = 60", "below 50", "roller's way"]),
+        (size("lock_radius_mm = 46"), 4, ["lock_radius_mm = 46", "below 45", "horn"]),
+        (size("lock_radius_mm = 5"), 4, ["lock_radius_mm = 5", "above 13.25", "rim"]),
+        (size("roller_radius_mm = 48"), 4, ["roller_radius_mm", "slots meet", "0.4 mm"]),
+        (size("roller_radius_mm = 60"), 4, ["roller_radius_mm = 60", "below 50", "crank's arm"]),
+        (size("wheel_radius_mm = 146"), 4, ["wheel_radius_mm = 146", "below 140"]),
+        (size("slot_clearance_mm = 30"), 3, ["slot_clearance_mm", "slots meet"]),
+        (size("wheel_bore_mm = 90"), 4, ["wheel_bore_mm = 90", "below 89.5"]),
+        (size("crank_bore_mm = 90"), 4, ["crank_bore_mm = 90", "disc's 80"]),
+        (size("pin_mm = 12"), 4, ["pin_mm = 12", "below 10, the roller's diameter"]),
+        (size("roller_radius_mm = -1"), 4, ["roller_radius_mm = -1", "above 0"]),
+        (size('relief = "round"'), 4, ['"arc"', '"sector"']),
+        (size("lock_clearance_mm = 40"), 3, ["no room for a locking disc", "clearances"]),
+        (size("wheel_radius_mm = 20"), 3, ["no room for a locking disc", "rim"]),
+        (size("lock_radius_mm = 0", "wheel_radius_mm = 40"), 5, ["wheel_radius_mm = 40", "ends"]),
+        (size("wheel_outer_radius_mm = 120"), 4, ["wheel_outer_radius_mm", "internal wheels"]),
+        (
+            size("wheel_outer_radius_mm = 60", wheel='z = 6\ngearing = "internal"'),
+            5,
+            ["wheel_outer_radius_mm = 60", "larger"],
+        ),
+    ],
+)
+def test_sizes_out_of_range(text, line, said):
+    name = spec(text)
+    for part in ("wheel", "crank"):
+        refused(profile(name, part, "part.dxf"), 2, f"spec.toml:{line}: ", *said)
+    assert os.listdir() == ["spec.toml"]
+    checked = CliRunner().invoke(app, ["check", name])
+    assert checked.exit_code in (1, 2)
+
+
+def test_a_roller_too_large_for_curved_slots(monkeypatch):
+    """Neighbouring slots cut each other; the roller that leaves a wall frees the machine."""
+    monkeypatch.setattr(adviser, "SECONDS", 20.0)
+    text = DESIGNS["modified-sine-matched"].read_text(encoding="utf-8")
+    large = "roller_radius_mm = 30"
+    name = spec(text.replace("roller_radius_mm = 6", large))
+    said = refused(profile(name, "wheel", "wheel.dxf"), 1, "spec.toml: not written: ", "slots cut")
+    assert os.listdir() == ["spec.toml"]
+    key, value = advice(said)
+    spec(text.replace("roller_radius_mm = 6", f"{key} = {value}"))
+    (chain,) = chains(dxf_shapes(written("spec.toml", "wheel", "wheel.dxf")), "WHEEL")
+    assert ring(chain, 64).is_valid
+
+
+# 5. Specs from templates
+
+
+NOT_FLAT = ("spherical", "gear-sector")
+
+
+@pytest.mark.parametrize("kind", NOT_FLAT)
+def test_templates_without_flat_parts_say_so(kind):
+    assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
+    for part in PARTS:
+        refused(profile("new.toml", part, "part.dxf"), 2, "new.toml:", "-o FILE.csv")
+    assert profile("new.toml", "slot", "slot.csv").exit_code == 0
+    assert sorted(os.listdir()) == ["new.toml", "slot.csv"]
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in NOT_FLAT])
+def test_templates_draw_all_parts(kind):
+    assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
+    for part in PARTS:
+        dxf = dxf_shapes(written("new.toml", part, f"{part}.dxf"))
+        assert away(svg_shapes(written("new.toml", part, f"{part}.svg")), dxf) < SAME
+        require_sound(dxf, kind == "internal" and part != "slot")
+
+
+# 6. The same bytes
+
+TWICE = """
+import sys
+from typer.testing import CliRunner
+from geneva_cli.app import app
+for spec, part, output in (("curved", "assembly", "a.dxf"), ("plain", "assembly", "a.svg"),
+                           ("plain", "crank", "c.csv")):
+    arguments = ["profile", spec + ".toml", "--part", part, "-o", output, "--curves", "spline"]
+    found = CliRunner().invoke(app, arguments)
+    assert found.exit_code == 0, found.output
+"""
+
+
+def test_the_same_bytes_everywhere():
+    """Two processes in different folders, with other orders of sets: no date, path or host."""
+    found = []
+    names = {"curved.toml": "modified-sine-matched", "plain.toml": "geneva-pair"}
+    for seed in ("1", "2"):
+        os.mkdir(seed)
+        for name, design in names.items():
+            spec(DESIGNS[design].read_text(encoding="utf-8"), f"{seed}/{name}")
+        environment = os.environ | {"PYTHONHASHSEED": seed, "PYTHONPATH": str(ROOT)}
+        command = [sys.executable, "-c", TWICE]
+        subprocess.run(command, cwd=seed, env=environment, check=True, timeout=60)
+        found.append({p.name: p.read_bytes() for p in Path(seed).iterdir()})
+    assert found[0] == found[1]
+    assert set(found[0]) == {*names, "a.dxf", "a.svg", "c.csv"}
+    words = [os.getcwd(), ".toml", "/tmp", str(ROOT), socket.gethostname()]
+    for name in ("a.dxf", "a.svg", "c.csv"):
+        text = found[0][name].decode()
+        # a host with a name of three letters may be in anything
+        assert not [word for word in words if len(word) > 3 and word in text], name
+        assert not re.search(r"\b20[2-9]\d-[01]\d", text), name
+    # Julian days: 2020 begins with 2458849.5
+    days = re.findall(r"\$TDU?(?:CREATE|UPDATE)\n *40\n([\d.]+)", found[0]["a.dxf"].decode())
+    assert days
+    assert max(map(float, days)) < 2458849.5
+
+
+def test_a_stream_gets_what_a_file_gets():
+    text = written(DESIGNS["press-straight"], "wheel", "wheel.dxf")
+    found = profile(DESIGNS["press-straight"], "wheel", "-", "--format", "dxf")
+    assert (found.exit_code, found.stdout) == (0, text)
+
+
+# 7. Random specs
+
+
+def random_spec(rng):
+    """Machines that mostly work: sizes as shares of what there is room for, or rather more."""
+    z = rng.randint(3, 12)
+    gearing = rng.choice(["external", "external", "internal"])
+    L = rng.choice([20.0, 100.0, 441.89])
+    beta = math.pi / z
+    room = min(math.sin(beta) * (1.0 - math.sin(beta)), math.sin(beta) ** 2, 0.3)
+    r = round(L * room * rng.choice([0.25, 0.4, 0.5, 0.6, 0.7, 1.2, 1.6]), 4)
+    lines = ["[wheel]", f"z = {z}", f'gearing = "{gearing}"']
+    if rng.random() < 0.5:
+        A = rng.choice([-0.2, 0.3, 0.6])
+        lines += ["[drive]", 'kind = "side-crank"', f"A = {A}"]
+    lines += ["[size]", f"center_distance_mm = {L}", f"roller_radius_mm = {r}"]
+    for key, share in (("slot_clearance_mm", 0.01), ("lock_clearance_mm", 0.01)):
+        if rng.random() < 0.5:
+            lines.append(f"{key} = {share * r:.4g}")
+    if gearing == "external" and rng.random() < 0.5:
+        lines.append(f"wheel_bore_mm = {0.05 * L:.4g}")
+    if gearing == "external" and rng.random() < 0.5:
+        share = rng.choice([0.9, 0.97, 1.0, 1.2])
+        lines.append(f"wheel_radius_mm = {share * math.hypot(L * math.cos(beta), r):.6g}")
+    if rng.choice([True, False, False]):
+        lines.append(f'relief = "{rng.choice(["arc", "sector"])}"')
+    return "\n".join(lines) + "\n"
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_wheels(seed):
+    text = random_spec(random.Random(seed))
+    name = spec(text)
+    Path("wheel.dxf").unlink(missing_ok=True)
+    # Freeing one takes a full turn for every try; here it only matters that it ends.
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(adviser, "SECONDS", 0.0)
+        found = profile(name, "wheel", "wheel.dxf")
+    if found.exit_code:
+        refused(found, found.exit_code, "spec.toml:")
+        assert found.exit_code in (1, 2)
+        assert not os.path.exists("wheel.dxf")
+        return
+    shapes = dxf_shapes(Path("wheel.dxf").read_text())
+    (chain,) = chains(shapes, "WHEEL")
+    require_end_to_end(chain)
+    outline_ = ring(chain, 64)
+    assert outline_.is_valid
+    assert outline_.area > 0.0
+    if "internal" in text:
+        ((_, radius),) = circles(shapes, "WHEEL")
+    else:
+        radius = max(math.hypot(*p) for p in points(chain, 1))
+    assert outline_.area < 0.99 * math.pi * radius**2
+    for centre, bore in circles(shapes, "BORE"):
+        assert outline_.contains(Point(centre).buffer(bore))
+
+
+# 8. Tables of pieces
+
+
+@pytest.mark.parametrize(
+    ("name", "part", "options"),
+    [
+        ("press-curved", "wheel", ()),
+        ("press-curved", "wheel", ("--curves", "spline")),
+        ("three-rollers-z4", "crank", ("--units", "inch")),
+        ("internal-z6", "assembly", ()),
+        ("cam-geneva", "groove", ("--format", "json")),
+    ],
+)
+def test_pieces_end_to_end(name, part, options):
+    """A contour's pieces in order: each starts with the very numbers that the last ended with."""
+    is_table = part == "groove"  # points, when no drawing is asked for
+    tree = json.loads(written(DESIGNS[name], part, "pieces.json", *options))
+    if is_table:
+        assert "radius_mm" in tree["rows"][0]
+        return
+    rows = tree["rows"]
+    text = written(DESIGNS[name], part, "pieces.csv", *options)
+    assert [[("" if v is None else str(v)) for v in row.values()] for row in rows] == list(
+        csv.reader(io.StringIO(text))
+    )[1:]
+
+    unit = "in" if "inch" in options else "mm"
+    shapes = dxf_shapes(written(DESIGNS[name], part, "part.dxf", *options))
+    contours = {}
+    for row in rows:
+        contours.setdefault(row["contour"], []).append(row)
+    assert list(contours) == list(range(1, 1 + sum(map(len, shapes.values()))))
+    for pieces in contours.values():
+        assert [row["piece"] for row in pieces] == list(range(1, len(pieces) + 1))
+        assert len({row["layer"] for row in pieces}) == 1
+        if pieces[0]["kind"] == "circle":
+            assert len(pieces) == 1
+            assert pieces[0][f"radius_{unit}"] > 0.0
+            continue
+        starts = [(row[f"x_{unit}"], row[f"y_{unit}"]) for row in pieces]
+        ends = [(row[f"end_x_{unit}"], row[f"end_y_{unit}"]) for row in pieces]
+        assert ends[:-1] == starts[1:]
+        assert (ends[-1] == starts[0]) or pieces[0]["layer"] == "PITCH"
+        for row, start, end in zip(pieces, starts, ends, strict=True):
+            assert row["kind"] in ("line", "arc", "cubic")
+            if row["kind"] != "arc":
+                continue
+            centre = row[f"center_x_{unit}"], row[f"center_y_{unit}"]
+            a, b = (math.atan2(p[1] - centre[1], p[0] - centre[0]) for p in (start, end))
+            radius = row[f"radius_{unit}"]
+            # twelve decimals of a centre that may be a thousand times as far as the chord is long
+            assert math.dist(centre, start) == pytest.approx(radius, rel=1e-9)
+            assert math.dist(centre, end) == pytest.approx(radius, rel=1e-9)
+            off = math.remainder(b - a - math.radians(row["sweep_deg"]), math.tau)
+            assert abs(off) * radius < 1e-6
+    kinds = {row["kind"] for row in rows}
+    assert ("cubic" in kinds) == ("spline" in options)
+
+
+def test_affine_reading_of_the_table():
+    """The table's wheel is the drawing's: the same area by Green's theorem and by shapely."""
+    rows = json.loads(written(DESIGNS["press-straight"], "wheel", "pieces.json"))["rows"]
+    total = 0.0
+    for row in rows:
+        if row["layer"] != "WHEEL":
+            continue
+        x, y, u, v = (row[k] for k in ("x_mm", "y_mm", "end_x_mm", "end_y_mm"))
+        total += 0.5 * (x * v - u * y)
+        if row["kind"] == "arc":
+            sweep, radius = math.radians(row["sweep_deg"]), row["radius_mm"]
+            total += 0.5 * radius**2 * (sweep - math.sin(sweep))
+    shape = ring(outline_of("press-straight", "wheel"), 500)
+    assert shape.area == pytest.approx(total, rel=1e-5)  # chords of 500 a piece
+    assert affinity.rotate(shape, 60.0, (0, 0)).symmetric_difference(shape).area < 1e-6 * total

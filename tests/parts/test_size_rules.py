@@ -1,0 +1,76 @@
+"""Sizes that make no machine are refused by every command, whatever it prints."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+from words import Motion, Spec, Wheel
+
+from geneva_cli.app import app
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.tables import Size
+
+HUGE = [
+    "roller_radius_mm",
+    "slot_clearance_mm",
+    "lock_radius_mm",
+    "lock_clearance_mm",
+    "slot_bottom_clearance_mm",
+    "relief_clearance_mm",
+    "wheel_radius_mm",
+    "wheel_bore_mm",
+    "wheel_hub_mm",
+    "crank_bore_mm",
+    "crank_hub_mm",
+    "pin_mm",
+]
+
+
+@pytest.mark.parametrize("key", HUGE)
+@pytest.mark.parametrize("gearing", ["external", "internal", "spherical"])
+def test_a_huge_size_is_refused(key: str, gearing: str) -> None:
+    spec = Spec(Wheel(6, gearing), size=Size(**{key: 1e9}))
+    with pytest.raises(GenevaError, match=rf"{key} = 1e\+09: it must be below") as caught:
+        build(spec)
+    assert caught.value.key == ("size", key)
+
+
+@pytest.mark.parametrize("command", ["profile", "report", "check", "motion", "peaks"])
+def test_every_command_refuses(command: str, tmp_path: Path) -> None:
+    path = tmp_path / "huge.toml"
+    path.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 1e9\n")
+    run = CliRunner().invoke(app, [command, str(path)])
+    assert run.exit_code == 2
+    assert f"{path}:4: roller_radius_mm = 1e+09: it must be below 50" in run.stderr
+
+
+@pytest.mark.parametrize("part", ["wheel", "crank"])
+def test_a_hub_is_no_smaller_than_its_bore(part: str) -> None:
+    sizes = {f"{part}_bore_mm": 12.0, f"{part}_hub_mm": 11.9}
+    with pytest.raises(GenevaError, match=f"{part}_hub_mm = 11.9: a hub is larger than its bore"):
+        build(Spec(Wheel(6), size=Size(**sizes)))
+    for hub in (0.0, 12.0, 13.0):
+        build(Spec(Wheel(6), size=Size(**sizes | {f"{part}_hub_mm": hub})))
+
+
+@pytest.mark.parametrize(
+    ("wheel", "motion", "largest"),
+    [
+        (Wheel(6), Motion(), 50.0),  # as far to the crank's axis as to the wheel's
+        (Wheel(4), Motion(), 29.2893),  # L - L sin 45 deg
+        (Wheel(12), Motion(), 25.8819),  # L sin 15 deg
+        (Wheel(4, "internal"), Motion(), 70.7107),  # only the crank's arm is short
+        (Wheel(6, steps_deg=(90.0, 30.0)), Motion(), 25.8819),  # of the shorter arm
+        (Wheel(6), Motion("cycloidal", ratio=0.3), 30.0),
+    ],
+)
+def test_the_largest_roller(wheel: Wheel, motion: Motion, largest: float) -> None:
+    build(Spec(wheel, motion=motion, size=Size(roller_radius_mm=0.999 * largest)))
+    with pytest.raises(GenevaError, match=f"below {largest:g}"):
+        build(Spec(wheel, motion=motion, size=Size(roller_radius_mm=1.001 * largest)))
+
+
+def test_many_slots_keep_their_default_roller() -> None:
+    """At z = 100 the default of L/20 is too large; the motion does not need it."""
+    build(Spec(Wheel(100)))

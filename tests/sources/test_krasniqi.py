@@ -1,0 +1,246 @@
+"""[Krasniqi] F. Krasniqi, "Improvements of kinetic properties and lifespan of Maltic cross through
+curved canal, at Bongiani pressing machine", University of Prishtina.
+
+Its law as series (17), (18) and in closed form, its curve (4), its timing (16), and its misprints
+asserted as misprints. Its Table 1 (forces read off a graph) is no test of anything: no consistent
+reading reproduces it.
+
+lambda means three things there: the law's shape in (17), (18) and Table 1, here ``shape``; L/R in
+(4); R/L elsewhere.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from witness import SineLaw, krasniqi, mp, near
+
+from geneva_cli.analysis.timing import timings
+from geneva_cli.machine.laws.standard import SineGroup
+from geneva_cli.machine.pitch_curve import pitch, pitch_at_retrace, retraces
+from geneva_cli.numerics.jet import Jet
+
+SHAPES = (-0.25, -0.15, -0.05, 0.0, 0.05, 0.15, 0.25)  # the rows of Table 1, and 0
+U = [k / 40 for k in range(41)]
+
+
+def series_17(u, shape):
+    """(17), the position: from -1/2 to 1/2, x = pi u."""
+    x, s = mp.pi * mp.mpf(u), mp.mpf(shape)
+    sines = (
+        2 * s * mp.sin(x)
+        + mp.sin(2 * x) / 2
+        - s * mp.sin(3 * x)
+        - mp.sin(4 * x) / 16
+        + s * mp.sin(5 * x) / 5
+    )
+    return x / mp.pi - mp.mpf(1) / 2 - 4 / (3 * mp.pi) * sines
+
+
+def series_18(u, shape, fifth=5, factor=4 * mp.pi / 3):
+    """(18), the acceleration; printed with 4 for the fifth sine and 4 pi^2/3 before the braces."""
+    x, s = mp.pi * mp.mpf(u), mp.mpf(shape)
+    amplitudes = (2 * s, 2, -9 * s, -1, fifth * s)
+    return factor * sum(a * mp.sin((k + 1) * x) for k, a in enumerate(amplitudes))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_closed_form_is_the_series(shape):
+    law = SineGroup(lambda_=shape)
+    for u in U:
+        position, _, acceleration, _ = law(u).derivatives()
+        # 2e-16 and 8e-15: half a unit of 1, and 4 units of the acceleration, 11 to 21 here
+        assert position == pytest.approx(float(series_17(u, shape) + mp.mpf(1) / 2), abs=2.3e-16)
+        assert acceleration == pytest.approx(float(series_18(u, shape)), abs=1.5e-14)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_17_and_18_agree(shape):
+    for u in U:
+        assert abs(mp.diff(lambda t: series_17(t, shape), u, 2) - series_18(u, shape)) < 1e-20
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_velocity_to_snap_vanish_at_both_ends(shape):
+    law = SineGroup(lambda_=shape)
+    for u in (0.0, 1.0):
+        assert law(u, 4).derivatives()[1:] == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_misprint_18_fifth_sine(engagement):
+    """Printed 4 lambda sin 5x: the end velocities then differ by the integral, -2 lambda/5."""
+    shape = mp.mpf("0.05")
+    right = mp.quad(lambda u: series_18(u, shape), [0, 0.5, 1])
+    wrong = mp.quad(lambda u: series_18(u, shape, fifth=4), [0, 0.5, 1])
+    assert abs(right) < 1e-30
+    assert abs(wrong / (4 * mp.pi / 3) * mp.pi + 2 * shape / 5) < 1e-30
+    s = engagement(6, law="sine-group", lambda_=0.05)
+    assert s.motion(s.exit_deg).derivatives()[1] == 0.0
+
+
+def test_misprint_18_factor():
+    """Printed 4 pi^2/3 before the braces: the wheel would turn pi steps instead of one."""
+    terms = [(2, 2 * mp.pi, 0), (-1, 4 * mp.pi, 0)]
+    right = SineLaw((1, [(4 * mp.pi / 3 * a, w, p) for a, w, p in terms]))
+    wrong = SineLaw((1, [(4 * mp.pi**2 / 3 * a, w, p) for a, w, p in terms]))
+    assert abs(right.whole - 1) < 1e-45
+    assert abs(wrong.whole - mp.pi) < 1e-45
+    assert SineGroup()(1.0, 0).c[0] == 1.0
+
+
+def test_unit_rise_of_the_corrected_series():
+    for shape in SHAPES:
+        assert abs(krasniqi(shape).whole * 4 * mp.pi / 3 - 1) < 1e-45
+
+
+@pytest.mark.parametrize("shape", [0.0, 0.05, 0.1, 0.125])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_monotone_up_to_an_eighth(shape, sign):
+    velocity = SineGroup(lambda_=sign * shape)(np.linspace(0.0, 1.0, 20001), 1).c[1]
+    assert np.min(velocity) >= 0.0
+
+
+@pytest.mark.parametrize(("shape", "least"), [(0.13, None), (0.15, -0.004), (0.25, -0.139)])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_misprint_table_1_has_laws_that_turn_back(engagement, shape, least, sign):
+    """Rows +-0.15 and +-0.25 turn the wheel back: 6 slots in 120 degrees, as there."""
+    s = engagement(6, law="sine-group", lambda_=sign * shape)
+    velocity = s.motion(np.linspace(-60.0, 60.0, 20001), 1).c[1]
+    assert np.min(velocity) < 0.0
+    if least is not None:
+        assert np.min(velocity) == pytest.approx(least, abs=5e-4)  # as printed
+
+
+def test_overshoot_at_a_quarter(engagement):
+    """At lambda = 0.25 the wheel goes 2.33 degrees too far before it comes back (or first)."""
+    x = np.linspace(-60.0, 60.0, 20001)
+    for sign in (-1.0, 1.0):
+        wheel = np.degrees(engagement(6, law="sine-group", lambda_=0.25 * sign).motion(x, 0).c[0])
+        over = max(-30.0 - np.min(wheel), np.max(wheel) - 30.0)
+        assert over == pytest.approx(2.33, abs=5e-3)  # as printed
+
+
+@pytest.mark.parametrize("alpha0", [-60.0, -20.0, 0.0, 15.0, 60.0])
+def test_16_work_coefficient(machine, alpha0):
+    """phi_l = pi - 2 pi/z - alpha_0 and k = phi_l/(2 pi - phi_l), (12) to (16)."""
+    t = timings(machine(6, law="cycloidal", alpha0_deg=alpha0))[0]
+    motion = 180.0 - 60.0 - alpha0
+    assert t.motion_deg == motion
+    assert t.k == near(motion / (360.0 - motion), 4e-16)
+
+
+def curve_4(R, shape, z, degs):
+    """(4) without its constant rotation: M = L e^(i psi) - R e^(i (psi + phi)), L = 1."""
+    psi = [2 * mp.pi / z * series_17(d / 120 + 0.5, shape) for d in degs]
+    phi = [mp.mpf(d) * mp.pi / 180 for d in degs]
+    return [mp.expj(p) - R * mp.expj(p + f) for p, f in zip(psi, phi, strict=True)]
+
+
+@pytest.mark.parametrize("shape", [0.0, 0.05, -0.1])
+@pytest.mark.parametrize("ratio", [0.4, 0.5, 0.6])
+def test_4_is_our_pitch_curve(engagement, shape, ratio):
+    """With lambda = L/R, and mirrored: there the wheel turns the other way."""
+    s = engagement(6, law="sine-group", lambda_=shape, ratio=ratio)
+    degs = [-60.0, -44.0, -20.0, -1.0, 0.0, 7.0, 30.0, 59.0, 60.0]
+    for deg, M in zip(degs, curve_4(mp.mpf(ratio), shape, 6, degs), strict=True):
+        x, y = (v.c[0] for v in s.slot(deg, 0))
+        # 4e-16: sums of three products of sizes up to 1.6
+        assert x == pytest.approx(float(M.real), abs=4.5e-16)
+        assert y == pytest.approx(-float(M.imag), abs=4.5e-16)
+
+
+def test_misprint_4_with_R_over_L():
+    """A radial slot's own motion must give back the radial slot; with R/L for L/R it does not."""
+    l = mp.mpf(1) / 2
+    for deg in (-50, -20, 10, 40):
+        a = mp.mpf(deg) * mp.pi / 180
+        psi = mp.atan2(l * mp.sin(a), 1 - l * mp.cos(a))
+        right = mp.expj(psi) - l * mp.expj(psi + a)
+        wrong = l * mp.expj(psi) - mp.expj(psi + a)
+        assert abs(mp.arg(right)) < 1e-45
+        assert abs(mp.arg(-wrong)) > 0.1
+
+
+@pytest.mark.parametrize(
+    ("law", "z", "motion_deg"),
+    [
+        ("cycloidal", 4, 74.56),
+        ("cycloidal", 6, 120.0),
+        ("cycloidal", 8, 145.18),
+        ("sine-group", 4, 99.41),
+        ("sine-group", 6, 160.0),
+        ("sine-group", 8, 193.57),
+    ],
+)
+def test_mid_condition_at_the_usual_radius(machine, law, z, motion_deg):
+    """psi1(0) = l/(1-l) with l = sin(pi/z): phi_l = (2 pi/z) C_v (1-l)/l."""
+    alpha0 = 180.0 - 360.0 / z - motion_deg
+    m = machine(z, law=law, alpha0_deg=alpha0, ratio="matched")
+    # the motion angle is printed to half a hundredth of a degree, of some hundred
+    assert m.ratio == near(math.sin(math.pi / z), 1e-4)
+
+
+def test_cycloid_of_6_slots_in_120_degrees_is_matched_by_itself(machine, engagement):
+    assert machine(6, law="cycloidal", ratio="matched").ratio == pytest.approx(0.5, abs=1.2e-16)
+    s = engagement(6, law="cycloidal")
+    assert retraces(s)
+    assert pitch_at_retrace(s).pressure < math.radians(45.0)
+
+
+@pytest.mark.parametrize(("z", "ratio"), [(4, 8.0 / 11.0), (6, 4.0 / 7.0)])
+def test_matched_radius_of_the_sine_group(machine, z, ratio):
+    """R/L = V/(1+V), V = (2 pi/z) (8/3)/phi_l: 8/3 for 4 slots, 4/3 (R/L = 0.5714) for 6."""
+    assert machine(z, law="sine-group", ratio="matched").ratio == near(ratio, 4e-16)
+
+
+def test_misprint_geometry_of_6_slots_at_half_radius(engagement):
+    """Its own machine: psi1(0) = 4/3, not l/(1-l) = 1: at mid-motion the pressure angle is 90°."""
+    s = engagement(6, law="sine-group")
+    assert s.motion(0.0).derivatives()[1] == near(4.0 / 3.0, 4e-16)
+    assert not retraces(s)
+    assert math.degrees(pitch(s, 0.0).pressure) == pytest.approx(90.0, abs=1e-12)
+    x, y = s.slot(0.0, 1)
+    assert x.c[1] == 0.0
+    assert y.c[1] == near(0.5 - 0.5 * 4.0 / 3.0, 1e-14)
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "3-4-5", "sine-group"])
+@pytest.mark.parametrize("ratio", [0.45, 0.55])
+def test_slot_geometry_in_closed_form(engagement, law, ratio):
+    """|M'|, curvature and pressure angle of the centre line, from section 5.3 of the notes."""
+    s, R = engagement(6, law=law, ratio=ratio), ratio
+    for deg in (-59.0, -40.0, -15.0, -2.0, 5.0, 33.0, 58.0):
+        phi = math.radians(deg)
+        _, p1, p2, _ = s.motion(deg).derivatives()
+        speed2 = (p1 - (1 + p1) * R) ** 2 + 4 * p1 * (1 + p1) * R * math.sin(phi / 2) ** 2
+        turn = (
+            p1**3
+            + (1 + p1) ** 3 * R * R
+            - p1 * (1 + p1) * (1 + 2 * p1) * R * math.cos(phi)
+            + p2 * R * math.sin(phi)
+        )
+        rho = math.sqrt(1 - 2 * R * math.cos(phi) + R * R)
+        at = pitch(s, deg)
+        # 1e-12: |M'| is a difference that shrinks to a fiftieth near mid-motion, and enters squared
+        assert at.speed == near(math.sqrt(speed2), 1e-12)
+        # the notes' wheel is the mirror image of ours: it turns the other way
+        assert -at.turning == near(turn / speed2, 1e-11)
+        lever = R * abs(math.sin(phi)) / math.sqrt(speed2)
+        assert math.cos(at.pressure) == pytest.approx(lever / rho, abs=1e-12)
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "3-4-5", "4-5-6-7", "sine-group"])
+def test_a_soft_slot_starts_along_the_crank_circle(engagement, law):
+    """At entry, where psi1 = psi2 = 0: |M'| = R and curvature 1/R."""
+    s = engagement(6, law=law, ratio=0.5)
+    at = pitch(s, s.entry_deg)
+    assert at.speed == near(0.5, 4e-16)
+    assert abs(at.turning) / at.speed == near(2.0, 1e-14)
+
+
+def test_the_law_keeps_a_jet_of_its_argument():
+    """Order 0 to 5, as the commands ask for them."""
+    for order in range(6):
+        jet = SineGroup(lambda_=0.1)(0.3, order)
+        assert isinstance(jet, Jet)
+        assert jet.order == order

@@ -1,0 +1,204 @@
+"""Random machines for the fuzzers, as TOML."""
+
+import math
+
+from geneva_cli.machine.registry import DRIVES, LAWS
+from geneva_cli.machine.spec import LOADED
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Size
+
+LOADS = {"inertia_kgm2": 0.05, "torque_Nm": 3.0, "friction": 0.1}
+LIMITS = {
+    "velocity_max": 2.0, "acceleration_max": 4.0, "acceleration_entry_max": 1.0, "jerk_max": 30.0,
+    "pin_force_max_N": 100.0, "input_torque_max_Nm": 5.0, "pressure_angle_max_deg": 25.0,
+    "contact_stress_max_MPa": 300.0,
+}  # fmt: skip
+
+
+def in_range(rng, rule, whole):
+    """A number that the rule allows, often at its very ends."""
+    low = rule.low if math.isfinite(rule.low) else -1e300
+    high = rule.high if math.isfinite(rule.high) else 1e300
+    if whole:
+        low, high = int(low), int(high)
+        return rng.choice([low, high, min(high, low + rng.randrange(30)), rng.randint(low, high)])
+    inside_low = math.nextafter(low, math.inf) if rule.ends[0] == "(" else low
+    inside_high = math.nextafter(high, -math.inf) if rule.ends[1] == ")" else high
+    nearly = low + (high - low) * 10.0 ** -rng.uniform(0, 15)
+    usual = max(inside_low, min(inside_high, 10.0 ** rng.uniform(-3, 3)))
+    uniform = low + (high - low) * rng.random()
+    value = rng.choice([inside_low, inside_high, 0.0, nearly, usual, usual, usual, uniform])
+    return min(max(value, inside_low), inside_high)
+
+
+# Drives of an external wheel alone, with one roller; a linkage's centre distance is its own.
+LINKAGES = ("four-bar", "slider-crank")
+ONE_WAY = ("gear-sector", "geneva-pair", "epicyclic", *LINKAGES)
+
+
+TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
+
+
+def near(rng, value, spread=0.3):
+    """A value about the one given, rounded as a person would."""
+    return float(f"{value * math.exp(rng.gauss(0.0, spread)):.{rng.choice([2, 3, 17])}g}")
+
+
+def clearance(rng, r):
+    """Mostly none or little; now and then as much as the roller."""
+    return rng.choice([0.0, 0.0, 0.01, 0.1, near(rng, 0.02 * r), r * rng.random()])
+
+
+def usual(rng, key, z, L, r, outside):
+    """A likely value of a key of ``[size]``."""
+    R = L * math.sin(math.pi / z)
+    if key in ("slot_clearance_mm", "lock_clearance_mm"):
+        return clearance(rng, r)
+    if key == "relief":
+        return rng.choice(["arc", "sector"])
+    of = {
+        "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
+        "wheel_outer_radius_mm": L + R + 2.0 * r,
+        "slot_bottom_clearance_mm": 0.05 * r,
+        "lock_radius_mm": rng.choice([0.0, 0.8 * R, R - r, R]),
+        "relief_clearance_mm": L / 200.0,
+        "wall_min_mm": L / 200.0,
+        "wheel_bore_mm": 0.2 * L,
+        "wheel_hub_mm": 0.3 * L,
+        "crank_bore_mm": 0.3 * R,
+        "crank_hub_mm": 0.5 * R,
+        "pin_mm": r,
+    }
+    return near(rng, of[key])
+
+
+def wheel(rng, kind):
+    """z, the gearing, and the lines of ``[wheel]``."""
+    z = rng.choice([3, 4, 5, 6, 7, 8, 10, 12, 16, 20, 24, rng.randint(3, 100)])
+    if kind in ("gear-sector", "geneva-pair"):  # which need coarse steps
+        z = rng.choice([3, 4, 5, 6, 8])
+    spherical = kind in ("crank", "side-crank") and rng.random() < 0.04
+    inside = kind not in ONE_WAY and rng.random() < 0.3
+    gearing = "spherical" if spherical else "internal" if inside else "external"
+    lines = [f"z = {z}"] + ([f'gearing = "{gearing}"'] if gearing != "external" else [])
+    if spherical and rng.random() < 0.5:
+        lines.append(f"axes_deg = {near(rng, 90.0)!r}")
+    if kind == "crank" and gearing == "external" and rng.random() < 0.2:
+        length = rng.choice([n for n in (1, 2, 3, 4, z) if z % n == 0])
+        steps = [360.0 / z * (1.0 + rng.choice([0.1, 0.4, 0.9]) * rng.uniform(-1, 1))
+                 for _ in range(length - 1)]  # fmt: skip
+        steps = [float(f"{s:.{rng.choice([2, 4, 17])}g}") for s in steps]
+        lines.append(f"steps_deg = {[*steps, 360.0 * length / z - sum(steps)]!r}")
+    return z, gearing, lines
+
+
+def linkage(rng, kind):
+    """A four-bar or a slider-crank near one that drives a wheel."""
+    of = {
+        "four-bar": rng.choice([
+            (40, 90, 100, 100, 161.519, -36.138), (35, 90, 80, 95, 120, 25),
+            (20, 100, 100, 60, 30, 100)]),
+        "slider-crank": (40, 100, 80, 90),
+    }[kind]  # fmt: skip
+    names = {
+        "four-bar": ("crank", "ground", "coupler", "rocker", "point"),
+        "slider-crank": ("crank", "rod", "point"),
+    }[kind]
+    spread = rng.choice([0.0, 0.01, 0.1])
+    lines = [f"{n}_mm = {near(rng, v, spread)!r}" for n, v in zip(names, of, strict=False)]
+    lines.append(f"point_deg = {of[-1] + rng.choice([0.0, rng.gauss(0.0, 20.0)])!r}")
+    if kind == "slider-crank" and rng.random() < 0.4:
+        lines.append(f"height_mm = {rng.gauss(0.0, 10.0)!r}")
+    if kind == "four-bar" and rng.random() < 0.2:
+        lines.append('branch = "-"')
+    if rng.random() < 0.3:
+        lines.append(f"entry_deg = {rng.choice([123.3, rng.uniform(-180, 180)])!r}")
+    return lines
+
+
+def own_keys(rng, kind):
+    """The lines of the keys that a kind adds to ``[drive]``."""
+    part = rng.choice([rng.random(), rng.random(), 1.0 - 10.0 ** -rng.uniform(1, 12)])
+    if kind in LINKAGES:
+        return linkage(rng, kind)
+    if kind == "side-crank":
+        return [f"A = {rng.choice([-1, 1]) * part!r}"]
+    if kind == "elliptical-gears":
+        return [f"eccentricity = {part!r}", f'phase = "{rng.choice(["slow", "quick"])}"']
+    if kind == "epicyclic":
+        ratio = rng.choice(['"shockless"', repr(rng.gauss(0.0, 0.04))])
+        return [f"planet_ratio = {ratio}", f'fixed = "{rng.choice(["sun", "ring"])}"']
+    if kind == "noncircular-gears":
+        way = rng.choice(['ratio_file = "ratio.csv"', f"A = {rng.uniform(-0.95, 0.95)!r}"])
+        return [way, f"gear_distance_mm = {near(rng, 100.0)!r}"]
+    if kind == "gear-sector":
+        ratio = rng.choice(['"shockless"', repr(near(rng, 0.7))])
+        return [f"sector_deg = {rng.uniform(1, 200)!r}", f"gear_ratio = {ratio}"]
+    if kind == "geneva-pair":
+        return [f"first_z = {rng.choice([3, 3, 4, 5])}"]
+    return []
+
+
+def motion(rng, kind, gearing):
+    """The lines of ``[motion]``."""
+    law = rng.choice(list(LAWS))
+    lines = [f'law = "{law}"']
+    if law == "sine-group" and rng.random() < 0.9:
+        lines.append(f"lambda = {rng.choice([0.1, -0.125, 0.08333, rng.uniform(-0.3, 0.3)])!r}")
+    if law == "table":
+        lines.append('file = "law.csv"')
+    if rng.random() < 0.5:
+        lines.append(f"alpha0_deg = {rng.choice([-10, 10, 25, rng.uniform(-60, 60)])!r}")
+    if kind != "cam" and rng.random() < (0.8 if gearing == "internal" else 0.4):
+        ratio = rng.choice(['"matched"', repr(rng.random())])
+        lines.append(f"ratio = {ratio}")
+    return lines
+
+
+def machine_text(rng):
+    """A machine that a designer might write, or nearly."""
+    # linkages take a hundred times as long to read as others
+    kind = rng.choice(["crank"] * 14 + [k for k in DRIVES for _ in range(1 + (k not in LINKAGES))])
+    z, gearing, lines = wheel(rng, kind)
+    L = rng.choice([100.0, 100.0, near(rng, 100.0, 1.0)])
+    R = L * math.sin(math.pi / z)
+    room = min(R, (L - R) * math.sin(math.pi / z)) if gearing == "external" else R
+    r = room * rng.choice([rng.uniform(0.03, 0.5), rng.random() ** 3, 0.3])
+    flat = gearing != "spherical" and kind not in ONE_WAY
+    curved = kind == "cam" or (flat and rng.random() < 0.3)
+    straight = gearing == "external" and not curved and "steps_deg" not in lines[-1]
+    if straight and kind not in ONE_WAY and rng.random() < 0.25:
+        lines.append(f"offset_mm = {rng.choice([0.1, 0.5, 1.0]) * rng.uniform(-1, 1) * (L - R)!r}")
+    text = ["[wheel]", *lines, "[drive]", f'kind = "{kind}"', *own_keys(rng, kind)]
+    if rng.random() < 0.5:
+        text.append(f"n_rpm = {near(rng, 60.0, 1.0)!r}")
+    if kind not in ONE_WAY and gearing == "external" and rng.random() < 0.3:
+        text.append(f"rollers = {rng.choice([1, 2, 2, 3, 4, 6])}")
+        if rng.random() < 0.3:
+            angles = [0.0, *sorted(rng.uniform(0, 360) for _ in range(rng.randint(0, 3)))]
+            text[-1] = f"rollers = {len(angles)}\nroller_angles_deg = {angles!r}"
+    if curved:
+        text += ["[motion]", *motion(rng, kind, gearing)]
+    text += ["[size]", f"face_width_mm = {near(rng, 2.0 * r)!r}"]
+    if kind not in LINKAGES:
+        text.append(f"center_distance_mm = {L!r}")
+    if rng.random() < 0.9:
+        text.append(f"roller_radius_mm = {r!r}")
+    often = rng.choice([0.0, 0.05, 0.3, 0.8])
+    for field in fields(Size):
+        if field.key not in TAKEN and rng.random() < often:
+            value = usual(rng, field.key, z, L, r, gearing == "external")
+            if field.key != "relief" and rng.random() < 0.03:
+                value = in_range(rng, field.rule, False)
+            text.append(
+                f"{field.key} = " + (f'"{value}"' if field.key == "relief" else repr(value))
+            )
+    given = {}
+    for about in (LOADS, LIMITS):
+        often = rng.choice([0.0, 0.3, 0.8])
+        given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
+    if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
+        given.setdefault("inertia_kgm2", near(rng, LOADS["inertia_kgm2"], 0.5))
+    for table, about in (("load", LOADS), ("limits", LIMITS)):
+        text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
+    return "\n".join(text) + "\n"

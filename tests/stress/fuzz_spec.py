@@ -1,0 +1,202 @@
+"""Random specs, and what must hold of each: `python tests/stress/fuzz_spec.py --runs 1000000`.
+
+Text goes through the program's own reader, as from standard input: it either makes a machine, whose
+motion is then computed, or is refused in one printable line that begins with its place. Four kinds
+of text: machines as a designer writes them, specs put together from the keys that the program knows
+(often at the very ends of their ranges), such specs with letters, lines and values mutated, and
+TOML words thrown together.
+"""
+
+import io
+import math
+import re
+import sys
+import warnings
+from functools import cache
+from types import SimpleNamespace
+from typing import get_origin
+
+import numpy as np
+from fuzz_machines import in_range, machine_text
+from fuzzing import campaign, in_time
+
+from geneva_cli import design
+from geneva_cli.analysis.motion import motion_table
+from geneva_cli.analysis.peaks import peaks_table
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
+from geneva_cli.spec.rules import OneOf, Words
+from geneva_cli.spec.schema import REQUIRED, fields
+from geneva_cli.specfile.writer import keys_of
+from geneva_cli.table import flat
+
+SECONDS = 10  # for one spec; one takes some milliseconds
+PLACE = re.compile(r"(<stdin>|law\.csv|ratio\.csv)(:(\d+))?: ", re.DOTALL)
+# fmt: off
+ODD = ["nan", "inf", "-inf", "0", "-0.0", "1e308", "5e-324", "-1", '"x"', "true", "[]", "[1, [2]]",
+       "{}", "{a = 1}", "2001-02-03", "1" + "0" * 400, '""', '"\\u001b[31m"', "0x1F", "1_0"]
+WORDS = ["[", "]", "[[", "]]", "=", ".", ",", "{", "}", "\n", '"', "'", '"""', "#", "\\", " ", "\t",
+         "\0", "\r", "\ufeff", "é", "\u202e", "=\n", "wheel", "z", "6", "[wheel]\n", "z = 6\n"]
+# fmt: on
+
+
+def value(rng, field, wild):
+    """The text of a value for a key; ``wild`` is how often it is nonsense."""
+    if rng.random() < wild:
+        return rng.choice(ODD)
+    types, rule = field.types, field.rule
+    if any(get_origin(t) is tuple for t in types):
+        numbers = [in_range(rng, rule, False) for _ in range(rng.randint(1, 4))]
+        return "[" + ", ".join(map(repr, numbers)) + "]"
+    if int in types or (float in types and not (str in types and rng.random() < 0.3)):
+        whole = int in types
+        rule = rule.range if isinstance(rule, Words) else rule
+        return repr(in_range(rng, rule, whole))
+    if isinstance(rule, OneOf):
+        return f'"{rng.choice(rule)}"'
+    words = {
+        "law": tuple(LAWS),
+        "kind": tuple(DRIVES),
+        "file": ("law.csv", "gone.csv", ""),
+        "ratio_file": ("ratio.csv", "gone.csv"),
+    }
+    return f'"{rng.choice(words.get(field.key, ("matched", "shockless", "slow")))}"'
+
+
+@cache
+def known_keys(kind):
+    """Every key of a spec with this drive, table by table; of all wheels and all laws."""
+    wheels = [registry.gearing(name) for name in GEARINGS]
+    laws = [field for name in LAWS for field in fields(registry.law(name))]
+    tables = keys_of(wheels[0], registry.drive(kind), laws)
+    named = {field.key for field in tables["wheel"]}
+    foreign = {f.key: f for wheel in wheels for f in fields(wheel) if f.key not in named}
+    return tables | {"wheel": [*tables["wheel"], *foreign.values()]}
+
+
+def spec_text(rng, wild=0.02):
+    """A spec from the program's keys; mostly one that makes a machine, or nearly."""
+    lines = []
+    if rng.random() < 0.1:
+        lines.append(f'title = "{rng.choice(["a wheel", "=1+1", "x" * 300])}"')
+    kind = rng.choice(list(DRIVES))
+    for table, own in known_keys(kind).items():
+        if table not in ("wheel", "drive") and rng.random() < 0.6:
+            continue
+        lines.append(f"[{table}]")
+        share = rng.choice([0.1, 0.3, 0.8]) * (0.2 if table == "wheel" else 1.0)
+        for field in own:
+            if field.key == "kind":
+                if kind != "crank" and rng.random() < 0.95:
+                    lines.append(f'kind = "{kind}"')
+            elif field.key == "z" and rng.random() < 0.8:
+                lines.append(f"z = {rng.choice([3, 4, 5, 6, 8, 12, 24])}")
+            elif (table, field.key) == ("motion", "law") and rng.random() < 0.9:
+                lines.append(f'law = "{rng.choice(list(LAWS))}"')
+            elif (field.default is REQUIRED and table != "motion") or rng.random() < share:
+                lines.append(f"{field.key} = {value(rng, field, wild)}")
+    return "\n".join(lines) + "\n"
+
+
+def mutated(rng, text):
+    """Text with a few letters, words or lines changed, doubled, moved or lost."""
+    for _ in range(rng.randint(1, 4)):
+        i, j = sorted((rng.randrange(len(text) + 1), rng.randrange(len(text) + 1)))
+        lines = text.split("\n")
+        a, b = rng.randrange(len(lines)), rng.randrange(len(lines))
+        how = rng.randrange(6)
+        if how == 0:
+            text = text[:i] + text[min(j, i + 8) :]
+        elif how == 1:
+            text = text[:i] + rng.choice([*WORDS, *ODD]) + text[i:]
+        elif how == 2:
+            lines[a], lines[b] = lines[b], lines[a]
+            text = "\n".join(lines)
+        elif how == 3:
+            text = "\n".join([*lines[:a], lines[b], *lines[a:]])
+        elif how == 4:
+            text = re.sub(r"= .*", lambda m: "= " + rng.choice(ODD), text, count=1)
+        else:
+            text = (
+                text[:i] + chr(rng.choice([rng.randrange(128), rng.randrange(0xD800)])) + text[i:]
+            )
+    return text
+
+
+def garbage(rng):
+    """TOML words thrown together."""
+    return "".join(rng.choice([*WORDS, *ODD, *LAWS]) for _ in range(rng.randint(0, 40)))
+
+
+def text_of(rng):
+    """One of the four kinds."""
+    how = rng.random()
+    if how < 0.4:
+        return machine_text(rng)
+    if how < 0.7:
+        return spec_text(rng)
+    return mutated(rng, spec_text(rng, 0.1)) if how < 0.95 else garbage(rng)
+
+
+def read(data):
+    """The machine that the bytes describe, or the message that refuses them; anything else raises.
+
+    The folder holds law.csv, which a spec may name.
+    """
+    stdin, sys.stdin = sys.stdin, SimpleNamespace(buffer=io.BytesIO(data))
+    try:
+        return design.load("-").mechanism
+    except GenevaError as error:
+        said = str(error)
+        place = PLACE.match(said)
+        assert place, f"no place in: {said}"
+        # What is shown passes errors.clean; here only its length and its line are looked at.
+        assert len(said) < 2000, f"{len(said)} characters: {said[:200]}"
+        lines = max(data.count(b"\n"), data.count(b"\r")) + 2
+        assert int(place[3] or 0) <= max(lines, 20), said
+        return said
+    finally:
+        sys.stdin = stdin
+
+
+def consistent(mechanism):
+    """What holds of every machine: rest at both ends, a whole step, an ascending window."""
+    for engagement in mechanism.engagements:
+        assert engagement.entry_deg < engagement.exit_deg
+        b = engagement.half_step
+        for x, wheel in ((engagement.entry_deg, -b), (engagement.exit_deg, b)):
+            p = engagement.motion(x, 3).derivatives()
+            assert all(math.isfinite(v) for v in p), f"not finite at {x!r}: {p}"
+            # a law given as points ends where its spline does: rounding of sums of such terms
+            assert abs(p[0] - wheel) <= 1e-9 * b, f"wheel at {x!r}: {p[0]!r}, not {wheel!r}"
+    for i in range(len(mechanism.engagements)):
+        assert math.isfinite(mechanism.dwell_deg(i))
+
+
+def sound(table, boundless=()):
+    """Every number of a table is one, and finite but in the columns that may be without bound."""
+    for name, column in zip(table.names, table.columns, strict=True):
+        values = [v for v in np.asarray(column, dtype=object).ravel() if isinstance(v, float)]
+        assert not any(v != v for v in values), f"{name} is nan"
+        if name not in boundless:
+            assert all(map(math.isfinite, values)), f"{name} is infinite"
+
+
+def one(text):
+    """All of the motion of one spec; how it ended, in a word."""
+    data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
+    with in_time(SECONDS), warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = read(data)
+        if isinstance(found, str):
+            return "refused"
+        consistent(found)
+        sound(flat(peaks_table(found)))
+        for samples in (33, 50):  # with mid-motion among them, and without
+            sound(motion_table(found, samples))
+        return "machine"
+
+
+if __name__ == "__main__":
+    sys.exit(campaign("specs", text_of, one, batch=500))

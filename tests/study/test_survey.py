@@ -1,0 +1,105 @@
+"""The table of wheels: closed forms against the general machinery, and the names it prints."""
+
+import pytest
+from witness import Geneva, near, to_degrees
+
+from geneva_cli.analysis.peaks import ends, peak
+from geneva_cli.analysis.timing import timings
+from geneva_cli.errors import GenevaError
+from geneva_cli.study.survey import NAMES, parse_z, survey
+
+# As the interface fixes them; scripts depend on the order.
+FIELDS = """
+    z gearing rollers motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s
+    velocity_max acceleration_max acceleration_max_deg acceleration_entry jerk_entry rollers_max
+"""
+Z = range(3, 61)
+SAME = 4e-15  # relative: two ways to one number, each within eight units in the last place
+
+
+def row(*args):
+    table = survey(*args)
+    assert table.names == tuple(FIELDS.split())
+    (values,) = table.rows()
+    return dict(zip(table.names, values, strict=True))
+
+
+def test_field_names():
+    assert tuple(FIELDS.split()) == NAMES
+    assert survey("3..5", "external", 60.0, 1, 0.0).names == NAMES
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+def test_closed_forms_agree_with_the_machinery(machine, gearing):
+    for z in Z:
+        m = machine(z, gearing)
+        s = m.engagements[0]
+        got = row(str(z), gearing, 60.0, 1, 0.0)
+        assert (got["z"], got["gearing"], got["rollers"]) == (z, gearing, 1)
+        assert got["rollers_max"] == m.rollers_max
+        for name, value in timings(m)[0]._asdict().items():
+            assert got[name] == near(value, SAME), (z, name)
+        velocity, acceleration = peak(s.motion, "velocity"), peak(s.motion, "acceleration")
+        assert got["velocity_max"] == near(velocity.max, SAME), z
+        assert got["acceleration_max"] == near(acceleration.max, SAME), z
+        # a root of the jerk, where the acceleration is flat: 1e-8 degrees is what it can hide
+        assert got["acceleration_max_deg"] == pytest.approx(-acceleration.at_deg, abs=1e-8), z
+        jumps = ends(s)
+        assert got["acceleration_entry"] == near(jumps.acceleration_entry, SAME), z
+        assert got["jerk_entry"] == near(jumps.jerk_entry, SAME), z
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("A", [0.0, 0.6, -0.5])
+def test_rows_against_50_digits(gearing, A):
+    for z in (3, 4, 5, 6, 7, 12, 24, 60):
+        got, w = row(str(z), gearing, 60.0, 1, A), Geneva(z, gearing, A)
+        velocity, _ = w.peak("velocity")
+        acceleration, at_deg = w.peak("acceleration")
+        entry = w.at(-w.half_motion)
+        exact = {
+            "motion_deg": 2 * to_degrees(w.half_motion),
+            "dwell_deg": 360 - 2 * to_degrees(w.half_motion),
+            "index_deg": 2 * to_degrees(w.b),
+            "velocity_max": velocity,
+            "acceleration_max": acceleration,
+            "acceleration_entry": abs(entry[2]),
+            "jerk_entry": abs(entry[3]),
+        }
+        for name, value in exact.items():
+            # with A the jerk at entry is a difference of two terms: 1e-14 of either
+            bar = 1e-13 if A and name == "jerk_entry" else SAME
+            assert got[name] == near(float(value), bar), (z, name)
+        assert got["acceleration_max_deg"] == pytest.approx(-float(at_deg), abs=1e-8)
+        assert got["k"] == near(float(exact["motion_deg"] / exact["dwell_deg"]), SAME)
+
+
+def test_side_crank_of_nearly_0_is_the_classic_row():
+    for gearing in ("external", "internal"):
+        classic, general = (row("6", gearing, 60.0, 1, A) for A in (0.0, 1e-300))
+        assert classic.pop("gearing") == general.pop("gearing") == gearing
+        for name, value in classic.items():
+            assert general[name] == near(value, SAME), name
+
+
+def test_rollers_and_speed():
+    one, three = (row("4", "external", 120.0, m, 0.0) for m in (1, 3))
+    assert three["motion_deg"] == one["motion_deg"] == 90.0
+    assert three["dwell_deg"] == 30.0
+    assert (three["k"], three["tau"]) == (3.0, 0.75)
+    assert one["cycle_s"] == 0.5
+    assert three["cycle_s"] == near(0.5 / 3.0, 4e-16)
+    assert three["velocity_max"] == one["velocity_max"]
+
+
+def test_z_texts():
+    assert parse_z("6") == [6]
+    assert parse_z("3..5") == [3, 4, 5]
+    assert parse_z("3,6..8, 12") == [3, 6, 7, 8, 12]
+    assert [r[0] for r in survey("12,3..4", "internal", 60.0, 1, 0.0).rows()] == [12, 3, 4]
+
+
+@pytest.mark.parametrize("text", ["2", "", "6..3", "three", "3.5", "-3", "3..", "1..10000000"])
+def test_bad_z(text):
+    with pytest.raises(GenevaError):
+        parse_z(text)

@@ -1,0 +1,401 @@
+"""Design, the Python API: the answers and the refusals of a file, each worked out once."""
+
+import inspect
+import math
+from functools import cached_property
+
+import numpy as np
+import pytest
+import repo
+
+import geneva_cli
+from geneva_cli import (
+    Cam,
+    Crank,
+    Cycloidal,
+    Design,
+    EllipticalGears,
+    External,
+    FourBar,
+    GearSector,
+    GenevaError,
+    Harmonic,
+    Internal,
+    Limits,
+    Load,
+    Motion,
+    SideCrank,
+    SineGroup,
+    Size,
+    SliderCrank,
+    Spherical,
+    TableLaw,
+    design,
+    load,
+)
+from geneva_cli.machine import registry
+
+PRESS = {
+    "size": Size(center_distance_mm=441.89, roller_radius_mm=20, face_width_mm=30),
+    "load": Load(inertia_kgm2=6.484556, torque_Nm=497),
+}
+POINTS = np.loadtxt(repo.DESIGNS / "table-law.csv", delimiter=",", skiprows=1)
+# The files in designs/, as a Python user would write them.
+DESIGNS = {
+    "side-crank-z6": Design(
+        External(6), SideCrank(A=0.6), size=Size(center_distance_mm=160, roller_radius_mm=9)
+    ),
+    "elliptical-gears": Design(
+        External(6),
+        EllipticalGears(eccentricity=0.3, n_rpm=80),
+        size=Size(center_distance_mm=160, roller_radius_mm=9),
+        load=Load(inertia_kgm2=0.05, torque_Nm=5),
+    ),
+    "press-curved": Design(External(6), motion=Motion(Cycloidal(), ratio="matched"), **PRESS),
+    "cam-geneva": Design(External(6), Cam(), Motion(Cycloidal()), **PRESS),
+    "spherical-60deg": Design(
+        Spherical(6, axes_deg=60), Crank(rollers=2, n_rpm=30), size=Size(100, 5)
+    ),
+    "unequal-steps": Design(
+        External(6, steps_deg=(72, 48)),
+        Crank(n_rpm=30),
+        size=Size(150, 8),
+        load=Load(inertia_kgm2=0.05, torque_Nm=4),
+    ),
+    "slider-crank": Design(
+        External(8, held_by="detent"),
+        SliderCrank(crank_mm=40, rod_mm=100, point_mm=80, point_deg=90),
+        size=Size(roller_radius_mm=6),
+    ),
+    "gear-sector": Design(
+        External(3),
+        GearSector(sector_deg=60, gear_ratio="shockless", n_rpm=40),
+        size=Size(120, 8),
+    ),
+    "table-law": Design(
+        External(6),
+        Crank(n_rpm=45),
+        Motion(TableLaw(points=POINTS.tolist()), ratio="matched"),
+        size=Size(140, 7),
+    ),
+}
+
+
+def file(text, tmp_path):
+    path = tmp_path / "spec.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def row(table):
+    (values,) = table.rows()
+    return dict(zip(table.names, values, strict=True))
+
+
+# A design in Python and one in a file
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_same_answers_in_python_and_from_a_file(name):
+    """To the last bit: it is one machine."""
+    made, read = DESIGNS[name], load(str(repo.DESIGNS / f"{name}.toml"))
+    assert made.timings == read.timings
+    assert made.timing == read.timings[0]
+    assert made.peaks == read.peaks
+    assert made.loads == read.loads
+    assert made.warnings == read.warnings
+    mine, theirs = made.motion(73), read.motion(73)
+    assert mine.names == theirs.names
+    assert list(mine.rows()) == list(theirs.rows())
+    # A file has a name and a title beside it, and that is all.
+    mine, theirs = (row(d.peaks_table) for d in (made, read))
+    assert {k for k in mine if k != "stations" and mine[k] != theirs[k]} == {"spec", "title"}
+
+
+def test_the_same_parts_and_verdicts():
+    """A wheel of few slots, drawn and judged: checks, slot, drawing and report."""
+    made = DESIGNS["side-crank-z6"]
+    read = load(str(repo.DESIGNS / "side-crank-z6.toml"))
+    assert made.passes
+    assert made.checks == read.checks
+    assert list(made.slot(0.1).rows()) == list(read.slot(0.1).rows())
+    assert len(made.slot(samples=7)) == 7
+    assert made.drawing("wheel", 0.01).shapes == read.drawing("wheel", 0.01).shapes
+    assert made.parts.wheel == read.parts.wheel
+    assert made.report.passes == read.report.passes
+
+
+# What is wrong is said in the same words
+
+WRONG = [
+    ("[wheel]\nz = 2", lambda: External(2)),
+    ("[wheel]\nz = 6.5", lambda: External(6.5)),
+    ('[wheel]\nz = "six"', lambda: External("six")),
+    ("[wheel]\nz = 6\nsteps_deg = [72, 40]", lambda: External(6, steps_deg=(72, 40))),
+    ("[wheel]\nz = 6\noffset_mm = nan", lambda: External(6, offset_mm=math.nan)),
+    ('[wheel]\nz = 6\nheld_by = "break"', lambda: External(6, held_by="break")),
+    (
+        '[wheel]\nz = 6\ngearing = "spherical"\naxes_deg = 180',
+        lambda: Spherical(6, axes_deg=180),
+    ),
+    ("[wheel]\nz = 6\n[drive]\nn_rpm = 0", lambda: Crank(n_rpm=0)),
+    ("[wheel]\nz = 6\n[drive]\nrollers = 0", lambda: Crank(rollers=0)),
+    ('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 1', lambda: SideCrank(A=1)),
+    (
+        '[wheel]\nz = 6\n[drive]\nkind = "elliptical-gears"\neccentricity = 0.3\nphase = "fast"',
+        lambda: EllipticalGears(eccentricity=0.3, phase="fast"),
+    ),
+    (
+        '[wheel]\nz = 6\n[drive]\nkind = "four-bar"\ncrank_mm = 90\nground_mm = 40\n'
+        "coupler_mm = 100\nrocker_mm = 100\npoint_mm = 100\npoint_deg = 0",
+        lambda: FourBar(
+            crank_mm=90, ground_mm=40, coupler_mm=100, rocker_mm=100, point_mm=100, point_deg=0
+        ),
+    ),
+    (
+        '[wheel]\nz = 6\n[motion]\nlaw = "sine-group"\nlambda = 11',
+        lambda: Motion(SineGroup(lambda_=11)),
+    ),
+    (
+        '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = "match"',
+        lambda: Motion(Cycloidal(), ratio="match"),
+    ),
+    ("[wheel]\nz = 6\n[size]\nslot_clearance_mm = -1", lambda: Size(slot_clearance_mm=-1)),
+    ('[wheel]\nz = 6\n[size]\nrelief = "are"', lambda: Size(relief="are")),
+    ("[wheel]\nz = 6\n[load]\nefficiency = 1.1", lambda: Load(efficiency=1.1)),
+    ("[wheel]\nz = 6\n[load]\ntorque_Nm = true", lambda: Load(torque_Nm=True)),
+    (
+        "[wheel]\nz = 6\n[limits]\npressure_angle_max_deg = 91",
+        lambda: Limits(pressure_angle_max_deg=91),
+    ),
+    # between two tables
+    (
+        "[wheel]\nz = 6\n[limits]\npin_force_max_N = 100",
+        lambda: Design(External(6), limits=Limits(pin_force_max_N=100)),
+    ),
+    # between the keys of a machine
+    (
+        "[wheel]\nz = 6\n[drive]\nrollers = 3",
+        lambda: Design(External(6), Crank(rollers=3)).mechanism,
+    ),
+    (
+        '[wheel]\nz = 6\ngearing = "internal"\n[drive]\nrollers = 2',
+        lambda: Design(Internal(6), Crank(rollers=2)).peaks,
+    ),
+    ('[wheel]\nz = 6\n[drive]\nkind = "cam"', lambda: Design(External(6), Cam()).timings),
+    (
+        '[wheel]\nz = 6\n[motion]\nlaw = "harmonic"\nalpha0_deg = 300',
+        lambda: Design(External(6), motion=Motion(Harmonic(), 300)).motion(),
+    ),
+    (
+        "[wheel]\nz = 6\n[size]\ncenter_distance_mm = 100\nroller_radius_mm = 60",
+        lambda: Design(External(6), size=Size(100, 60)).loads,
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "make"), WRONG, ids=[text[8:] for text, _ in WRONG])
+def test_a_wrong_value_raises_what_a_file_with_it_gets(text, make, tmp_path):
+    path = file(text, tmp_path)
+    with pytest.raises(GenevaError) as told:
+        _ = load(path).mechanism
+    where, _, wants = str(told.value).partition(": ")
+    line = int(where.removeprefix(f"{path}:"))
+    assert 1 <= line <= 1 + text.count("\n")
+    with pytest.raises(GenevaError) as raised:
+        make()
+    assert str(raised.value) == wants
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Motion("cycloidal"),
+        lambda: Motion(Cycloidal),
+        lambda: Design(6),
+        lambda: Design(External),
+        lambda: Design(External(6), Cycloidal()),
+        lambda: Design(External(6), "cam"),
+        lambda: Design(External(6), motion=Cycloidal()),
+        lambda: Design(External(6), size=100.0),
+        lambda: Design(External(6), load=Limits(velocity_max=1)),
+        lambda: Design(External(6), limits=Load(torque_Nm=1)),
+    ],
+    ids=range(10),
+)
+def test_another_object_is_refused_where_it_is_given(make):
+    """A word of the file, a class or a number would else fail late, or be taken for nothing."""
+    with pytest.raises(GenevaError, match="must be an object like"):
+        make()
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda d: d.drawing("whel"), '--part whel: .*did you mean "wheel"'),
+        (lambda d: d.drawing("gears"), "--part gears is a table of points"),
+        (lambda d: d.drawing("wheel", curves="spine"), "--curves spine: it must be arcs or spline"),
+        (lambda d: d.drawing("wheel", math.nan), "--tolerance nan: must be above 0 mm"),
+        (lambda d: d.part_table("whel"), '--part whel: .*did you mean "wheel"'),
+        (lambda d: d.part_table("crank"), "--part crank is drawn"),
+        (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0 mm"),
+        (lambda d: d.slot(samples=1), "--samples 1: must be at least 2"),
+        (lambda d: d.motion(1), "--samples 1: must be at least 2"),
+    ],
+    ids=range(9),
+)
+def test_a_wrong_question_is_refused(ask, said):
+    with pytest.raises(GenevaError, match=said):
+        ask(Design(External(6)))
+
+
+# What if
+
+FULL = Design(
+    External(6),
+    Crank(),
+    Motion(SineGroup(lambda_=0.1), alpha0_deg=-10),
+    load=Load(torque_Nm=5),
+)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "default"),
+    [
+        ("wheel.z", 8, None),
+        ("wheel.held_by", "brake", None),
+        ("drive.n_rpm", 90.0, 60.0),
+        ("drive.rollers", 2, 1),
+        ("motion.lambda", 0.05, 0.0),
+        ("motion.alpha0_deg", 5.0, 0.0),
+        ("motion.ratio", 0.45, None),
+        ("size.center_distance_mm", 160.0, None),
+        ("size.slot_clearance_mm", 0.1, 0.0),
+        ("load.inertia_kgm2", 0.02, 0.0),
+        ("limits.velocity_max", 1.0, None),
+    ],
+)
+def test_one_key_changed(key, value, default):
+    """The key alone, in a new design that is built anew; None is its default again."""
+    table, _, name = key.partition(".")
+    before = FULL.spec
+    timing = FULL.timing
+    changed = FULL.with_(key, value)
+    for other in ("wheel", "drive", "motion", "size", "load", "limits"):
+        same = before.table(other)
+        assert changed.spec.table(other) == same | ({name: value} if other == table else {})
+    assert FULL.spec is before
+    assert FULL.timing is timing
+    assert changed.mechanism is not FULL.mechanism
+    assert changed.timing.motion_deg > 0.0
+    if key == "wheel.z":
+        with pytest.raises(GenevaError, match=r"\[wheel\] needs z: number of slots"):
+            changed.with_(key, None)
+    else:
+        assert changed.with_(key, None).spec.table(table)[name] == default
+
+
+def test_a_change_is_the_machine_made_with_it():
+    assert (
+        FULL.with_("wheel.z", 8).peaks
+        == Design(External(8), motion=FULL.spec.motion, load=FULL.spec.load).peaks
+    )
+    slow = DESIGNS["side-crank-z6"]
+    assert slow.with_("drive.A", 0.3).peaks == Design(External(6), SideCrank(A=0.3)).peaks
+
+
+def test_a_change_of_what_a_file_says(tmp_path):
+    path = file('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.6\n', tmp_path)
+    read = load(path)
+    assert read.with_("drive.A", 0.3).peaks == Design(External(6), SideCrank(A=0.3)).peaks
+    with pytest.raises(GenevaError) as told:  # the line of the file says something else
+        read.with_("drive.A", 1.5)
+    assert str(told.value).startswith("A = 1.5 must be")
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("wheel.zz", 8, r"unknown key zz in \[wheel\] .*known: z, held_by"),
+        ("wheel.axes_deg", 80, r"unknown key axes_deg in \[wheel\]"),
+        ("drive.A", 0.5, r"unknown key A in \[drive\]; known: n_rpm"),
+        ("drive.n_rmp", 50, r'unknown key n_rmp in \[drive\] \(did you mean "n_rpm"\?\)'),
+        ("motion.lamda", 0.2, r'unknown key lamda in \[motion\] \(did you mean "lambda"\?\)'),
+        ("motion.lambda_", 0.2, r'unknown key lambda_ in \[motion\] \(did you mean "lambda"\?\)'),
+        ("size.radius_mm", 5, r"unknown key radius_mm in \[size\]"),
+        ("load.torque", 5, r'unknown key torque in \[load\] \(did you mean "torque_Nm"\?\)'),
+        ("limits.velocity", 1, r"unknown key velocity in \[limits\]"),
+        ("driver.n_rpm", 50, r"this spec has no \[driver\]"),
+        ("n_rpm", 50, r"this spec has no \[n_rpm\]"),
+        ("drive.n_rpm", -1, r"n_rpm = -1 must be above 0"),
+        ("wheel.z", 2, r"z = 2 must be at least 3"),
+        ("motion.lambda", 11, r"lambda = 11 must be at least -10"),
+        ("limits.pressure_angle_max_deg", 91, r"pressure_angle_max_deg = 91 must be"),
+        ("limits.contact_stress_max_MPa", 500, r"set face_width_mm in \[size\]"),
+    ],
+)
+def test_a_key_or_value_that_cannot_be_changed_to(key, value, said):
+    with pytest.raises(GenevaError, match=said):
+        FULL.with_(key, value)
+
+
+def test_no_motion_to_change():
+    with pytest.raises(GenevaError, match=r"motion\.ratio: this spec has no \[motion\]"):
+        Design(External(6)).with_("motion.ratio", 0.5)
+
+
+# Each answer once
+
+KEPT = sorted(name for name, v in vars(Design).items() if isinstance(v, cached_property))
+
+
+def test_there_are_answers_to_keep():
+    assert {"mechanism", "timings", "peaks", "loads", "proof", "checks", "report"} <= set(KEPT)
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_an_answer_is_worked_out_once(name):
+    made = DESIGNS["side-crank-z6"]
+    assert getattr(made, name) is getattr(made, name)
+
+
+def test_the_machine_is_built_once(monkeypatch):
+    calls = []
+
+    def build(spec):
+        calls.append(spec)
+        return real(spec)
+
+    real = design.build
+    monkeypatch.setattr(design, "build", build)
+    one = Design(External(6), load=Load(torque_Nm=5))
+    _ = one.timings, one.peaks, one.loads, one.motion(), one.warnings, one.slot(), one.parts
+    assert calls == [one.spec]
+
+
+# What a program may use
+
+
+def members():
+    return [name for name in vars(Design) if not name.startswith("_")]
+
+
+@pytest.mark.parametrize("name", members())
+def test_every_member_says_what_it_is(name):
+    said = inspect.getdoc(inspect.getattr_static(Design, name))
+    assert said
+    assert said.rstrip().endswith(".")
+
+
+@pytest.mark.parametrize("name", geneva_cli.__all__)
+def test_every_name_can_be_imported(name):
+    scope = {}
+    exec(f"from geneva_cli import {name}", scope)
+    assert scope[name] is getattr(geneva_cli, name)
+    if isinstance(scope[name], type):
+        assert inspect.getdoc(scope[name])
+
+
+def test_every_kind_has_its_name_in_the_package():
+    kinds = (registry.GEARINGS, registry.DRIVES, registry.LAWS)
+    assert {path.partition(":")[2] for k in kinds for path in k.values()} <= set(geneva_cli.__all__)

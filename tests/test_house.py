@@ -1,0 +1,256 @@
+"""The house: rooms on floors. Imports go down, never across a floor and in no circle; only some
+rooms touch files or know Typer; and nobody asks which machine it is.
+"""
+
+import ast
+import os
+import textwrap
+from graphlib import CycleError, TopologicalSorter
+
+import pytest
+
+import geneva_cli
+from geneva_cli.machine import registry
+
+ROOT = os.path.dirname(geneva_cli.__file__)
+
+# From the ground up. A room imports rooms of the floors below its own.
+FLOORS = [
+    {"errors", "table"},
+    {"spec", "numerics", "streams"},
+    {"machine", "curves"},
+    {"analysis", "parts", "specfile", "output"},
+    {"verdict", "bench"},
+    {"study", "design"},
+    {"commands"},
+    {"app"},
+    {"__main__"},
+]
+# Members of one kind, a file each: none imports another. What two share is no member.
+MEMBERS = {
+    "machine.drives": {m.partition(":")[0] for m in registry.DRIVES.values()},
+    "machine.wheels": {m.partition(":")[0] for m in registry.GEARINGS.values()},
+    "machine.laws": {m.partition(":")[0] for m in registry.LAWS.values()},
+}
+STREAMS = {"app", "streams", "__main__", "specfile", "output", "commands"}
+TYPER = {"app", "streams", "__main__", "commands"}
+# What commands know besides designs and studies: laws alone, templates, units and the names of
+# parts; there is no machine yet.
+ALONE = {"analysis.law_values", "specfile.template", "curves.pieces", "parts.catalogue"}
+# A kind's names; "table" is a law, and also what people are shown.
+NAMES = {*registry.DRIVES, *registry.GEARINGS, *registry.LAWS} - {"table"}
+
+
+def modules():
+    for folder, _, files in os.walk(ROOT):
+        for file in sorted(files):
+            if file.endswith(".py"):
+                path = os.path.relpath(os.path.join(folder, file), ROOT)
+                name = path.removesuffix(".py").replace(os.sep, ".")
+                yield "" if name == "__init__" else name.removesuffix(".__init__")
+
+
+MODULES = sorted(modules())
+
+
+def source(module):
+    path = os.path.join(ROOT, *module.split(".")) if module else ROOT
+    path = os.path.join(path, "__init__.py") if os.path.isdir(path) else path + ".py"
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def room(module):
+    return module.split(".")[0]
+
+
+def floor(module):
+    return next((i for i, rooms in enumerate(FLOORS) if room(module) in rooms), None)
+
+
+def running(tree):
+    """The nodes that run: all but what stands under ``if TYPE_CHECKING``."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            for other in node.orelse:
+                yield from running(other)
+            continue
+        yield node
+        yield from running(node)
+
+
+def own(name):
+    """The module of ours that ``geneva_cli.name`` means, whatever is taken of it."""
+    parts = name.split(".")
+    while parts and ".".join(parts) not in MODULES:
+        parts.pop()
+    return ".".join(parts)
+
+
+def imports(text):
+    """All modules that a source imports, at its top or in a function; ours without the package."""
+    for node in running(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            assert not node.level, "relative imports hide where they go"
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+        else:
+            continue
+        for name in names:
+            ours = name == "geneva_cli" or name.startswith("geneva_cli.")
+            yield own(name.removeprefix("geneva_cli").lstrip(".")) if ours else f"{name} (theirs)"
+
+
+def ours(text):
+    return {name for name in imports(text) if not name.endswith("(theirs)")} - {""}
+
+
+def climbs(module, text):
+    """What a module imports that is not below it, and not in its own room."""
+    above = {m for m in ours(text) if room(m) != room(module) and floor(m) >= floor(module)}
+    return sorted(above)
+
+
+def beside_designs(text):
+    """What a command imports that it should ask a Design or a study for."""
+    inner = {"machine", "spec", "parts", "verdict", "analysis", "curves", "numerics", "specfile"}
+    return {m for m in ours(text) if room(m) in inner} - ALONE
+
+
+def streams(text):
+    """Calls and names in a source that touch a file or a stream."""
+    for node in running(ast.parse(text)):
+        said = ast.unparse(node)
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in (
+            "open",
+            "io.open",
+            "os.open",
+            "print",
+            "input",
+            "exec",
+        ):
+            yield said
+        if isinstance(node, ast.Attribute) and said in ("sys.stdin", "sys.stdout", "sys.stderr"):
+            yield said
+
+
+def asks(text):
+    """Where a source asks which machine it is: by a kind's name, or by a literal attribute."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Compare):
+            for side in (node.left, *node.comparators):
+                words = {n.value for n in ast.walk(side) if isinstance(n, ast.Constant)}
+                if words & NAMES:
+                    yield ast.unparse(node)
+        if not (isinstance(node, ast.Call) and len(node.args) > 1):
+            continue
+        called, second = ast.unparse(node.func), node.args[1]
+        literal = called in ("getattr", "hasattr") and isinstance(second, ast.Constant)
+        kinds = {ast.unparse(n).rpartition(".")[2] for n in ast.walk(second)}
+        if literal or (called in ("isinstance", "issubclass") and kinds & CLASSES):
+            yield ast.unparse(node)
+
+
+CLASSES = {
+    path.partition(":")[2]
+    for kinds in (registry.DRIVES, registry.GEARINGS, registry.LAWS)
+    for path in kinds.values()
+} | {"Transmission", "PinPath", "Linkage", "Followed", "Classic", "LawMotion", "SolvedSlot"}
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m])
+def test_imports_go_down(module):
+    assert floor(module) is not None, "a new room needs a floor"
+    assert climbs(module, source(module)) == []
+
+
+def test_no_circle():
+    graph = {module: ours(source(module)) - {module} for module in MODULES}
+    try:
+        list(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        pytest.fail(f"imports go round: {' -> '.join(error.args[1])}")
+
+
+@pytest.mark.parametrize("kind", MEMBERS)
+def test_members_of_a_kind_do_not_know_each_other(kind):
+    members = {f"machine.{name}" for name in MEMBERS[kind]}
+    for member in members:
+        assert not (ours(source(member)) & members) - {member}, member
+
+
+@pytest.mark.parametrize("room_of", ["commands", "bench.subjects"])
+def test_commands_and_subjects_do_not_know_each_other(room_of):
+    members = {m for m in MODULES if m.startswith(room_of + ".")} - {"commands.options"}
+    for member in members:
+        assert not (ours(source(member)) & members) - {member}, member
+
+
+def test_commands_ask_a_design():
+    """A command knows a machine only as the object that a Python user has."""
+    asked = [source(module) for module in MODULES if room(module) == "commands"]
+    assert {m for text in asked for m in beside_designs(text)} == set()
+    # and what is open is used
+    assert {m for text in asked for m in ours(text)} >= ALONE
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from geneva_cli.machine.mechanism import build",
+        "def run():\n    from geneva_cli.analysis.peaks import worst",
+        "from geneva_cli.specfile import reader",
+    ],
+)
+def test_a_command_that_goes_round_the_design_would_be_noticed(line):
+    assert beside_designs(line)
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if room(m) not in STREAMS])
+def test_touches_no_stream(module):
+    assert list(streams(source(module))) == []
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if room(m) not in TYPER])
+def test_does_not_know_typer(module):
+    assert not [name for name in imports(source(module)) if name.startswith(("typer", "click"))]
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m != "machine.registry"])
+def test_nobody_asks_which_machine_it_is(module):
+    assert list(asks(source(module))) == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from geneva_cli.analysis.peaks import peak",
+        "from geneva_cli import app",
+        "import geneva_cli.output.text",
+        "from geneva_cli.curves.shapes import Line",
+        "def late():\n    from geneva_cli.verdict.checks import checks",
+    ],
+)
+def test_an_import_upwards_would_be_noticed(line):
+    assert climbs("machine.mechanism", line)
+    assert not climbs("machine.mechanism", "if TYPE_CHECKING:\n" + textwrap.indent(line, "    "))
+
+
+def test_a_stream_would_be_noticed():
+    assert list(streams("def f():\n    print(1)")) == ["print(1)"]
+    assert list(streams("x = sys.stdout.isatty()")) == ["sys.stdout"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'spec.drive.NAME == "cam"',
+        'if law in ("sine-group", "table"): pass',
+        'getattr(spec.drive, "A", None)',
+        "isinstance(drive, SideCrank)",
+        "isinstance(motion, (int, path_and_slot.Classic))",
+    ],
+)
+def test_a_question_would_be_noticed(line):
+    assert list(asks(line))

@@ -1,0 +1,201 @@
+"""Checks and cautions: each must be able to fail. Their advice is in test_advice."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+import repo
+from typer.testing import CliRunner
+from words import Drive, Keys, Motion, Spec, Wheel, load
+
+from geneva_cli.app import app
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import build
+from geneva_cli.numerics.keeps import keeps
+from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.turn.full_turn import Most
+from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.verdict.cautions import cautions
+from geneva_cli.verdict.checks import Check, checks
+from geneva_cli.verdict.clearances import clearances
+from geneva_cli.verdict.turn_cautions import turn_cautions
+
+DESIGNS = repo.DESIGNS
+
+CURVED = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"))
+LOADED = Spec(Wheel(6), size=Size(200.0, 8.0, face_width_mm=10.0), load=Load(0.4, 15.0))
+
+
+def failing(spec: Spec) -> list[str]:
+    # of the motion and the limits; walls, shafts and the full turn have tests of their own
+    return [c.name for c in checks(build(spec), parts=False) if not c.passes]
+
+
+def test_a_sound_design_passes() -> None:
+    assert not failing(LOADED.but(limits=Limits(acceleration_max=1.4, pin_force_max_N=1e4)))
+    assert not failing(CURVED)
+    assert not cautions(build(LOADED))
+    assert not cautions(build(CURVED))
+
+
+@pytest.mark.parametrize(
+    ("spec", "said"),
+    [
+        (Spec(Wheel(25)), "z = 25"),
+        (CURVED.but(motion=Motion("cycloidal", ratio=0.45)), "mid condition"),
+        (CURVED.but(motion=Motion("sine-group", 0.13)), "turns back"),
+        (CURVED.but(motion=Motion("sine-group", -0.13)), "turns back"),
+        (CURVED.but(motion=Motion("harmonic", ratio="matched")), "soft shock"),
+        (CURVED.but(size=Size(100.0, 20.0)), "undercut"),
+    ],
+)
+def test_cautions(spec: Spec, said: str) -> None:
+    assert any(said in text for text in cautions(build(spec)))
+
+
+@pytest.mark.parametrize("shape", [-0.125, 0.0, 0.125])
+def test_the_sine_group_does_not_turn_back_up_to_an_eighth(shape: float) -> None:
+    spec = CURVED.but(motion=Motion("sine-group", shape, ratio="matched"))
+    assert not any("turns back" in text for text in cautions(build(spec)))
+
+
+def test_the_side_crank_moves_the_mid_condition() -> None:
+    """l/(1-l) = psi1 (1+A) at mid-motion: the crank there runs 1/(1+A) times as fast."""
+    spec = Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.5), CURVED.motion)
+    mechanism = build(spec)
+    v = 2.0 * 60.0 / mechanism.engagements[0].motion_deg * 1.5
+    assert mechanism.ratio == pytest.approx(v / (1.0 + v), rel=4e-16 * 4)
+    assert not cautions(mechanism)
+
+
+def rows(spec: Spec) -> dict[str, Check]:
+    return {c.name: c for c in checks(build(spec))}
+
+
+def test_something_must_hold_the_wheel_in_the_dwell() -> None:
+    without = Spec(Wheel(6), size=Size(lock_radius_mm=0.0))
+    assert rows(Spec(Wheel(6)))["dwell_hold"].passes
+    assert rows(without)["dwell_hold"].passes is False
+    assert rows(without.but(wheel=Wheel(6, held_by="brake")))["dwell_hold"].passes
+    assert any("nothing holds the wheel" in said for said in cautions(build(without)))
+    assert not cautions(build(without.but(wheel=Wheel(6, held_by="brake"))))
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        Spec(Wheel(6, "spherical")),
+        Spec(Wheel(400)),
+        load(str(DESIGNS / "gear-sector.toml")).spec,
+    ],
+    ids=["spherical", "400 slots", "gear-sector"],
+)
+def test_what_is_not_proved_is_said(spec: Spec) -> None:
+    parts = rows(spec)["parts"]
+    assert parts.passes is None
+    assert parts.nearest.startswith("not proved: ")
+
+
+@pytest.mark.parametrize("key", ["pin_force_max_N", "input_torque_max_Nm"])
+def test_a_limit_on_loads_needs_a_load(key: str) -> None:
+    limits = Limits(**{key: 20.0})
+    with pytest.raises(GenevaError, match=f"{key} needs a load.*inertia_kgm2 or torque_Nm") as said:
+        Spec(Wheel(6), limits=limits)
+    assert said.value.key == ("limits", key)
+    loaded = Spec(Wheel(6), limits=limits, load=Load(torque_Nm=0.1))
+    assert (rows(loaded)[key].value or 0.0) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("value", "must_be", "limit", "kept"),
+    [
+        (0.4999999999999787, "at least", 0.5, True),  # a horn, of issue 9
+        (0.49999, "at least", 0.5, False),
+        (40.00000001, "at most", 40.0, True),
+        (40.001, "at most", 40.0, False),
+        (0.0, "above", 0.0, False),
+        (-1e-12, "at least", 0.0, False),
+    ],
+)
+def test_rounding_breaks_no_limit(value: float, must_be: str, limit: float, kept: bool) -> None:
+    assert keeps(value, must_be, limit) is kept
+
+
+def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
+    assert keeps(-2e-6, "at least", 0.0, noise=1e-5)
+    assert not keeps(-2e-5, "at least", 0.0, noise=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("keys", "row", "value"),
+    [
+        # L - R - r - r/20 is 44.75 mm at L = 100, R = 50, r = 5
+        ("wheel_bore_mm = 89.4", "wheel_bore_wall_mm", 44.75 - 44.7),
+        # The relief's arc: from the centre at L rk / R, radius L cos 30 deg rk / R
+        ("crank_bore_mm = 12", "crank_bore_wall_mm", 80.0 * (1.0 - math.sqrt(0.75)) - 6.0),
+    ],
+)
+def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
+    path = tmp_path / "bore.toml"
+    path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
+    rows = {c.name: c for c in clearances(outlines(load(str(path))))}
+    assert rows[row].value == pytest.approx(value, abs=1e-5)
+    assert rows[row].limit == 0.5
+    assert rows[row].passes == (value >= 0.5)
+
+
+def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
+    path = tmp_path / "ring.toml"
+    size = "[size]\nwheel_outer_radius_mm = 155.5\n"
+    path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
+    rows = {c.name: c for c in clearances(outlines(load(str(path))))}
+    # L + R + r + r/20 is 155.25 mm
+    assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
+    assert not rows["outer_wall_mm"].passes
+
+
+def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
+    path, out = tmp_path / "bore.toml", tmp_path / "wheel.svg"
+    export = ["profile", str(path), "--part", "wheel", "-o", str(out)]
+    path.write_text("[wheel]\nz = 6\n[size]\nwheel_bore_mm = 89.4\n")
+    run = CliRunner().invoke(app, export)
+    assert run.exit_code == 0
+    assert "warning: wheel_bore_wall_mm is 0.05; it must be at least 0.5" in run.stderr
+    path.write_text("[wheel]\nz = 6\n[size]\ncrank_bore_mm = 30\n")
+    out.unlink()
+    run = CliRunner().invoke(app, export)
+    assert run.exit_code == 1
+    assert "not written: the crank's bore breaks through the relief by" in run.stderr
+    assert not out.exists()
+
+
+def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
+    """z 6, L 100, r 5, clearances of 1 mm: no parts overlap, and the hand-over has 80.9 deg."""
+    path, out = tmp_path / "loose.toml", tmp_path / "wheel.svg"
+    path.write_text("[wheel]\nz = 6\n[size]\nslot_clearance_mm = 1\nlock_clearance_mm = 1\n")
+    export = ["profile", str(path), "--part", "wheel", "-o", str(out)]
+    run = CliRunner().invoke(app, export)
+    assert run.exit_code == 1
+    assert "the roller meets the wheel" in run.stderr
+    assert not out.exists()
+    run = CliRunner().invoke(app, [*export, "--force"])
+    assert run.exit_code == 0
+    assert "warning: " in run.stderr
+    assert out.exists()
+
+
+def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
+    """What counts is what the turn shows, not that a lock is drawn: see test_full_turn."""
+    proof = Proof(build(Spec(Wheel(6))))
+    proof.__dict__["_turned"] = proof.turn._replace(dwell=Most(30.0, 180.0))
+    found = {c.name: c.passes for c in checks(proof.mechanism, proof)}
+    assert found["dwell_hold"] is False
+
+
+def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
+    """Just inside an offset slot's mouth there is no wall yet on the roller's other side."""
+    (said,) = turn_cautions(Proof(load(str(DESIGNS / "offset-slots.toml"))))
+    assert re.match(r"in its slot the wheel is free ahead by 6\.49\d* deg at -61\.\d+ deg", said)
+    assert not turn_cautions(Proof(load(str(DESIGNS / "limits.toml"))))

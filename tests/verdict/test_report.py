@@ -1,0 +1,151 @@
+"""`geneva report`: what check says stands on top, and a program finds the same names everywhere."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+import repo
+from typer.testing import CliRunner
+from words import load
+
+from geneva_cli.app import app
+
+DESIGNS = repo.DESIGNS
+JAMS = "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n"
+LIMITED = (
+    'title = "<b>Held</b>"\n[wheel]\nz = 6\n[drive]\nn_rpm = 30\n[size]\nslot_clearance_mm = 0.01\n'
+    "[load]\ninertia_kgm2 = 0.01\n[limits]\npin_force_max_N = 900\n"
+)
+
+
+def run(*arguments: str) -> Any:
+    return CliRunner().invoke(app, list(arguments))
+
+
+def written(folder: Path, text: str) -> str:
+    file = folder / "spec.toml"
+    file.write_text(text)
+    return str(file)
+
+
+def names(tree: Any, path: str = "") -> set[str]:
+    """The dotted names of a json object; what may be a list or null has no names below it."""
+    if not isinstance(tree, dict) or not path.count(".") < 3:
+        return {path}
+    return {name for k, v in tree.items() for name in names(v, f"{path}.{k}")}
+
+
+def test_failed_checks_stand_on_top_and_end_as_check_does(tmp_path: Path) -> None:
+    spec = written(tmp_path, JAMS)
+    found = run("report", spec, "--format", "json")
+    assert found.exit_code == run("check", spec).exit_code == 1
+    tree = json.loads(found.stdout)
+    assert list(tree)[:4] == ["spec", "title", "passes", "checks_failed"]
+    assert tree["passes"] is False
+    (failed,) = tree["checks_failed"]
+    assert re.match(r"gap_mm = -9\.17\d* at -?[\d.]+ deg, must be at least 0; nearest", failed)
+    text = run("report", spec).stdout
+    assert text.index("gap_mm = -9.17") < text.index("timing")
+    for format in ("csv", "md"):
+        assert "gap" in run("report", spec, "--format", format).stdout
+
+
+def test_a_sound_design_passes_both(tmp_path: Path) -> None:
+    spec = written(tmp_path, LIMITED)
+    found = run("report", spec, "--format", "json")
+    assert found.exit_code == run("check", spec).exit_code == 0
+    tree = json.loads(found.stdout)
+    assert tree["title"] == "<b>Held</b>"
+    assert tree["passes"] is True
+    assert tree["checks_failed"] == tree["not_proved"] == tree["warnings"] == []
+    # What it was asked.
+    assert tree["inputs"]["drive"] == {"n_rpm": 30.0}
+    assert tree["inputs"]["size"]["slot_clearance_mm"] == 0.01
+    assert tree["inputs"]["load"]["inertia_kgm2"] == 0.01
+    assert tree["inputs"]["limits"]["pin_force_max_N"] == 900.0
+    assert 0.0 < tree["loads"]["pin_force_N"]["max"] <= 900.0
+    assert -60.0 <= tree["loads"]["pin_force_N"]["at_deg"] <= 60.0
+
+    page = run("report", spec, "--format", "md").stdout.splitlines()
+    assert page[0].startswith("# ")
+    assert "wheel" not in page[0]
+    assert page[2].startswith("An external wheel of 6 straight radial slots")
+    assert not any("<b>" in line for line in page)
+
+
+def test_a_program_finds_the_same_names_for_every_machine() -> None:
+    """Spherical, toothed, a linkage, two unlike engagements, and a plain one."""
+    trees = {}
+    for name in (
+        "spherical-z6",
+        "gear-sector",
+        "four-bar-z4",
+        "two-rollers-side-crank",
+        "projector",
+    ):
+        found = run("report", str(DESIGNS / f"{name}.toml"), "--format", "json")
+        assert found.exit_code == 0
+        trees[name] = json.loads(found.stdout)
+    plain = names(trees["projector"])
+    for name, tree in trees.items():
+        assert names(tree) == plain, name
+    assert [trees[n]["not_proved"] != [] for n in trees] == [True, True, False, False, False]
+    two = trees["two-rollers-side-crank"]
+    assert len(two["stations"]) == 2
+    assert trees["projector"]["stations"] is None
+    worst = max(s["acceleration"]["max"] for s in two["stations"])
+    assert two["acceleration"]["max"] == worst
+    assert two["timing"]["motion_deg"] is None
+    assert two["timing"]["dwell_deg"] == pytest.approx(45.0)
+
+
+@pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
+def test_what_is_not_proved_shows_in_every_format(format: str) -> None:
+    spec = str(DESIGNS / "spherical-z6.toml")
+    for command in ("report", "check"):
+        found = run(command, spec, "--format", format)
+        assert found.exit_code == 0
+        assert "not drawn or turned" in found.stdout
+
+
+@pytest.mark.parametrize(
+    "name", ["elliptical-gears", "epicyclic-soft-z6", "gear-sector", "four-bar-z4", "geneva-pair"]
+)
+def test_the_words_are_english(name: str) -> None:
+    from geneva_cli.verdict.report import words
+
+    said = words(load(str(DESIGNS / f"{name}.toml")))
+    assert not re.search(r"\ban? (elliptical-gears|epicyclic|geneva-pair|gear-sector)", said)
+    assert re.search(r"driven by a (crank|roller|point) ", said)
+
+
+def test_every_spec_is_checked_also_beside_one_that_is_missing(tmp_path: Path) -> None:
+    """In the order asked for, as if one after the other; the errors come to the other stream."""
+    good, bad = str(DESIGNS / "projector.toml"), str(tmp_path / "missing.toml")
+    found = run("check", bad, good, written(tmp_path, "[wheel]\nz = 2\n"), good)
+    assert found.exit_code == 2
+    alone = run("check", good).stdout.splitlines()[3:]
+    rows = [line.split()[1:] for line in found.stdout.splitlines()[3:]]
+    assert rows == [line.split()[1:] for line in alone] * 2
+    first, second = found.stderr.splitlines()
+    assert first.startswith(f"{bad}: cannot read")
+    assert re.search(r"spec\.toml:2: .*z", second)
+
+
+def test_without_a_good_spec_nothing_is_printed(tmp_path: Path) -> None:
+    found = run("check", str(tmp_path / "a.toml"), str(tmp_path / "b.toml"))
+    assert (found.exit_code, found.stdout) == (2, "")
+    assert len(found.stderr.splitlines()) == 2
+
+
+def test_peaks_begin_with_spec_and_title() -> None:
+    for name, engagements in (("projector", 0), ("two-rollers-side-crank", 2)):
+        spec = str(DESIGNS / f"{name}.toml")
+        tree = json.loads(run("peaks", spec, "--format", "json").stdout)
+        assert list(tree)[:2] == ["spec", "title"]
+        assert tree["spec"] == spec
+        assert len(tree["stations"] or []) == engagements
+        greatest = max(s["jerk"]["max"] for s in tree["stations"] or [tree])
+        assert tree["jerk"]["max"] == greatest
