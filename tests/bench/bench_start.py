@@ -12,7 +12,7 @@ import repo
 from geneva_cli.bench.timing_pairs import median_ratio, paired
 
 PAIRS = 40
-BUDGET = 1.1
+BUDGET = 1.05
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 DESIGNS = str(repo.DESIGNS)
 COMPLETE = {
