@@ -190,7 +190,11 @@ def test_no_worker_outlives_the_check_that_started_it() -> None:
     designs = sorted(str(p) for p in (repo.DESIGNS).glob("*.toml"))
     command = [sys.executable, "-m", "geneva_cli", "check", *designs]
     run = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        preexec_fn=repo.heed_signals,
     )
     try:
         time.sleep(1.0)
@@ -200,3 +204,4 @@ def test_no_worker_outlives_the_check_that_started_it() -> None:
     finally:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(run.pid, signal.SIGKILL)
+        run.communicate()

@@ -13,6 +13,7 @@ import sys
 import time
 
 import pytest
+import repo
 from typer.testing import CliRunner
 from words import load
 
@@ -163,8 +164,7 @@ def stopped(number):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        # whoever runs the tests may ignore SIGINT, and children inherit that
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        preexec_fn=repo.heed_signals,
     )
     deadline = time.monotonic() + 30
     while not leftovers() and process.poll() is None and time.monotonic() < deadline:
@@ -203,7 +203,7 @@ def test_ctrl_c_while_printing():
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        preexec_fn=repo.heed_signals,
     )
     assert process.stdout.readline().startswith("time_s,")
     process.send_signal(signal.SIGINT)
