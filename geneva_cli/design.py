@@ -237,7 +237,9 @@ class Design:
     @property
     def passes(self) -> bool:
         """Whether no check fails; what cannot be proved does not fail."""
-        return all(check.passes is not False for check in self.checks)
+        from geneva_cli.verdict.checks import all_pass
+
+        return all_pass(self.checks)
 
     def judge(self, proof: Proof) -> tuple[str, list[str]]:
         """Why drawn parts cannot be written, empty where they can, and what else is wrong."""
@@ -257,4 +259,4 @@ class Design:
         """The whole page: a record of named values, whether all checks pass, and the cautions."""
         from geneva_cli.verdict.report import report
 
-        return report(self.mechanism)
+        return report(self.mechanism, self.proof, self.checks)

@@ -1,5 +1,6 @@
 """Where the repository's files are, for tests in any folder."""
 
+import os
 import signal
 from pathlib import Path
 
@@ -12,3 +13,15 @@ def heed_signals() -> None:
     """In a child: whoever runs the tests may ignore signals (nohup, a job behind &)."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
+
+
+def read_terminal(master: int) -> bytes:
+    """All that is said to a pseudo-terminal whose other end only a child has open."""
+    said = b""
+    try:
+        while piece := os.read(master, 65536):
+            said += piece
+    except OSError:  # Linux: the other end is closed
+        pass
+    os.close(master)
+    return said

@@ -15,7 +15,7 @@ from geneva_cli.specfile.reader import read
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
-from geneva_cli.verdict.checks import Check
+from geneva_cli.verdict.checks import Check, all_pass
 
 NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
 
@@ -32,7 +32,7 @@ class Verdict(NamedTuple):
     @property
     def passes(self) -> bool:
         """Whether no check fails; what cannot be proved does not fail."""
-        return not self.error and all(c.passes is not False for c in self.checks)
+        return not self.error and all_pass(self.checks)
 
 
 def verdict(path: str) -> Verdict:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -40,6 +40,11 @@ class Check(NamedTuple):
     passes: bool | None
     nearest: str = ""
     at_deg: float | None = None
+
+
+def all_pass(rows: Iterable[Check]) -> bool:
+    """Whether no check fails; what cannot be proved does not fail."""
+    return all(check.passes is not False for check in rows)
 
 
 Asked: TypeAlias = dict[str, Callable[[], Check]]

@@ -18,7 +18,7 @@ from geneva_cli.spec.tables import Limits, Load
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
-from geneva_cli.verdict.checks import Check
+from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.load_cautions import load_cautions
 from geneva_cli.verdict.turn_cautions import turn_cautions
 
@@ -31,15 +31,18 @@ class Report(NamedTuple):
     cautions: tuple[str, ...]
 
 
-def report(mechanism: Mechanism) -> Report:
+def report(
+    mechanism: Mechanism, proof: Proof | None = None, rows: list[Check] | None = None
+) -> Report:
     """Everything about one design, as a tree of named values under a paragraph of words.
 
-    The names are the same for every machine; a value is None where it does not apply.
+    The names are the same for every machine; a value is None where it does not apply. ``proof``
+    and the checks' ``rows`` are the machine's own, where they have been made already.
     """
-    proof = Proof(mechanism)
-    rows = judged(mechanism, proof)
+    proof = proof or Proof(mechanism)
+    rows = judged(mechanism, proof) if rows is None else rows
     told = (*cautions(mechanism), *load_cautions(mechanism), *turn_cautions(proof))
-    passes = all(c.passes is not False for c in rows)
+    passes = all_pass(rows)
     title = mechanism.spec.title
     values: dict[str, Any] = {
         "spec": mechanism.spec.path,

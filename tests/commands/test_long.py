@@ -76,13 +76,7 @@ def test_progress_on_a_terminal():
     arguments = ["motion", "spec.toml", "--samples", str(3 * PIECE), "-o", "out.csv"]
     process = subprocess.Popen([GENEVA, *arguments], stdout=subprocess.PIPE, stderr=slave)
     os.close(slave)
-    said = b""
-    try:
-        while piece := os.read(master, 4096):
-            said += piece
-    except OSError:  # Linux: the other end is closed
-        pass
-    os.close(master)
+    said = repo.read_terminal(master)
     process.stdout.close()
     assert process.wait(timeout=60) == 0
     assert b"131,072 of 196,608 rows" in said

@@ -418,13 +418,7 @@ def on_a_terminal(*arguments):
     master, slave = pty.openpty()
     process = subprocess.Popen([GENEVA, *arguments], stdout=slave, stderr=subprocess.PIPE)
     os.close(slave)
-    seen = b""
-    try:
-        while piece := os.read(master, 65536):
-            seen += piece
-    except OSError:  # Linux: the other end is closed
-        pass
-    os.close(master)
+    seen = repo.read_terminal(master)
     err = process.stderr.read()
     process.stderr.close()
     assert process.wait(timeout=30) in (0, 1), err
