@@ -39,7 +39,14 @@ if TYPE_CHECKING:  # what a type checker sees
     from geneva_cli.machine.wheels.spherical import Spherical as Spherical
     from geneva_cli.spec.tables import Limits as Limits
     from geneva_cli.spec.tables import Load as Load
+    from geneva_cli.spec.tables import Mass as Mass
+    from geneva_cli.spec.tables import Motor as Motor
+    from geneva_cli.spec.tables import RollerMaterial as RollerMaterial
+    from geneva_cli.spec.tables import Shaft as Shaft
     from geneva_cli.spec.tables import Size as Size
+    from geneva_cli.spec.tables import Support as Support
+    from geneva_cli.spec.tables import Tolerance as Tolerance
+    from geneva_cli.spec.tables import WheelMaterial as WheelMaterial
 
 __version__ = "0.1.0"
 
@@ -52,6 +59,13 @@ _FROM = {
     "Size": "spec.tables",
     "Load": "spec.tables",
     "Limits": "spec.tables",
+    "Mass": "spec.tables",
+    "Motor": "spec.tables",
+    "RollerMaterial": "spec.tables",
+    "Shaft": "spec.tables",
+    "Support": "spec.tables",
+    "Tolerance": "spec.tables",
+    "WheelMaterial": "spec.tables",
     "External": "machine.wheels.external",
     "Internal": "machine.wheels.internal",
     "Spherical": "machine.wheels.spherical",

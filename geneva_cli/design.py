@@ -12,7 +12,7 @@ What is imported for an answer is imported when it is asked for: here is the one
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,7 +22,18 @@ from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.gearing import Gearing
-from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.spec.tables import (
+    Limits,
+    Load,
+    Mass,
+    Motor,
+    RollerMaterial,
+    Shaft,
+    Size,
+    Support,
+    Tolerance,
+    WheelMaterial,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.forces import Greatest
@@ -79,6 +90,13 @@ class Design:
         *,
         size: Size | None = None,
         load: Load | None = None,
+        mass: Sequence[Mass] = (),
+        support: Support | None = None,
+        motor: Motor | None = None,
+        shaft: Shaft | None = None,
+        material_wheel: WheelMaterial | None = None,
+        material_roller: RollerMaterial | None = None,
+        tolerance: Tolerance | None = None,
         limits: Limits | None = None,
         title: str = "",
     ) -> None:
@@ -88,6 +106,13 @@ class Design:
             motion,
             size or Size(),
             load or Load(),
+            tuple(mass),
+            support or Support(),
+            motor or Motor(),
+            shaft or Shaft(),
+            material_wheel or WheelMaterial(),
+            material_roller or RollerMaterial(),
+            tolerance or Tolerance(),
             limits or Limits(),
             title,
         )

@@ -11,10 +11,10 @@ class GenevaError(Exception):
     """Wrong spec, wrong file or wrong value: shown as ``FILE:LINE: message``, exit code 2.
 
     ``key`` names the place in the spec, as in ``("drive", "A")``; the reader of the spec
-    turns it into a file and a line.
+    turns it into a file and a line; a number in it counts a list's tables from 0.
     """
 
-    def __init__(self, message: str, key: tuple[str, ...] = ()) -> None:
+    def __init__(self, message: str, key: tuple[str | int, ...] = ()) -> None:
         super().__init__(message)
         self.key = key
 

@@ -13,7 +13,22 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import FINITE, Range, Words
 from geneva_cli.spec.schema import Table, fields, unknown
-from geneva_cli.spec.tables import DISTANCE_MM, Z_DRAWN, Limits, Load, Size
+from geneva_cli.spec.tables import (
+    DISTANCE_MM,
+    LISTS,
+    PLAIN,
+    Z_DRAWN,
+    Limits,
+    Load,
+    Mass,
+    Motor,
+    RollerMaterial,
+    Shaft,
+    Size,
+    Support,
+    Tolerance,
+    WheelMaterial,
+)
 
 LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  # limits on loads
 
@@ -45,6 +60,11 @@ class Motion(Table):
         return super().with_key(key, value)
 
 
+def attribute(table: str) -> str:
+    """The field of ``Spec`` that holds a table of the file."""
+    return table.replace(".", "_")
+
+
 def _refuse_other(of: Any, name: str, kind: type, example: str) -> None:
     """A Python user may give the word of a file, or a class, for the object that it stands for."""
     given = getattr(of, name)
@@ -64,6 +84,13 @@ class Spec:
     motion: Motion | None = None
     size: Size = field(default_factory=Size)
     load: Load = field(default_factory=Load)
+    mass: tuple[Mass, ...] = ()
+    support: Support = field(default_factory=Support)
+    motor: Motor = field(default_factory=Motor)
+    shaft: Shaft = field(default_factory=Shaft)
+    material_wheel: WheelMaterial = field(default_factory=WheelMaterial)
+    material_roller: RollerMaterial = field(default_factory=RollerMaterial)
+    tolerance: Tolerance = field(default_factory=Tolerance)
     limits: Limits = field(default_factory=Limits)
     title: str = ""
     path: str = ""
@@ -74,9 +101,12 @@ class Spec:
         _refuse_other(self, "drive", Drive, "Crank(n_rpm=60)")
         if self.motion is not None:
             _refuse_other(self, "motion", Motion, "Motion(Cycloidal())")
-        _refuse_other(self, "size", Size, "Size(center_distance_mm=100)")
-        _refuse_other(self, "load", Load, "Load(torque_Nm=5)")
-        _refuse_other(self, "limits", Limits, "Limits(velocity_max=1)")
+        for name, table in PLAIN.items():
+            if name not in LISTS:
+                _refuse_other(self, attribute(name), table, f"{table.__name__}(...)")
+        object.__setattr__(self, "mass", tuple(self.mass))
+        if not all(isinstance(one, Mass) for one in self.mass):
+            raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
         if self.limits.contact_stress_max_MPa is not None and self.size.face_width_mm is None:
             raise GenevaError(
                 "contact_stress_max_MPa needs the length of the line of contact: set face_width_mm "
@@ -84,12 +114,12 @@ class Spec:
                 ("limits", "contact_stress_max_MPa"),
             )
 
-        if not (self.load.inertia_kgm2 or self.load.torque_Nm):
+        if not self.is_loaded:
             for key in LOADED:
                 if getattr(self.limits, key) is not None:
                     raise GenevaError(
                         f"{key} needs a load, and without one there is nothing to limit: set "
-                        "inertia_kgm2 or torque_Nm in [load]",
+                        "inertia_kgm2 or torque_Nm in [load], or a [[mass]]",
                         ("limits", key),
                     )
 
@@ -101,34 +131,43 @@ class Spec:
         """The values of a table by their keys; of ``motion`` its law's too."""
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
-        tables: dict[str, Table] = {
-            "wheel": self.wheel,
-            "drive": self.drive,
-            "size": self.size,
-            "load": self.load,
-            "limits": self.limits,
-        }
-        return tables[name].as_dict()
+        part = self._part(name)
+        assert part is not None, name
+        return part.as_dict()
+
+    def _part(self, name: str) -> Table | None:
+        """A table by its name in the file, ``mass.0`` being the first of a list; None: no such."""
+        if name in ("wheel", "drive", "motion"):
+            found: Table | None = vars(self)[name]
+            return found
+        if name in PLAIN and name not in LISTS:
+            plain: Table = vars(self)[attribute(name)]
+            return plain
+        table, _, number = name.partition(".")
+        several = vars(self)[table] if table in LISTS else ()
+        return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
 
     def with_(self, key: str, value: Any) -> Self:
         """The same with one key changed, written ``table.key`` as in the file; None: its default.
 
         Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
         """
-        table, _, name = key.partition(".")
-        part = {
-            "wheel": self.wheel,
-            "drive": self.drive,
-            "motion": self.motion,
-            "size": self.size,
-            "load": self.load,
-            "limits": self.limits,
-        }.get(table)
+        table, _, name = key.rpartition(".")
+        part = self._part(table)
         if part is None:
-            raise GenevaError(f"{key}: this spec has no [{table}]", (table, name))
-        if part is self.motion:
-            return self.but(motion=self.motion.with_key(name, value))
-        return self.but(**{table: part.with_key(name, value)})
+            missing = table or key
+            raise GenevaError(f"{key}: this spec has no [{missing}]", tuple(key.split(".")))
+        changed = part.with_key(name, value)
+        one_of, _, number = table.partition(".")
+        if one_of not in LISTS:
+            return self.but(**{attribute(table): changed})
+        several, at = vars(self)[one_of], int(number)
+        return self.but(**{one_of: (*several[:at], changed, *several[at + 1 :])})
+
+    @property
+    def is_loaded(self) -> bool:
+        """Whether anything is known that resists the wheel: an inertia, a mass or a torque."""
+        return bool(self.load.inertia_kgm2 or self.load.torque_Nm or self.mass)
 
     @property
     def is_flat(self) -> bool:

@@ -83,7 +83,7 @@ class Csv(NamedTuple):
         return ""
 
     def check(
-        self, pairs: Sequence[tuple[float, float]], file: str, place: tuple[str, str]
+        self, pairs: Sequence[tuple[float, float]], file: str, place: tuple[str, ...]
     ) -> None:
         """Raise GenevaError for pairs that break the rule."""
         name = file or place[1]

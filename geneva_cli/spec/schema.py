@@ -116,7 +116,7 @@ def _fields(table: type[Table]) -> tuple[Field, ...]:
 
 def checked(table: str, field: Field, value: Any) -> Any:
     """A value of the field's type and in its range, as the table holds it."""
-    place = (table, field.key)
+    place = (*table.split("."), field.key)
     if value is None and NoneType in field.types:
         return None
     if isinstance(field.rule, Csv):
@@ -135,7 +135,7 @@ def checked(table: str, field: Field, value: Any) -> Any:
     raise GenevaError(f"{field.key} must be {wanted}, not {shown(value)}", place)
 
 
-def _number(place: tuple[str, str], field: Field, value: float, whole: bool) -> float:
+def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> float:
     if whole and not isinstance(value, int):
         raise GenevaError(
             f"{field.key} = {value!r} must be a whole number{_whole(value)} ({field.meaning})",
@@ -153,7 +153,7 @@ def _number(place: tuple[str, str], field: Field, value: float, whole: bool) -> 
         ) from None
 
 
-def _word(place: tuple[str, str], field: Field, value: str, numeric: bool) -> str:
+def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> str:
     words = field.rule.words if isinstance(field.rule, Words) else ()
     if isinstance(field.rule, OneOf) and value not in field.rule:
         raise GenevaError(
@@ -165,14 +165,14 @@ def _word(place: tuple[str, str], field: Field, value: str, numeric: bool) -> st
     return value
 
 
-def _points(place: tuple[str, str], field: Field, value: Any) -> Points:
+def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
     """Pairs in ascending order within the rule's bounds; a Python user may give a list of them."""
     points = value if isinstance(value, Points) else Points(_pairs(place, field, value))
     field.rule.check(points.pairs, points.file, place)
     return points
 
 
-def _pairs(place: tuple[str, str], field: Field, value: Any) -> tuple[tuple[float, float], ...]:
+def _pairs(place: tuple[str, ...], field: Field, value: Any) -> tuple[tuple[float, float], ...]:
     try:
         return tuple((float(x), float(y)) for x, y in value)
     except (TypeError, ValueError):
@@ -185,7 +185,7 @@ def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
     """What is said of a key that a table does not have."""
     return GenevaError(
         f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {', '.join(known)}",
-        (table, key),
+        (*table.split("."), key),
     )
 
 
@@ -195,7 +195,7 @@ def require(table: type[Table], given: Sequence[str], why: str = "") -> None:
         if field.default is REQUIRED and field.key not in given:
             raise GenevaError(
                 f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}",
-                (table.TABLE,),
+                tuple(table.TABLE.split(".")),
             )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.spec.rules import NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Table
 
@@ -83,8 +84,154 @@ class Load(Table):
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists motion"] = 0.0
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "eta of the wheel"] = 1.0
     friction: Annotated[float, NOT_NEGATIVE, "roller against slot, coefficient"] = 0.0
-    youngs_modulus_GPa: Annotated[float, POSITIVE, "of roller and wheel"] = 210.0
-    poisson_ratio: Annotated[float, Range(0.0, 0.5), "of roller and wheel"] = 0.3
+
+
+@dataclass(frozen=True)
+class Mass(Table):
+    """One ``[[mass]]``: a body that the wheel carries, or several alike."""
+
+    TABLE: ClassVar[str] = "mass"
+
+    shape: Annotated[str, OneOf(("disc", "ring", "block", "point")), "shape of the body"]
+    mass_kg: Annotated[float | None, POSITIVE, "of one; or density_kgm3 and its sizes"] = None
+    density_kgm3: Annotated[float | None, POSITIVE, "with all sizes, instead of mass_kg"] = None
+    diameter_mm: Annotated[float | None, POSITIVE, "disc and ring: outer diameter D"] = None
+    bore_mm: Annotated[float | None, POSITIVE, "ring: inner diameter d"] = None
+    length_mm: Annotated[float | None, POSITIVE, "block: side a, square to the axis"] = None
+    width_mm: Annotated[float | None, POSITIVE, "block: side c, square to the axis"] = None
+    thickness_mm: Annotated[float | None, POSITIVE, "along the axis; needed with a density"] = None
+    count: Annotated[int, Range(1, 1000), "how many alike"] = 1
+    radius_mm: Annotated[float, NOT_NEGATIVE, "from the wheel's axis to the body's own"] = 0.0
+    name: Annotated[str, None, "what it is"] = ""
+
+    # the sizes that each shape has, of which its mass or inertia follow
+    SIZES: ClassVar[dict[str, tuple[str, ...]]] = {
+        "disc": ("diameter_mm",),
+        "ring": ("diameter_mm", "bore_mm"),
+        "block": ("length_mm", "width_mm"),
+        "point": (),
+    }
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        needed = self.SIZES[self.shape]
+        for key in ("diameter_mm", "bore_mm", "length_mm", "width_mm"):
+            given = getattr(self, key) is not None
+            if given and key not in needed:
+                raise GenevaError(f"a {self.shape} has no {key}; remove it", (self.TABLE, key))
+            if not given and key in needed:
+                raise GenevaError(f"a {self.shape} needs {' and '.join(needed)}", (self.TABLE,))
+        self._refuse_weight()
+        if self.bore_mm and self.diameter_mm and not self.bore_mm < self.diameter_mm:
+            raise GenevaError(
+                f"bore_mm = {self.bore_mm:g} must be below diameter_mm = {self.diameter_mm:g}",
+                (self.TABLE, "bore_mm"),
+            )
+
+    def _refuse_weight(self) -> None:
+        """A mass is given, or follows from a density, one of the two."""
+        if (self.mass_kg is None) == (self.density_kgm3 is None):
+            raise GenevaError("give mass_kg, or density_kgm3 with all sizes: one", (self.TABLE,))
+        if self.density_kgm3 is not None and self.shape == "point":
+            raise GenevaError("a point has no sizes: give mass_kg", (self.TABLE, "density_kgm3"))
+        if self.density_kgm3 is not None and self.thickness_mm is None:
+            raise GenevaError(
+                "density_kgm3 needs thickness_mm, or give mass_kg", (self.TABLE, "density_kgm3")
+            )
+
+
+@dataclass(frozen=True)
+class Support(Table):
+    """``[support]``: the bearing of the table that the wheel turns, and the gears to it."""
+
+    TABLE: ClassVar[str] = "support"
+
+    friction: Annotated[float, NOT_NEGATIVE, "coefficient"] = 0.0
+    radius_mm: Annotated[float, NOT_NEGATIVE, "at which it acts"] = 0.0
+    force_N: Annotated[float, NOT_NEGATIVE, "besides the weight of the masses"] = 0.0
+    axis: Annotated[str, OneOf(("vertical", "horizontal")), "how the wheel's shaft stands"] = (
+        "vertical"
+    )
+    gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
+
+
+@dataclass(frozen=True)
+class Motor(Table):
+    """``[motor]``: what is behind the input shaft."""
+
+    TABLE: ClassVar[str] = "motor"
+
+    service_factor: Annotated[float, Range(1.0, 100.0), "on the load, of the makers' form"] = 1.0
+    gear_ratio: Annotated[float, POSITIVE, "turns of the motor per turn of the input shaft"] = 1.0
+    gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "of the reducer"] = 1.0
+    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "of rotor and reducer, at the motor"] = 0.0
+    speed_variation: Annotated[
+        float | None,
+        Range(0.0, 2.0, "()"),
+        "greatest minus least speed over mean, of a flywheel",
+    ] = None
+
+
+@dataclass(frozen=True)
+class Shaft(Table):
+    """``[shaft]``: the shafts of wheel and crank, and what is elastic between wheel and load."""
+
+    TABLE: ClassVar[str] = "shaft"
+
+    stiffness_Nm_rad: Annotated[float | None, POSITIVE, "between wheel and load"] = None
+    damping_ratio: Annotated[float, Range(0.0, 1.0, "[)"), "of that spring, over critical"] = 0.0
+    wheel_diameter_mm: Annotated[float | None, POSITIVE, "wheel shaft"] = None
+    crank_diameter_mm: Annotated[float | None, POSITIVE, "crank shaft"] = None
+    wheel_overhang_mm: Annotated[
+        float | None, NOT_NEGATIVE, "slot's mid-plane to the nearer bearing"
+    ] = None
+    wheel_span_mm: Annotated[float | None, POSITIVE, "between its two bearings"] = None
+    crank_overhang_mm: Annotated[
+        float | None, NOT_NEGATIVE, "roller's mid-plane to the nearer bearing"
+    ] = None
+    crank_span_mm: Annotated[float | None, POSITIVE, "between its two bearings"] = None
+
+
+@dataclass(frozen=True)
+class Material(Table):
+    """What a part is made of; steel where nothing is said."""
+
+    youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
+    poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
+    density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
+    stress_max_MPa: Annotated[float | None, POSITIVE, "allowable stress"] = None
+
+
+@dataclass(frozen=True)
+class WheelMaterial(Material):
+    """``[material.wheel]``."""
+
+    TABLE: ClassVar[str] = "material.wheel"
+
+
+@dataclass(frozen=True)
+class RollerMaterial(Material):
+    """``[material.roller]``: of the roller and its pin."""
+
+    TABLE: ClassVar[str] = "material.roller"
+
+
+@dataclass(frozen=True)
+class Tolerance(Table):
+    """``[tolerance]``: the dimensions' deviations, each plus or minus."""
+
+    TABLE: ClassVar[str] = "tolerance"
+
+    center_distance_mm: Annotated[float, NOT_NEGATIVE, "+- on the centre distance L"] = 0.0
+    crank_radius_mm: Annotated[float, NOT_NEGATIVE, "+- on the crank's radius R"] = 0.0
+    roller_diameter_mm: Annotated[float, NOT_NEGATIVE, "+- on the roller's diameter"] = 0.0
+    slot_width_mm: Annotated[float, NOT_NEGATIVE, "+- on the slot's width"] = 0.0
+    slot_angle_deg: Annotated[float, NOT_NEGATIVE, "+- on each slot's direction"] = 0.0
+    lock_radius_mm: Annotated[float, NOT_NEGATIVE, "+- on the locking disc's radius"] = 0.0
+    recess_radius_mm: Annotated[float, NOT_NEGATIVE, "+- on the radius of the wheel's recess"] = 0.0
+    distribution: Annotated[
+        str, OneOf(("uniform", "normal")), "within +-; normal: +- is three standard deviations"
+    ] = "uniform"
 
 
 @dataclass(frozen=True)
@@ -101,3 +248,20 @@ class Limits(Table):
     input_torque_max_Nm: Annotated[float | None, POSITIVE, "on the input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "of the slot"] = None
     contact_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, line contact"] = None
+
+
+# The tables that every spec may have, whatever its machine, in the order of a file; each is a field
+# of ``Spec``, a dot being an underscore there. Of those in LISTS there may be several.
+PLAIN: dict[str, type[Table]] = {
+    "size": Size,
+    "load": Load,
+    "mass": Mass,
+    "support": Support,
+    "motor": Motor,
+    "shaft": Shaft,
+    "material.wheel": WheelMaterial,
+    "material.roller": RollerMaterial,
+    "tolerance": Tolerance,
+    "limits": Limits,
+}
+LISTS = ("mass",)

@@ -11,27 +11,29 @@ import tomli
 TRIES = 10  # lines that look like setting a key, before its table is named instead
 
 
-def line_of(text: str, path: tuple[str, ...]) -> int:
+def line_of(text: str, path: tuple[str | int, ...]) -> int:
     """The line where a key (or, failing that, its table) is set; 0 if it is nowhere.
 
     Asks the TOML reader itself: the key's line is the first after which the text so far parses
-    and holds the key. Only lines that look like setting it are tried.
+    and holds the key. Only lines that look like setting it are tried. A number in the path counts
+    the tables of a list, from 0.
     """
     lines = text.split("\n")
     while path:
-        name = re.escape(path[-1])
+        before = sum(part for part in path if isinstance(part, int))  # tables that may set it too
+        name = re.escape(next((p for p in reversed(path) if isinstance(p, str)), ""))
         sets = re.compile(rf"""(^|[\s.,{{\["']){name}["']?\s*[=.\]]""")
         likely = (
             i for i, x in enumerate(lines) if sets.search(x) and not x.lstrip().startswith("#")
         )
-        for i in islice(likely, TRIES):
+        for i in islice(likely, TRIES + before):
             if _holds(lines, i + 1, path):
                 return i + 1
         path = path[:-1]
     return 0
 
 
-def _holds(lines: list[str], end: int, path: tuple[str, ...]) -> bool:
+def _holds(lines: list[str], end: int, path: tuple[str | int, ...]) -> bool:
     """Whether the first lines, up to the end of the value that line ``end`` begins, set the key."""
     more = 0
     while True:
@@ -43,5 +45,8 @@ def _holds(lines: list[str], end: int, path: tuple[str, ...]) -> bool:
                 return False
             more = 2 * more + 1  # a value of many lines
     for part in path:
-        node = node.get(part) if isinstance(node, dict) else None
+        if isinstance(part, int):
+            node = node[part] if isinstance(node, list) and part < len(node) else None
+        else:
+            node = node.get(part) if isinstance(node, dict) else None
     return node is not None

@@ -12,15 +12,15 @@ import tomli
 
 from geneva_cli.errors import GenevaError, clean, cut, nearest
 from geneva_cli.machine import registry
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import REQUIRED, Points, Table, fields, require, shown, unknown
-from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.lines import line_of
 from geneva_cli.specfile.points import read_pairs
 
 BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
-TABLES = ("wheel", "drive", "motion", "size", "load", "limits")
+TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
 
 class Text(NamedTuple):
@@ -118,7 +118,9 @@ def _spec(tree: dict[str, Any], name: str) -> Spec:
                 f"known: title, {', '.join(f'[{t}]' for t in TABLES)}",
                 (table,),
             )
-        if not isinstance(value, dict):
+        if table in LISTS:
+            _refuse_no_list(table, value)
+        elif not isinstance(value, dict):
             raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
     if "wheel" not in tree:
         raise GenevaError(
@@ -139,13 +141,56 @@ def _spec(tree: dict[str, Any], name: str) -> Spec:
             tree.get("drive", {}), "drive", "kind", "crank", registry.DRIVES, registry.drive, files
         ),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
-        size=Size(**_values(Size, tree.get("size", {}), files)),
-        load=Load(**_values(Load, tree.get("load", {}), files)),
-        limits=Limits(**_values(Limits, tree.get("limits", {}), files)),
+        **_plain(tree, files),
         title=clean(title),
         path=name,
         files=tuple(files.read),
     )
+
+
+def _refuse_no_list(table: str, value: Any) -> None:
+    if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
+        raise GenevaError(
+            f"{table} must be a list of tables: write [[{table}]] above the keys of each", (table,)
+        )
+
+
+def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
+    """The tables that do not depend on the machine, by their fields."""
+    out: dict[str, Any] = {}
+    for name, cls in PLAIN.items():
+        table, _, part = name.partition(".")
+        given = tree.get(table, {})
+        if name in LISTS:
+            out[name] = tuple(_one(cls, name, i, one, files) for i, one in enumerate(given or ()))
+            continue
+        if part:
+            _refuse_part(table, given)
+            given = given.get(part, {})
+        out[attribute(name)] = cls(**_values(cls, given, files))
+    return out
+
+
+def _one(cls: type[Table], name: str, i: int, given: dict[str, Any], files: _Files) -> Table:
+    """The i-th table of a list; its errors say which."""
+    try:
+        return cls(**_values(cls, given, files))
+    except GenevaError as error:
+        raise GenevaError(
+            f"[[{name}]] number {i + 1}: {error}", (name, i, *error.key[1:])
+        ) from None
+
+
+def _refuse_part(table: str, given: dict[str, Any]) -> None:
+    """Of a table of tables, such as [material]: each must be known and be a table."""
+    known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
+    for part, value in given.items():
+        if part not in known:
+            raise unknown(part, table, known)
+        if not isinstance(value, dict):
+            raise GenevaError(
+                f"{part} must be a table: write [{table}.{part}] above its keys", (table, part)
+            )
 
 
 def _kind(

@@ -10,6 +10,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive, Example
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.schema import REQUIRED, Field, fields
+from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.writer import keys_of, quoted
 
 # what a plain crank drives
@@ -62,7 +63,9 @@ def template(kind: str) -> str:
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
     keys = keys_of(gearing, drive, law_keys)
     for name, table in keys.items():
-        lines += ["", f"[{name}]", *[_line(field, given.get(name, {})) for field in table]]
+        # an empty table of a list would be one more body, without any of its keys
+        head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
+        lines += ["", head, *[_line(field, given.get(name, {})) for field in table]]
     return "\n".join(lines) + "\n"
 
 

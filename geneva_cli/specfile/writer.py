@@ -7,11 +7,11 @@ from typing import Any
 
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, Table, fields
-from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.spec.tables import LISTS, PLAIN
 
 # The words that name a kind, each in its table.
 GEARING = Field(
@@ -33,9 +33,7 @@ def keys_of(
         "wheel": [slots, GEARING, *wheel],
         "drive": [KIND, *fields(drive)],
         "motion": [LAW, *law_keys, *fields(Motion)],
-        "size": [*fields(Size)],
-        "load": [*fields(Load)],
-        "limits": [*fields(Limits)],
+        **{name: [*fields(table)] for name, table in PLAIN.items()},
     }
 
 
@@ -44,36 +42,30 @@ def written(spec: Spec) -> list[str]:
     law_keys = fields(type(spec.motion.law)) if spec.motion else ()
     lines: list[str] = []
     for name, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
-        values = _values(spec, name)
-        if not values:  # no motion is given: straight slots
-            continue
-        block = [
-            (f"{key.key} = {quoted(values[key.key])}", key.meaning)
-            for key in keys
-            if key.key in values and (values[key.key] != key.default or (name, key.key) in SHOWN)
-        ]
-        if block:
-            width = max(len(setting) for setting, _ in block)
-            lines += ["", f"[{name}]", *[f"{s.ljust(width)}  # {note}" for s, note in block]]
+        head = f"[[{name}]]" if name in LISTS else f"[{name}]"
+        for values in _values(spec, name):
+            block = [
+                (f"{key.key} = {quoted(values[key.key])}", key.meaning)
+                for key in keys
+                if values[key.key] != key.default or (name, key.key) in SHOWN
+            ]
+            if block:
+                width = max(len(setting) for setting, _ in block)
+                lines += ["", head, *[f"{s.ljust(width)}  # {note}" for s, note in block]]
     return lines
 
 
-def _values(spec: Spec, table: str) -> dict[str, Any]:
-    """A table's values by their keys."""
+def _values(spec: Spec, table: str) -> list[dict[str, Any]]:
+    """The values by their keys of each table of a name: one, none, or those of a list."""
     if table == "motion":
-        if spec.motion is None:
-            return {}
+        if spec.motion is None:  # straight slots
+            return []
         law = spec.motion.law
-        return {"law": law.NAME, **_own(law), **_own(spec.motion)}
-    of: dict[str, tuple[dict[str, Any], Table]] = {
-        "wheel": ({"gearing": spec.wheel.NAME}, spec.wheel),
-        "drive": ({"kind": spec.drive.NAME}, spec.drive),
-        "size": ({}, spec.size),
-        "load": ({}, spec.load),
-        "limits": ({}, spec.limits),
-    }
-    word, own = of[table]
-    return {**word, **_own(own)}
+        return [{"law": law.NAME, **_own(law), **_own(spec.motion)}]
+    if table in LISTS:
+        return [_own(one) for one in vars(spec)[table]]
+    words = {"wheel": {"gearing": spec.wheel.NAME}, "drive": {"kind": spec.drive.NAME}}
+    return [{**words.get(table, {}), **_own(vars(spec)[attribute(table)])}]
 
 
 def _own(table: Table) -> dict[str, Any]:

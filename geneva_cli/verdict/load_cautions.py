@@ -10,9 +10,8 @@ from geneva_cli.machine.mechanism import Mechanism
 
 def load_cautions(mechanism: Mechanism) -> list[str]:
     """Cautions that need the loads, which are looked for only where they are shown."""
-    load = mechanism.spec.load
     out = []
-    if load.inertia_kgm2 or load.torque_Nm:
+    if mechanism.spec.is_loaded:
         out = [*_jammed(mechanism), *_on_an_edge(mechanism)]
     if loads.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))

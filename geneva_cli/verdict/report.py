@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import Peaks, placed, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
@@ -14,7 +15,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.schema import fields
-from geneva_cli.spec.tables import Limits, Load
+from geneva_cli.spec.tables import Limits, Load, RollerMaterial, WheelMaterial
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
@@ -73,6 +74,8 @@ ECHOED = {  # what the numbers below rest on, besides the machine's own shape
     "drive": ("n_rpm",),
     "size": ("slot_clearance_mm", "lock_clearance_mm", "face_width_mm"),
     "load": tuple(key.key for key in fields(Load)),
+    "material.wheel": tuple(key.key for key in fields(WheelMaterial)),
+    "material.roller": tuple(key.key for key in fields(RollerMaterial)),
     "limits": tuple(key.key for key in fields(Limits)),
 }
 
@@ -81,9 +84,8 @@ def _inputs(mechanism: Mechanism) -> dict[str, Any]:
     """What was asked: speed, clearances, load and limits."""
     spec = mechanism.spec
     values: dict[str, Any] = {"inputs.wheel.held_by": spec.wheel.held_by}
-    tables = {"drive": spec.drive, "size": spec.size, "load": spec.load, "limits": spec.limits}
     for table, names in ECHOED.items():
-        given = tables[table].as_dict()
+        given = spec.table(table)
         values |= {f"inputs.{table}.{key}": given[key] for key in names}
     return values
 
@@ -175,8 +177,7 @@ def _peaks(mechanism: Mechanism, found: Peaks) -> dict[str, Any]:
 
 def _loads(mechanism: Mechanism) -> dict[str, Any]:
     """The greatest loads; None without a load, and where nothing bounds them, as a caution says."""
-    load = mechanism.spec.load
-    loaded = bool(load.inertia_kgm2 or load.torque_Nm)
+    loaded = mechanism.spec.is_loaded
     values: dict[str, Any] = {}
     for name in ("torque_Nm", "pin_force_N", "input_torque_Nm", "contact_stress_MPa"):
         wide = name != "contact_stress_MPa" or mechanism.spec.size.face_width_mm is not None
@@ -184,7 +185,7 @@ def _loads(mechanism: Mechanism) -> dict[str, Any]:
         bounded = found is not None and math.isfinite(found.max)
         values[f"loads.{name}.max"] = found.max if found and bounded else None
         values[f"loads.{name}.at_deg"] = found.at_deg if found else None
-    power = worst(mechanism).power.max if load.inertia_kgm2 else None
+    power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else None
     kinetic = None if power is None else loads.kinetic_power_W(mechanism, power)
     return values | {"loads.kinetic_power_W": kinetic}
 

@@ -15,8 +15,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.jet import Coefficient, Jet
 
@@ -40,18 +42,24 @@ def setting(mechanism: Mechanism) -> Setting:
     w = omega(spec.drive.n_rpm)
     hertz = None
     if size.face_width_mm is not None:
-        # p0² = N E* / (pi b R_e), E* = E / (2 (1 - nu²)) for two bodies of one material
-        modulus = load.youngs_modulus_GPa * 1e3 / (2.0 * (1.0 - load.poisson_ratio**2))
+        # p0² = N E* / (pi b R_e)
+        modulus = contact_modulus_GPa(spec) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
     return Setting(
-        load.inertia_kgm2 * w * w,
-        load.torque_Nm,
+        inertia_kgm2(spec) * w * w,
+        resisting_torque_Nm(spec),
         mechanism.center_distance_mm / 1000.0,
         mechanism.roller_radius_mm / mechanism.center_distance_mm,
         load.friction,
         load.efficiency,
         hertz,
     )
+
+
+def contact_modulus_GPa(spec: Spec) -> float:
+    """E* of roller on wheel, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+    both = (spec.material_wheel, spec.material_roller)
+    return 1.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in both)
 
 
 class Greatest(NamedTuple):

@@ -10,6 +10,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
 from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, forces, setting, sliding
 from geneva_cli.machine.engagement import Engagement
@@ -121,13 +122,13 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     limits = load_limits(mechanism.spec.limits)
     if not any(limits):
         return math.inf
-    load = mechanism.spec.load
-    given = setting(mechanism)._replace(inertia_Nm=load.inertia_kgm2)  # at 1 rad/s
+    inertia = inertia_kgm2(mechanism.spec)
+    given = setting(mechanism)._replace(inertia_Nm=inertia)  # at 1 rad/s
     least = max(_slowness(engagement, given, limits) for engagement in mechanism.engagements)
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Speeds below it may be too low where inertia helps against the resistance, and this one too.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
-    tried = given._replace(inertia_Nm=load.inertia_kgm2 * w * w)
+    tried = given._replace(inertia_Nm=inertia * w * w)
     kept = all(
         _over_all(mechanism, tried, quantity).max <= limit * KEPT
         for quantity, limit in zip(LIMITED, limits, strict=True)
@@ -186,6 +187,6 @@ def load_limits(limits: Limits) -> tuple[float | None, float | None, float | Non
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     """Peak power that the inertia takes from the input: I epsilon omega / eta."""
-    load = mechanism.spec.load
-    w = omega(mechanism.spec.drive.n_rpm)
-    return load.inertia_kgm2 * power_invariant * w**3 / load.efficiency
+    spec = mechanism.spec
+    w = omega(spec.drive.n_rpm)
+    return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency

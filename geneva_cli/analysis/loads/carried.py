@@ -1,0 +1,68 @@
+"""What the wheel turns, at its own shaft: inertia, and the torque of what resists it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from geneva_cli.spec.tables import Mass
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
+
+G = 9.80665  # standard gravity, m/s²
+MM = 1e-3  # metres
+
+
+def weight_kg(mass: Mass) -> float:
+    """The mass of one body of a ``[[mass]]``."""
+    if mass.mass_kg is not None:
+        return mass.mass_kg
+    assert mass.density_kgm3 is not None and mass.thickness_mm is not None  # held by Mass
+    return mass.density_kgm3 * _face_m2(mass) * mass.thickness_mm * MM
+
+
+def _face_m2(mass: Mass) -> float:
+    """Area of its face, square to the wheel's axis."""
+    D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
+    a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
+    return a * c if a else 0.25 * math.pi * (D - d) * (D + d)
+
+
+def body_inertia_kgm2(mass: Mass) -> float:
+    """Inertia of one body about its own axis: m (D² + d²)/8, a block's m (a² + c²)/12."""
+    D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
+    a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
+    return weight_kg(mass) * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
+
+
+def mass_inertia_kgm2(mass: Mass) -> float:
+    """Inertia of all bodies of a ``[[mass]]`` about the table's axis, by Steiner's theorem."""
+    e = mass.radius_mm * MM
+    return mass.count * (body_inertia_kgm2(mass) + weight_kg(mass) * e * e)
+
+
+def inertia_kgm2(spec: Spec) -> float:
+    """Inertia of everything the wheel turns, at the wheel's shaft.
+
+    ``inertia_kgm2`` of [load], which is there already, and the masses behind the support's gears.
+    """
+    ratio = spec.support.gear_ratio
+    return spec.load.inertia_kgm2 + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
+
+
+def carried_kg(spec: Spec) -> float:
+    """The mass of all bodies on the table."""
+    return sum(mass.count * weight_kg(mass) for mass in spec.mass)
+
+
+def support_torque_Nm(spec: Spec) -> float:
+    """Friction of the table's support at the wheel's shaft: mu (m g + F) r, through the gears."""
+    support = spec.support
+    pressed = carried_kg(spec) * G + support.force_N
+    return support.gear_ratio * support.friction * pressed * support.radius_mm * MM
+
+
+def resisting_torque_Nm(spec: Spec) -> float:
+    """Torque that resists while the wheel turns: the load's, and the support's friction."""
+    return spec.load.torque_Nm + support_torque_Nm(spec)

@@ -1,0 +1,100 @@
+"""Tables that are lists or stand in another: read, complained of by their line, written back."""
+
+import pytest
+
+from geneva_cli import Design, External, GenevaError, Mass, design
+from geneva_cli.specfile.writer import written
+
+TURRET = """\
+[wheel]
+z = 8
+[support]
+friction = 0.1
+radius_mm = 125
+[[mass]]
+shape = "disc"
+diameter_mm = 300
+mass_kg = 11.026
+
+[[mass]]
+shape = "block"
+length_mm = 40
+width_mm = 30
+thickness_mm = 20
+density_kgm3 = 7850
+count = 6
+radius_mm = 100
+[material.wheel]
+youngs_modulus_GPa = 3.2
+"""
+
+
+@pytest.fixture
+def turret(tmp_path):
+    def with_(old, new):
+        path = tmp_path / "turret.toml"
+        path.write_text(TURRET.replace(old, new, 1))
+        return design.load(str(path))
+
+    return with_
+
+
+def test_lists_and_tables_in_tables_are_read(turret):
+    spec = turret("", "").spec
+    assert [one.shape for one in spec.mass] == ["disc", "block"]
+    assert spec.mass[1].count == 6
+    assert (spec.material_wheel.youngs_modulus_GPa, spec.material_roller.youngs_modulus_GPa) == (
+        3.2,
+        210.0,
+    )
+
+
+def test_what_is_written_is_read_back(turret, tmp_path):
+    spec = turret("", "").spec
+    path = tmp_path / "again.toml"
+    path.write_text("\n".join(written(spec)))
+    again = design.load(str(path)).spec
+    assert again.but(path="", files=()) == spec.but(path="", files=())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "said"),
+    [
+        ('shape = "block"', 'shape = "blok"', 12, 'number 2: shape = "blok" must be one of'),
+        ("count = 6", "count = 0", 17, "number 2: count = 0 must be at least 1"),
+        ("mass_kg = 11.026", "", 6, "number 1: give mass_kg, or density_kgm3 with all sizes"),
+        ("thickness_mm = 20\n", "", 15, "number 2: density_kgm3 needs thickness_mm"),
+        ("mass_kg = 11.026", "mass_kg = 1\nbore_mm = 3", 10, "a disc has no bore_mm"),
+        ("width_mm = 30\n", "", 11, "a block needs length_mm and width_mm"),
+        ("[material.wheel]", "[material.whel]", 19, "unknown key whel in [material]"),
+        ("youngs_modulus_GPa = 3.2", "youngs_modulus_GPa = -1", 20, "must be above 0"),
+        ("friction = 0.1", "mass = 3\nfriction = 0.1", 4, "unknown key mass in [support]"),
+    ],
+)
+def test_errors_name_the_line(turret, old, new, line, said):
+    with pytest.raises(GenevaError) as error:
+        turret(old, new)
+    assert f"turret.toml:{line}: " in str(error.value)
+    assert said in str(error.value)
+
+
+def test_a_mass_that_is_no_list(tmp_path):
+    path = tmp_path / "one.toml"
+    path.write_text('[wheel]\nz = 6\n[mass]\nshape = "point"\n')
+    with pytest.raises(GenevaError, match=r"one.toml:3: mass must be a list.*\[\[mass\]\]"):
+        design.load(str(path))
+
+
+def test_one_of_a_list_is_changed(turret):
+    changed = turret("", "").with_("mass.1.count", 4).with_("material.wheel.density_kgm3", 1190.0)
+    assert [one.count for one in changed.spec.mass] == [1, 4]
+    assert changed.spec.material_wheel.density_kgm3 == 1190.0
+    with pytest.raises(GenevaError, match=r"no \[mass.2\]"):
+        changed.with_("mass.2.count", 4)
+
+
+def test_a_python_user_gives_objects():
+    design_ = Design(External(6), mass=[Mass(shape="point", mass_kg=1.0, radius_mm=50.0)])
+    assert design_.spec.is_loaded
+    with pytest.raises(GenevaError, match="mass must be a list"):
+        Design(External(6), mass=[3])
