@@ -12,7 +12,7 @@ What is imported for an answer is imported when it is asked for: here is the one
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -51,15 +51,16 @@ T = TypeVar("T")
 CURVES = {"arcs": "arcs", "spline": "cubics"}  # what curved walls are written as
 
 
-def load(path: str) -> Design:
+def load(path: str, given: Iterable[str] = ()) -> Design:
     """The design in a spec file; ``-`` is standard input.
 
+    ``given`` are keys set beside the file or over it, as ``["drive.A=0.6"]``.
     Raises GenevaError, ``FILE:LINE: what is wrong; what would be right``, here for what cannot be
     read, and from every answer for what cannot be built.
     """
     from geneva_cli.specfile.reader import read
 
-    text = read(path)
+    text = read(path, given)
     return Design.of(text.spec(), text)
 
 

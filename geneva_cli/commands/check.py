@@ -7,12 +7,13 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output
+from geneva_cli.commands.options import Format, Given, Output
 from geneva_cli.errors import clean
 
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
+    given: Given = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -24,7 +25,7 @@ def run(
     from geneva_cli.output import show
     from geneva_cli.study.batch import checks_table, verdicts
 
-    found = list(verdicts(specs))
+    found = list(verdicts(specs, given or ()))
     judged = [v for v in found if not v.error]
     if judged:
         show(checks_table(judged), output, format, [file for v in judged for file in v.files])

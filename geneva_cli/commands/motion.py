@@ -6,12 +6,13 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, SpecPath, warn
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
 
 
 def run(
     spec: SpecPath,
     samples: Annotated[int, typer.Option(metavar="N", help="Rows, both ends included.")] = 361,
+    given: Given = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -22,6 +23,6 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show
 
-    design = load(spec)
+    design = load(spec, given or ())
     show(design.motion(samples), output, format, design.spec.files)
     warn(design)

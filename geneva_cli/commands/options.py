@@ -24,6 +24,10 @@ def one_of(names: Iterable[str]) -> str:
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
 ]
+Given: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="A key over the file's, as drive.n_rpm=90."),
+]
 Output: TypeAlias = Annotated[
     str,
     typer.Option("-o", "--output", metavar="FILE", help="Write to this file; - prints."),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.commands.options import Format, Output, SpecPath, warn
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
 
 
-def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
+def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
     Angles are signed input angles from mid-motion. Where engagements differ, the greatest of all.
@@ -13,6 +13,6 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     from geneva_cli.design import load
     from geneva_cli.output import show
 
-    design = load(spec)
+    design = load(spec, given or ())
     show(design.peaks_table, output, format, design.spec.files)
     warn(design)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geneva_cli.commands.options import Output, SpecPath, one_of, warn
+from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import DRAWN, FORMATS
 from geneva_cli.parts.catalogue import PARTS
@@ -34,6 +34,7 @@ def run(
     ] = "arcs",
     units: Annotated[str, typer.Option(metavar="UNIT", help="Of drawings: mm or inch.")] = "mm",
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
+    given: Given = None,
     output: Output = "-",
     format: Annotated[
         str,
@@ -57,7 +58,7 @@ def run(
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
     drawn = is_drawn(output, format)
-    design = load(spec)
+    design = load(spec, given or ())
     if design.is_table(part, drawn):
         if units != "mm":
             raise GenevaError("--units is for drawings; tables of points are in millimetres")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, SpecPath, say
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
 
 
-def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
+def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
     """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.
 
     Exit status 1 where `check` has it: where a check fails.
@@ -15,7 +15,7 @@ def run(spec: SpecPath, output: Output = "-", format: Format = "") -> None:
     from geneva_cli.design import load
     from geneva_cli.output import show
 
-    design = load(spec)
+    design = load(spec, given or ())
     found = design.report
     show(found.table, output, format, design.spec.files)
     say(design.spec.path, found.cautions)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -18,16 +18,18 @@ from geneva_cli.spec.schema import REQUIRED, Points, Table, fields, require, sho
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.lines import line_of
 from geneva_cli.specfile.points import read_pairs
+from geneva_cli.specfile.settings import Setting, applied, said_of, settings
 
 BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
 
 class Text(NamedTuple):
-    """A spec's text and the name that messages call its file by."""
+    """A spec's text, the name that messages call its file by, and keys given beside it."""
 
     name: str
     text: str
+    given: tuple[Setting, ...] = ()
 
     @contextmanager
     def located(self) -> Iterator[None]:
@@ -37,8 +39,10 @@ class Text(NamedTuple):
         except GenevaError as error:
             if not error.key:
                 raise
-            line = line_of(self.text, error.key)
-            where = f"{self.name}:{line}" if line else self.name
+            where = said_of(self.given, error.key)
+            if not where:
+                line = line_of(self.text, error.key)
+                where = f"{self.name}:{line}" if line else self.name
             raise GenevaError(f"{where}: {error}") from None
 
     def spec(self) -> Spec:
@@ -53,16 +57,16 @@ class Text(NamedTuple):
         except ValueError as error:  # a whole number of thousands of digits
             raise GenevaError(f"{self.name}: not a spec: {error}") from None
         with self.located():
-            return _spec(tree, self.name)
+            return _spec(applied(tree, self.given), self.name)
 
 
-def read(path: str) -> Text:
-    """The text of a spec file; ``-`` is standard input.
+def read(path: str, given: Iterable[str] = ()) -> Text:
+    """The text of a spec file; ``-`` is standard input. ``given`` are ``KEY=VALUE`` beside it.
 
     Raises GenevaError, with the message ready to print, where it cannot be read.
     """
     name = "<stdin>" if path == "-" else path
-    return Text(name, _read(path, name))
+    return Text(name, _read(path, name), settings(given))
 
 
 def _read(path: str, name: str) -> str:

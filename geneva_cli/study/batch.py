@@ -6,7 +6,8 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -35,10 +36,10 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str) -> Verdict:
-    """Judge one spec; a spec that cannot be read is a verdict too."""
+def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
+    """Judge one spec, keys ``given`` set over its own; one that cannot be read is a verdict too."""
     try:
-        text = read(path)
+        text = read(path, given)
         spec = text.spec()
         with text.located():
             mechanism = build(spec)
@@ -55,12 +56,13 @@ def verdict(path: str) -> Verdict:
         return Verdict(path, error=str(error))
 
 
-def verdicts(paths: list[str]) -> Iterator[Verdict]:
+def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
     """The verdicts on specs, in their order; standard input is read here, files anywhere."""
+    judge = partial(verdict, given=given)
     files = [path for path in paths if path != "-"]
     workers = min(len(files), os.cpu_count() or 1)
     if workers < 2:
-        yield from map(verdict, paths)
+        yield from map(judge, paths)
         return
     from concurrent.futures import ProcessPoolExecutor
     from concurrent.futures.process import BrokenProcessPool
@@ -70,9 +72,9 @@ def verdicts(paths: list[str]) -> Iterator[Verdict]:
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
     with ProcessPoolExecutor(workers, context, _attend) as pool:
         try:
-            found = pool.map(verdict, files)
+            found = pool.map(judge, files)
             for path in paths:
-                yield verdict(path) if path == "-" else next(found)
+                yield judge(path) if path == "-" else next(found)
         except BrokenProcessPool:
             raise GenevaError(
                 "a process that checked some of the specs was ended from outside, or ran out of "

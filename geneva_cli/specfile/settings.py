@@ -1,0 +1,87 @@
+"""``--set KEY=VALUE``: keys of a spec that are given beside its file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import tomli
+
+from geneva_cli.errors import GenevaError, cut
+
+
+class Setting(NamedTuple):
+    """One key that is given beside the file: as it was typed, where it stands, and its value."""
+
+    said: str
+    path: tuple[str | int, ...]
+    value: Any
+
+
+def settings(texts: Iterable[str]) -> tuple[Setting, ...]:
+    """What ``KEY=VALUE`` texts set. Raises GenevaError for a text that is not one."""
+    return tuple(setting(text) for text in texts)
+
+
+def setting(text: str, option: str = "--set") -> Setting:
+    """One ``table.key=value``; the value as in the file, a word's quotation marks left out or not.
+
+    >>> setting("drive.A=0.6")
+    Setting(said='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
+    """
+    key, sign, value = text.partition("=")
+    parts = key.strip().split(".")
+    said = f"{option} {cut(text.strip())}"
+    if not sign or not value.strip():
+        raise GenevaError(f"{said}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
+    if not all(parts) or (len(parts) == 1 and parts != ["title"]):
+        raise GenevaError(f"{said}: a key is written with its table, as in {option} drive.n_rpm=90")
+    path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
+    return Setting(said, path, read_value(value))
+
+
+def read_value(text: str) -> Any:
+    """A value as TOML has it; anything else is a word."""
+    try:
+        return tomli.loads(f"x = {text.strip()}")["x"]
+    except (tomli.TOMLDecodeError, RecursionError, ValueError):
+        return _number(text.strip())
+
+
+def _number(text: str) -> float | str:
+    """A number that TOML would write otherwise, as .5 is, or a word."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def applied(tree: dict[str, Any], given: Sequence[Setting]) -> dict[str, Any]:
+    """A spec's tree with these keys set, the later ones over the earlier.
+
+    Raises GenevaError for a table of a list that is not there.
+    """
+    for one in given:
+        tree = _with(tree, one.path, one)
+    return tree
+
+
+def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
+    if not path:
+        return one.value
+    head, *rest = path
+    if isinstance(head, int):
+        several = list(node) if isinstance(node, list) else []
+        if not head < len(several):
+            name = ".".join(map(str, one.path[: one.path.index(head)]))
+            raise GenevaError(f"{one.said}: the spec has {len(several)} [[{name}]], counted from 0")
+        several[head] = _with(several[head], tuple(rest), one)
+        return several
+    table = dict(node) if isinstance(node, dict) else {}
+    return table | {head: _with(table.get(head), tuple(rest), one)}
+
+
+def said_of(given: Sequence[Setting], key: tuple[str | int, ...]) -> str:
+    """The option that set a key, or something in a table, that is complained of; else empty."""
+    found = (one.said for one in reversed(given) if one.path[: len(key)] == key)
+    return next(found, "")

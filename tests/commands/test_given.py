@@ -1,0 +1,51 @@
+"""Every command that takes a spec takes ``--set``, and means the same by it."""
+
+import importlib
+import inspect
+import json
+import subprocess
+import sys
+
+import pytest
+
+from geneva_cli.app import COMMANDS
+from geneva_cli.commands.options import Given
+
+TAKE_A_SPEC = {"spec", "specs"}
+
+
+def parameters(name):
+    run = importlib.import_module(f"geneva_cli.commands.{name}").run
+    return inspect.signature(run, eval_str=True).parameters
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_command_with_a_spec_takes_set(name):
+    found = parameters(name)
+    if TAKE_A_SPEC & set(found):
+        assert found["given"].annotation == Given
+
+
+def test_some_do():
+    assert sum(bool(TAKE_A_SPEC & set(parameters(name))) for name in COMMANDS) >= 5
+
+
+def geneva(*args):
+    run = [sys.executable, "-m", "geneva_cli", *args]
+    return subprocess.run(run, capture_output=True, text=True, timeout=60, check=False)
+
+
+def test_set_reaches_every_spec_of_check():
+    """Two designs judged in two processes, each with the key over its own."""
+    specs = ["designs/internal-z6.toml", "designs/three-slots.toml"]
+    found = geneva("check", *specs, "--set", "limits.velocity_max=0.001", "--format", "json")
+    rows = json.loads(found.stdout)["rows"]
+    failed = {row["spec"] for row in rows if row["check"] == "velocity_max" and not row["passes"]}
+    assert failed == set(specs)
+    assert found.returncode == 1
+
+
+def test_an_error_names_the_option_and_nothing_is_printed():
+    found = geneva("peaks", "designs/internal-z6.toml", "--set", "wheel.z=2")
+    assert (found.returncode, found.stdout) == (2, "")
+    assert found.stderr.startswith("--set wheel.z=2: z = 2 must be at least 3")

@@ -1,0 +1,93 @@
+"""``--set KEY=VALUE``: read as the file is, over it, and complained of by the option's name."""
+
+import pytest
+
+from geneva_cli import GenevaError, load
+from geneva_cli.specfile.settings import read_value
+
+SPEC = """\
+[wheel]
+z = 6
+[drive]
+n_rpm = 30
+[[mass]]
+shape = "point"
+mass_kg = 2
+radius_mm = 50
+"""
+
+
+@pytest.fixture
+def spec(tmp_path):
+    path = tmp_path / "spec.toml"
+    path.write_text(SPEC)
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("6", 6),
+        ("0.6", 0.6),
+        (".6", 0.6),
+        ("1e3", 1000.0),
+        ('"sun"', "sun"),
+        ("sun", "sun"),
+        ("true", True),
+        ("[60, 120]", [60, 120]),
+        ("modified-sine", "modified-sine"),
+    ],
+)
+def test_a_value_is_read_as_in_the_file(text, value):
+    assert read_value(text) == value
+    assert type(read_value(text)) is type(value)
+
+
+def test_a_key_is_set_over_the_files_and_beside_it(spec):
+    changed = load(spec, ["drive.n_rpm=90", "size.center_distance_mm=250", "mass.0.count=4"]).spec
+    assert changed.drive.n_rpm == 90.0
+    assert changed.size.center_distance_mm == 250.0
+    assert changed.mass[0].count == 4
+    assert load(spec).spec.drive.n_rpm == 30.0
+
+
+def test_a_kind_is_set_with_its_keys(spec):
+    spec_ = load(spec, ["drive.kind=side-crank", "drive.A=0.5", "wheel.gearing=internal"]).spec
+    assert (spec_.drive.NAME, spec_.wheel.NAME) == ("side-crank", "internal")
+
+
+def test_the_last_of_two_counts(spec):
+    assert load(spec, ["wheel.z=8", "wheel.z=5"]).spec.wheel.z == 5
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("wheel.z=2", "--set wheel.z=2: z = 2 must be at least 3"),
+        ("wheel.zz=3", "--set wheel.zz=3: unknown key zz in [wheel] (did you mean"),
+        ("whel.z=3", '--set whel.z=3: unknown table [whel] (did you mean "wheel"?)'),
+        ("mass.1.count=3", "--set mass.1.count=3: the spec has 1 [[mass]], counted from 0"),
+        ("mass.0.count=0", "--set mass.0.count=0: [[mass]] number 1: count = 0 must be"),
+        ("z=3", "a key is written with its table"),
+        ("wheel.z", "it must be KEY=VALUE"),
+        ("wheel.z=", "it must be KEY=VALUE"),
+        ("drive.kind=crnk", 'must be one of "crank"'),
+    ],
+)
+def test_an_error_names_the_option(spec, given, said):
+    with pytest.raises(GenevaError) as error:
+        load(spec, [given])
+    assert said in str(error.value)
+    assert "spec.toml" not in str(error.value)
+
+
+def test_what_does_not_go_together_names_the_option_that_did_it(spec):
+    with pytest.raises(GenevaError, match=r"^--set drive.rollers=6: "):
+        _ = load(spec, ["drive.rollers=6"]).mechanism
+
+
+def test_an_error_of_the_file_still_names_its_line(spec, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text(SPEC.replace("z = 6", "z = 1"))
+    with pytest.raises(GenevaError, match=r"bad.toml:2: "):
+        load(str(path), ["drive.n_rpm=90"])
