@@ -32,6 +32,14 @@ MEMBERS = {
     "machine.wheels": {m.partition(":")[0] for m in registry.GEARINGS.values()},
     "machine.laws": {m.partition(":")[0] for m in registry.LAWS.values()},
 }
+# Folders of like files, none of which imports another, and what stands beside them: what two
+# share, and the list of them.
+SHARED = {
+    "commands": {"options"},
+    "bench.subjects": set(),
+    "verdict.checks": {"check", "of_machine", "of_parts"},
+    "verdict.report": {"values", "sections"},
+}
 STREAMS = {"app", "streams", "__main__", "specfile", "output", "commands"}
 TYPER = {"app", "streams", "__main__", "commands"}
 # What commands know besides designs and studies: laws alone, templates, units and the names of
@@ -180,9 +188,11 @@ def test_members_of_a_kind_do_not_know_each_other(kind):
         assert not (ours(source(member)) & members) - {member}, member
 
 
-@pytest.mark.parametrize("room_of", ["commands", "bench.subjects"])
-def test_commands_and_subjects_do_not_know_each_other(room_of):
-    members = {m for m in MODULES if m.startswith(room_of + ".")} - {"commands.options"}
+@pytest.mark.parametrize("folder", SHARED)
+def test_members_of_a_folder_do_not_know_each_other(folder):
+    members = {m for m in MODULES if m.startswith(folder + ".")}
+    members -= {f"{folder}.{name}" for name in SHARED[folder]}
+    assert len(members) > 3
     for member in members:
         assert not (ours(source(member)) & members) - {member}, member
 

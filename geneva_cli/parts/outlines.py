@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
@@ -28,6 +29,7 @@ CURVED = 2e-6  # of the centre distance: how nearly curved walls are known
 CONTACT = CURVED
 TRIES = 5
 SPARE = 3.0  # times an overlap that was found, kept more from the wheel
+BESIDE = np.geomspace(0.01, 3.0, 12)  # degrees of the input, beside a place that is looked at
 SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
 
 
@@ -52,6 +54,23 @@ class Outlines(NamedTuple):
     def contact(self) -> float:
         """The overlap, mm, that is contact and no jam."""
         return CONTACT * self.plane.L
+
+    @property
+    def relief_depth(self) -> float:
+        """The distance of the crank's outline from its axis at the bottom of a relief, mm."""
+        return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
+
+    def gap_about(self, shown_deg: float) -> float:
+        """The smallest gap of any two parts, mm, at positions about one input angle.
+
+        A few positions instead of a whole turn: to look for a size that frees a machine there.
+        """
+        start, turn = self.plane.start_deg, self.plane.turn_deg
+        place = self.plane.place_deg(shown_deg)
+        at = start + (place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
+        pose = self.clash.pose(at)
+        gap = float(self.clash.rollers(pose).min())
+        return min(gap, float(self.clash.locking(pose).min())) if self.crank else gap
 
 
 def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:

@@ -15,7 +15,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.budget import OutOfTime, until
-from geneva_cli.verdict.checks import Check, checks, each, one
+from geneva_cli.verdict.checks import checks, each, one
+from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.remedies import Value, Way, value_now, ways
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def verdict(proof: Proof) -> tuple[str, list[str]]:
 
 def said(c: Check, parts: str = "parts") -> str:
     """A check that fails, in words."""
-    from geneva_cli.verdict.clearances import NO_WALL
+    from geneva_cli.verdict.checks.walls import NO_WALL
 
     where = "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
     value, limit = c.value or 0.0, c.limit or 0.0
@@ -233,10 +234,9 @@ class Adviser:
 def _clears(mechanism: Mechanism, at_deg: float) -> float:
     """Whether no parts overlap about one input angle, as an infinity: what touches has no gap."""
     from geneva_cli.parts.outlines import outlines
-    from geneva_cli.verdict.clearances import gap_about
 
     found = outlines(mechanism)
-    return math.inf if gap_about(found, at_deg) >= -found.contact else -math.inf
+    return math.inf if found.gap_about(at_deg) >= -found.contact else -math.inf
 
 
 def _spare(check: Check) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import SAME
-from geneva_cli.verdict.clearances import motion_play_max
+from geneva_cli.verdict.checks.play import motion_play_max
 
 
 def turn_cautions(proof: Proof) -> list[str]:

@@ -11,15 +11,18 @@ from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
-from geneva_cli.verdict.checks import Check, checks
-from geneva_cli.verdict.clearances import clearances
+from geneva_cli.verdict.checks import Check, checks, one
+from geneva_cli.verdict.checks.check import held
+from geneva_cli.verdict.checks.of_machine import MOTION
+from geneva_cli.verdict.checks.of_parts import standing
 from geneva_cli.verdict.turn_cautions import turn_cautions
 
 DESIGNS = repo.DESIGNS
@@ -38,6 +41,20 @@ def test_a_sound_design_passes() -> None:
     assert not failing(CURVED)
     assert not cautions(build(LOADED))
     assert not cautions(build(CURVED))
+
+
+def test_a_check_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is shown in its place, asked for by name, and advised on, for being in the list."""
+
+    def slots(name: str, mechanism: Mechanism) -> Check:
+        return held(name, float(mechanism.spec.wheel.z), "at most", 5.0)
+
+    machine = build(Spec(Wheel(6)))
+    before = [c.name for c in checks(machine, parts=False)]
+    monkeypatch.setitem(MOTION, "slots", slots)
+    assert [c.name for c in checks(machine, parts=False)] == [*before, "slots"]
+    assert one(machine, "slots") == held("slots", 6.0, "at most", 5.0)
+    assert [c.nearest for c in judged(machine, parts=False) if c.name == "slots"] == ["none found"]
 
 
 @pytest.mark.parametrize(
@@ -140,7 +157,7 @@ def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
 def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
     path = tmp_path / "bore.toml"
     path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
-    rows = {c.name: c for c in clearances(outlines(load(str(path))))}
+    rows = {c.name: c for c in standing(outlines(load(str(path))))}
     assert rows[row].value == pytest.approx(value, abs=1e-5)
     assert rows[row].limit == 0.5
     assert rows[row].passes == (value >= 0.5)
@@ -150,7 +167,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     path = tmp_path / "ring.toml"
     size = "[size]\nwheel_outer_radius_mm = 155.5\n"
     path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
-    rows = {c.name: c for c in clearances(outlines(load(str(path))))}
+    rows = {c.name: c for c in standing(outlines(load(str(path))))}
     # L + R + r + r/20 is 155.25 mm
     assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
     assert not rows["outer_wall_mm"].passes

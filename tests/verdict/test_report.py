@@ -11,6 +11,9 @@ from typer.testing import CliRunner
 from words import load
 
 from geneva_cli.app import app
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.report import sections
+from geneva_cli.verdict.report.values import Values
 
 DESIGNS = repo.DESIGNS
 JAMS = "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n"
@@ -28,6 +31,16 @@ def written(folder: Path, text: str) -> str:
     file = folder / "spec.toml"
     file.write_text(text)
     return str(file)
+
+
+def test_a_section_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def slots(proof: Proof) -> Values:
+        return {"slots.count": proof.mechanism.spec.wheel.z}
+
+    monkeypatch.setattr("geneva_cli.verdict.report.SECTIONS", (slots, *sections.SECTIONS))
+    shown = json.loads(run("report", written(tmp_path, LIMITED), "--format", "json").stdout)
+    assert shown["slots"] == {"count": 6}
+    assert list(shown).index("slots") < list(shown).index("inputs")
 
 
 def names(tree: Any, path: str = "") -> set[str]:
@@ -114,7 +127,7 @@ def test_what_is_not_proved_shows_in_every_format(format: str) -> None:
     "name", ["elliptical-gears", "epicyclic-soft-z6", "gear-sector", "four-bar-z4", "geneva-pair"]
 )
 def test_the_words_are_english(name: str) -> None:
-    from geneva_cli.verdict.report import words
+    from geneva_cli.verdict.report.words import words
 
     said = words(load(str(DESIGNS / f"{name}.toml")))
     assert not re.search(r"\ban? (elliptical-gears|epicyclic|geneva-pair|gear-sector)", said)

@@ -1,0 +1,86 @@
+"""Does the design work? Each check with its value and its limit.
+
+A check is one file, or a function in a file of like ones, and one line in ``of_machine`` or
+``of_parts``, where they stand in the order in which they are shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.spec.tables import Z_DRAWN
+from geneva_cli.verdict.checks.check import Check as Check
+from geneva_cli.verdict.checks.check import OfMachine
+from geneva_cli.verdict.checks.check import all_pass as all_pass
+from geneva_cli.verdict.checks.of_machine import LIMITS, MOTION
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.proof import Proof
+
+
+def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
+    """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
+    motion = list(_asked(MOTION, mechanism))
+    shown = list(_parts(mechanism, proof)) if parts else []
+    return [*motion, *shown, *_asked(LIMITS, mechanism)]
+
+
+def each(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
+    """The same checks one by one as they are made, the dearest last."""
+    yield from _asked(MOTION, mechanism)
+    yield from _asked(LIMITS, mechanism)
+    if parts:
+        yield from _parts(mechanism)
+
+
+def one(mechanism: Mechanism, name: str) -> Check | None:
+    """A single check, for no more work than it takes; None if the design has none of this name."""
+    for among in (MOTION, LIMITS):
+        found = among[name](name, mechanism) if name in among else None
+        if found:
+            return found
+    return next((c for c in _parts(mechanism) if c.name == name), None)
+
+
+def _asked(among: dict[str, OfMachine], mechanism: Mechanism) -> Iterator[Check]:
+    yield from (check for name, ask in among.items() if (check := ask(name, mechanism)))
+
+
+def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
+    """Walls, shafts and the full turn, where the machine has flat parts.
+
+    Where these cannot be made, or turned, one check says so in place of the rest.
+    """
+    if not mechanism.spec.is_flat:
+        yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
+        return
+    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.turn.gaps import NotProved
+    from geneva_cli.verdict.checks.of_parts import standing, turning
+
+    proof = proof or Proof(mechanism)
+    try:
+        rows = list(standing(proof.found))
+    except GenevaError as error:
+        yield Check("parts", 0.0, "at least", 1.0, False, str(error))
+        return
+    yield from rows
+    try:
+        turn = proof.turn
+    except NotProved as error:
+        yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
+        return
+    yield from turning(proof.found, turn)
+
+
+def _unturned(mechanism: Mechanism) -> str:
+    """Why no full turn is made."""
+    spec = mechanism.spec
+    if not spec.wheel.FLAT:
+        return "the parts of a spherical wheel are not drawn or turned against each other"
+    if spec.wheel.z > Z_DRAWN:
+        return f"wheels of more than {Z_DRAWN} slots are not drawn"
+    return f'the parts of kind = "{spec.drive.NAME}" are not drawn or turned against each other'

@@ -1,0 +1,38 @@
+"""Do the two branches of a curved slot, the way in and the way out, stay together?
+
+Farther apart than the slot is wide, they leave an island between them, which falls out.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.verdict.checks.check import Check, held
+
+LOOKS = 400  # places at which they are compared
+
+
+def apart(name: str, found: Outlines) -> Check | None:
+    """How far they are apart on the right side of each other."""
+    return _greatest(name, found, 1.0)
+
+
+def crossed(name: str, found: Outlines) -> Check | None:
+    """How far they are apart where they have crossed."""
+    return _greatest(name, found, -1.0)
+
+
+def _greatest(name: str, found: Outlines, side: float) -> Check | None:
+    engagement = found.plane.slots[0][0]
+    if not engagement.slot.curved:
+        return None
+    t = engagement.entry_deg * (1.0 - np.arange(LOOKS) / LOOKS)
+    (x, y), (u, v) = (engagement.slot(s * t, 0) for s in (1.0, -1.0))
+    turn = np.remainder(
+        np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
+    )
+    gap = 2.0 * found.plane.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
+    i = int(np.argmax(gap))
+    at_deg = found.plane.given.shown_deg(engagement.mid_deg + float(t[i]))
+    return held(name, max(float(gap[i]), 0.0), "at most", 2.0 * found.sizes.half_width, at_deg)

@@ -1,0 +1,54 @@
+"""A check: a value, the limit that it is held to, and whether it keeps it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple, TypeAlias
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.keeps import keeps
+
+
+class Check(NamedTuple):
+    """One check of one design.
+
+    ``passes`` is None where it cannot be told; ``nearest`` then says why, and where a check fails
+    it is the nearest change that would pass. ``at_deg`` is the input angle at which the value
+    occurs, where it is of one place.
+    """
+
+    name: str
+    value: float | None
+    must_be: str
+    limit: float | None
+    passes: bool | None
+    nearest: str = ""
+    at_deg: float | None = None
+
+
+# A check by its name, of a machine; None where there is nothing to check.
+OfMachine: TypeAlias = Callable[[str, Mechanism], Check | None]
+
+
+def held(
+    name: str,
+    value: float,
+    must_be: str,
+    limit: float,
+    at_deg: float | None = None,
+    noise: float = 0.0,
+) -> Check:
+    """A value held to a limit: "at least", "at most" or "above".
+
+    ``noise`` is the rounding of the value, where that is larger than the limit's.
+
+    >>> held("jerk_max", 31.4, "at most", 30.0).passes
+    False
+    """
+    passes = keeps(value, must_be, limit, noise)
+    return Check(name, value, must_be, limit, passes, at_deg=at_deg)
+
+
+def all_pass(rows: Iterable[Check]) -> bool:
+    """Whether no check fails; what cannot be proved does not fail."""
+    return all(check.passes is not False for check in rows)

@@ -1,0 +1,17 @@
+"""Are gears that roll on each other convex, so that a hob can cut them?"""
+
+from __future__ import annotations
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.verdict.checks.check import Check, held
+
+
+def of_gear(name: str, mechanism: Mechanism) -> Check | None:
+    """The least curvature of the driving or the driven gear."""
+    gears = mechanism.spec.drive.gears
+    if not gears:
+        return None
+    from geneva_cli.parts.gear_curves import convexity
+
+    least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
+    return held(name, least, "above", 0.0)

@@ -1,0 +1,12 @@
+"""Does the wheel rest between its steps?"""
+
+from __future__ import annotations
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.verdict.checks.check import Check, held
+
+
+def shortest(name: str, mechanism: Mechanism) -> Check:
+    """The shortest dwell, degrees of the input: below 0 a roller enters before one has left."""
+    least = min(mechanism.dwell_deg(i) for i in range(len(mechanism.engagements)))
+    return held(name, least, "at least", 0.0)

@@ -1,0 +1,22 @@
+"""Can the roller follow a groove that leads it, in the dwell too?"""
+
+from __future__ import annotations
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.verdict.checks.check import Check, held
+
+# Steeper, a roller is wedged in its groove rather than led by it; as where it enters a slot.
+GROOVE_MAX_DEG = 60.0
+
+
+def greatest(name: str, mechanism: Mechanism) -> Check | None:
+    """The greatest pressure angle in the groove."""
+    groove = mechanism.engagements[0].groove
+    if groove is None:
+        return None
+    from geneva_cli.parts.groove import greatest_pressure
+
+    value, at_deg = greatest_pressure(groove)
+    given = mechanism.spec.limits.pressure_angle_max_deg
+    limit = GROOVE_MAX_DEG if given is None else given
+    return held(name, value, "at most", limit, mechanism.shown_deg(at_deg))

@@ -1,0 +1,22 @@
+"""Do the motion's peaks keep the spec's limits? Derivatives by the input angle in radians."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from geneva_cli.analysis.peaks import Peaks, worst
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.verdict.checks.check import Check, held
+
+VALUES: dict[str, Callable[[Peaks], float]] = {
+    "velocity_max": lambda p: p.velocity.max,
+    "acceleration_max": lambda p: p.acceleration.max,
+    "acceleration_entry_max": lambda p: p.ends.acceleration_entry,
+    "jerk_max": lambda p: p.jerk.max,
+}
+
+
+def greatest(name: str, mechanism: Mechanism) -> Check | None:
+    """The peak that a key of ``[limits]`` bounds."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    return None if limit is None else held(name, VALUES[name](worst(mechanism)), "at most", limit)

@@ -1,0 +1,22 @@
+"""Do the greatest loads keep the spec's limits?"""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.verdict.checks.check import Check, held
+
+QUANTITIES = {
+    "pin_force_max_N": "pin_force_N",
+    "input_torque_max_Nm": "input_torque_Nm",
+    "contact_stress_max_MPa": "contact_stress_MPa",
+}
+
+
+def greatest(name: str, mechanism: Mechanism) -> Check | None:
+    """The load that a key of ``[limits]`` bounds, and where it is greatest."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    found = loads.greatest(mechanism, QUANTITIES[name])
+    return held(name, found.max, "at most", limit, found.at_deg)

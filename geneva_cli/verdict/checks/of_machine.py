@@ -1,0 +1,38 @@
+"""The checks of a machine, and of its spec's ``[limits]``: one line each, in the order shown."""
+
+from __future__ import annotations
+
+from geneva_cli.verdict.checks import (
+    convexity,
+    dwell,
+    forwards,
+    groove,
+    invariants,
+    load_limits,
+    pressure,
+    undercut,
+)
+from geneva_cli.verdict.checks.check import OfMachine
+
+# What every machine of its kind must pass.
+MOTION: dict[str, OfMachine] = {
+    "dwell_deg": dwell.shortest,
+    "driver_gear_convexity": convexity.of_gear,
+    "driven_gear_convexity": convexity.of_gear,
+    "velocity_min": forwards.least_velocity,
+    "groove_pressure_deg": groove.greatest,
+    "pressure_angle_deg": pressure.of_curved_slots,
+    "undercut_mm": undercut.deepest,
+}
+
+# What the spec asks for.
+LIMITS: dict[str, OfMachine] = {
+    "velocity_max": invariants.greatest,
+    "acceleration_max": invariants.greatest,
+    "acceleration_entry_max": invariants.greatest,
+    "jerk_max": invariants.greatest,
+    "pin_force_max_N": load_limits.greatest,
+    "input_torque_max_Nm": load_limits.greatest,
+    "pressure_angle_deg": pressure.as_asked,
+    "contact_stress_max_MPa": load_limits.greatest,
+}

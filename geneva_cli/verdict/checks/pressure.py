@@ -1,0 +1,29 @@
+"""Does the slot's wall turn the wheel, rather than push on its shaft?"""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.keeps import keeps
+from geneva_cli.verdict.checks.check import Check
+
+
+def of_curved_slots(name: str, mechanism: Mechanism) -> Check | None:
+    """Curved slots without a limit of their own: the wall must drive at all."""
+    given = mechanism.spec.limits.pressure_angle_max_deg is not None
+    if given or not mechanism.engagements[0].slot.curved:
+        return None
+    return _greatest(name, mechanism, 90.0)
+
+
+def as_asked(name: str, mechanism: Mechanism) -> Check | None:
+    """Any slots, with the limit that the spec gives."""
+    limit = mechanism.spec.limits.pressure_angle_max_deg
+    return None if limit is None else _greatest(name, mechanism, limit)
+
+
+def _greatest(name: str, mechanism: Mechanism, limit: float) -> Check:
+    found = loads.greatest(mechanism, "pressure_deg")
+    # At 90 degrees nothing turns the wheel, whatever the limit.
+    passes = keeps(found.max, "at most", limit) and found.max < 90.0
+    return Check(name, found.max, "at most", limit, passes, at_deg=found.at_deg)

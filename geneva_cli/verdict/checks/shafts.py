@@ -1,0 +1,40 @@
+"""Do shafts and hubs clear what passes them by?"""
+
+from __future__ import annotations
+
+from geneva_cli.parts.crank import is_whole
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.verdict.checks.check import Check, held
+
+
+def crank_shaft(name: str, found: Outlines) -> Check | None:
+    """The crank's shaft or hub, whichever is thicker, and the wheel's rim."""
+    plane, size = found.plane, found.sizes
+    shaft = _shaft(size)
+    if not shaft:
+        return None
+    # An internal wheel's horns sweep over the crank's axis, and there is no room at all.
+    room = plane.L - size.rim - shaft if plane.sign > 0.0 else -shaft
+    return held(name, room, "at least", 0.0)
+
+
+def crank_hub(name: str, found: Outlines) -> Check | None:
+    """The same and the bottom of the locking disc's relief."""
+    shaft = _shaft(found.sizes)
+    if not (shaft and found.crank and is_whole(found.plane, found.sizes)):
+        return None
+    return held(name, found.relief_depth - shaft, "at least", 0.0)
+
+
+def wheel_shaft(name: str, found: Outlines) -> Check | None:
+    """The wheel's shaft or hub and a roller at the bottom of its slot."""
+    size = found.sizes
+    hub = max(size.wheel_bore, size.wheel_hub)
+    if not (hub and found.plane.sign > 0.0):
+        return None
+    return held(name, size.slot_end - hub, "at least", 0.0)
+
+
+def _shaft(size: Sizes) -> float:
+    return max(size.crank_bore, size.crank_hub if size.crank_bore else 0.0)

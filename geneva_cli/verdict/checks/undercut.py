@@ -1,0 +1,18 @@
+"""Is a curved slot's wall cut back by the roller's own cutter?"""
+
+from __future__ import annotations
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
+from geneva_cli.verdict.checks.check import Check, held
+
+
+def deepest(name: str, mechanism: Mechanism) -> Check | None:
+    """The depth of the undercut, mm, 0 where there is none."""
+    if not mechanism.engagements[0].slot.curved:
+        return None
+    from geneva_cli.analysis.undercut import undercut
+
+    found = undercut(mechanism)
+    depth, at_deg = (found.depth_mm, found.at_deg) if found else (0.0, None)
+    return held(name, depth, "at most", SHOWN_UNDERCUT, at_deg)

@@ -1,0 +1,70 @@
+"""Do walls stay in the wheel and the crank? Each is held to ``wall_min_mm``."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.shapes import Line, backwards, closed
+from geneva_cli.parts.crank import is_whole
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.verdict.checks.check import Check, held
+
+NO_WALL = {  # what it means that a wall is less than nothing
+    "wall_between_slots_mm": "neighbouring slots cut each other",
+    "horn_mm": "the recess breaks into the slot",
+    "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
+    "crank_bore_wall_mm": "the crank's bore breaks through the relief",
+    "outer_wall_mm": "the slots break through the wheel's outside",
+}
+
+
+def between_slots(name: str, found: Outlines) -> Check:
+    """Between a slot and the next one, where it is thinnest; negative where they cut each other."""
+    around, near = found.plane.slots, math.inf
+    for i, (engagement, direction) in enumerate(around):
+        following, ahead = around[(i + 1) % len(around)]
+        walls = turned(found.slots[engagement], direction)
+        ends = walls.segments[-1].end, walls.segments[0].start
+        slot = closed(walls.layer, [*walls.segments, Line(*ends)])
+        inside = Polyarc([backwards(slot) if found.plane.sign > 0.0 else slot])
+        points = Polyarc([turned(found.slots[following], ahead)]).samples(
+            1e-6 * found.plane.L, 0.01 * found.plane.L
+        )
+        near = min(near, float(inside.signed(points).min()))
+        if all(s is engagement for s, _ in around):
+            break
+    return _wall(name, near, found)
+
+
+def horn(name: str, found: Outlines) -> Check | None:
+    """Between a slot and the recess that the locking disc runs in."""
+    return _wall(name, found.sizes.horn, found) if found.crank else None
+
+
+def wheel_bore(name: str, found: Outlines) -> Check | None:
+    """Between the wheel's bore and the ends of its slots."""
+    size = found.sizes
+    return _wall(name, size.slot_end - size.wheel_bore, found) if size.wheel_bore else None
+
+
+def outside(name: str, found: Outlines) -> Check | None:
+    """Between the slots or recesses of an internal wheel and its outside."""
+    size = found.sizes
+    if not size.outer:
+        return None
+    deepest = max(size.slot_end, found.plane.L + size.recess if size.lock else 0.0)
+    return _wall(name, size.outer - deepest, found)
+
+
+def crank_bore(name: str, found: Outlines) -> Check | None:
+    """Between the crank's bore and the bottom of the locking disc's relief."""
+    size = found.sizes
+    if not (size.crank_bore and found.crank and is_whole(found.plane, size)):
+        return None
+    return _wall(name, found.relief_depth - size.crank_bore, found)
+
+
+def _wall(name: str, value: float, found: Outlines) -> Check:
+    return held(name, value, "at least", found.sizes.wall_min)

@@ -1,0 +1,62 @@
+"""One page on a design, for a person: words, timing, peaks, loads, sizes, cautions.
+
+A section is one file, or a function in a file, and one line in ``sections``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.proof import Proof
+from geneva_cli.table import Table, record_table
+from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.cautions import cautions
+from geneva_cli.verdict.checks.check import Check, all_pass
+from geneva_cli.verdict.load_cautions import load_cautions
+from geneva_cli.verdict.report.sections import SECTIONS
+from geneva_cli.verdict.report.values import Values
+from geneva_cli.verdict.report.words import words
+from geneva_cli.verdict.turn_cautions import turn_cautions
+
+
+class Report(NamedTuple):
+    """A page on a design; ``passes`` as ``check`` has it, and what its checks and cautions say."""
+
+    table: Table
+    passes: bool
+    cautions: tuple[str, ...]
+
+
+def report(
+    mechanism: Mechanism, proof: Proof | None = None, rows: list[Check] | None = None
+) -> Report:
+    """Everything about one design, as a tree of named values under a paragraph of words.
+
+    The names are the same for every machine; a value is None where it does not apply. ``proof``
+    and the checks' ``rows`` are the machine's own, where they have been made already.
+    """
+    proof = proof or Proof(mechanism)
+    rows = judged(mechanism, proof) if rows is None else rows
+    told = (*cautions(mechanism), *load_cautions(mechanism), *turn_cautions(proof))
+    passes = all_pass(rows)
+    title = mechanism.spec.title
+    values: Values = {
+        "spec": mechanism.spec.path,
+        "title": title,
+        "passes": passes,
+        "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
+        "not_proved": tuple(f"{c.name}: {c.nearest}" for c in rows if c.passes is None),
+    }
+    for section in SECTIONS:
+        values |= section(proof)
+    values["warnings"] = told
+    return Report(record_table(values, title, words(mechanism)), passes, told)
+
+
+def _said(check: Check) -> str:
+    """A failing check in a line."""
+    where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"
+    value, limit = (float("nan") if x is None else x for x in (check.value, check.limit))
+    text = f"{check.name} = {value:.6g}{where}, must be {check.must_be} {limit:.6g}"
+    return f"{text}; nearest change: {check.nearest}"

@@ -1,0 +1,27 @@
+"""What the numbers of a report rest on: speed, clearances, load and limits, as they are given."""
+
+from __future__ import annotations
+
+from geneva_cli.parts.proof import Proof
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Limits, Load, RollerMaterial, WheelMaterial
+from geneva_cli.verdict.report.values import Values
+
+ECHOED = {  # what the numbers below rest on, besides the machine's own shape
+    "drive": ("n_rpm",),
+    "size": ("slot_clearance_mm", "lock_clearance_mm", "face_width_mm"),
+    "load": tuple(key.key for key in fields(Load)),
+    "material.wheel": tuple(key.key for key in fields(WheelMaterial)),
+    "material.roller": tuple(key.key for key in fields(RollerMaterial)),
+    "limits": tuple(key.key for key in fields(Limits)),
+}
+
+
+def inputs(proof: Proof) -> Values:
+    """What was asked."""
+    spec = proof.mechanism.spec
+    values: Values = {"inputs.wheel.held_by": spec.wheel.held_by}
+    for table, names in ECHOED.items():
+        given = spec.table(table)
+        values |= {f"inputs.{table}.{key}": given[key] for key in names}
+    return values

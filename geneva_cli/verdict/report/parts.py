@@ -1,0 +1,51 @@
+"""Sizes that the parts are cut to, and what a whole turn of them shows."""
+
+from __future__ import annotations
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.report.values import Values
+
+_PARTS = [
+    f"parts.{name}"
+    for name in (
+        "none",
+        "rim_radius_mm",
+        "slot_end_radius_mm",
+        "lock_radius_mm",
+        "recess_radius_mm",
+        "relief",
+        "horn_mm",
+        "wheel_bore_mm",
+        "crank_bore_mm",
+        "smallest_gap_mm",
+        "smallest_gap_at_deg",
+        "dwell_play_deg",
+    )
+]
+
+
+def parts(proof: Proof) -> Values:
+    """None where there are no flat parts; ``parts.none`` says why they cannot be made."""
+    values: Values = dict.fromkeys(_PARTS)
+    if not proof.mechanism.spec.is_flat:
+        return values
+    try:
+        found, turn = proof.found, proof.turn
+    except GenevaError as error:
+        return values | {"parts.none": str(error)}
+    size, gap = found.sizes, turn.smallest
+    locked = bool(found.crank)
+    return values | {
+        "parts.rim_radius_mm": size.rim,
+        "parts.slot_end_radius_mm": size.slot_end,
+        "parts.lock_radius_mm": size.lock,
+        "parts.recess_radius_mm": size.recess if locked else None,
+        "parts.relief": found.relief if locked else None,
+        "parts.horn_mm": size.horn if locked else None,
+        "parts.wheel_bore_mm": 2.0 * size.wheel_bore,
+        "parts.crank_bore_mm": 2.0 * size.crank_bore,
+        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > found.contact else 0.0,
+        "parts.smallest_gap_at_deg": gap.at_deg,
+        "parts.dwell_play_deg": turn.dwell.deg if locked else None,
+    }

@@ -1,0 +1,18 @@
+"""The sections of a report: one line each, in the order shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.report import inputs, loads, parts, sizes, slot, stations
+from geneva_cli.verdict.report.values import Values
+
+SECTIONS: tuple[Callable[[Proof], Values], ...] = (
+    inputs.inputs,
+    stations.stations,
+    loads.greatest,
+    slot.driven,
+    sizes.sizes,
+    parts.parts,
+)

@@ -1,0 +1,88 @@
+"""The machine's own sizes, in millimetres; of a sphere, degrees too."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.analysis.loads import loads
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.report.values import Values
+
+_SPHERE = [
+    f"sizes.{name}"
+    for name in (
+        "axes_deg",
+        "sphere_radius_mm",
+        "crank_arm_mm",
+        "slot_mouth_polar_deg",
+        "slot_bottom_polar_deg",
+    )
+]
+_FLAT = [
+    f"sizes.{name}"
+    for name in (
+        "center_distance_mm",
+        "crank_radius_mm",
+        "ratio",
+        "slot_width_mm",
+        "slot_mouth_radius_mm",
+        "slot_bottom_radius_mm",
+        "wheel_radius_mm",
+        "rim_radius_mm",
+        "pressure_angle_max_deg",
+    )
+]
+
+
+def sizes(proof: Proof) -> Values:
+    """The wheel's radius is the one at which no roller fouls its rim."""
+    mechanism = proof.mechanism
+    spec = mechanism.spec
+    L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
+    R = mechanism.ratio * L
+    engagement = mechanism.engagements[0]
+    mouth, bottom = _distance(engagement, engagement.entry_deg) * L, _distance(engagement, 0.0) * L
+    if not spec.wheel.FLAT:
+        return _sphere_sizes(mechanism, L, r)
+    inside = spec.wheel.SIGN < 0.0
+    rim = math.hypot(mouth, r)
+    curved = engagement.slot.curved
+    return {
+        **dict.fromkeys(_SPHERE),
+        "sizes.center_distance_mm": L,
+        "sizes.crank_radius_mm": R,
+        "sizes.ratio": mechanism.ratio,
+        "sizes.roller_radius_mm": r,
+        "sizes.slot_width_mm": 2.0 * (r + spec.size.slot_clearance_mm),
+        "sizes.slot_mouth_radius_mm": mouth,
+        "sizes.slot_bottom_radius_mm": bottom,
+        "sizes.wheel_radius_mm": None if inside else rim,
+        "sizes.rim_radius_mm": rim if inside else None,
+        "sizes.pressure_angle_max_deg": (
+            loads.greatest(mechanism, "pressure_deg").max if curved else None
+        ),
+        "sizes.rollers_max": mechanism.rollers_max,
+    }
+
+
+def _distance(engagement: Engagement, input_deg: float) -> float:
+    x, y = engagement.path(input_deg, 0)
+    return math.hypot(x.c[0], y.c[0])
+
+
+def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> Values:
+    """Sizes of a spherical wheel: the slot is a meridian between two polar angles."""
+    engagement = mechanism.engagements[0]
+    mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
+    return {
+        **dict.fromkeys(_FLAT),
+        **{f"sizes.{key}": value for key, value in mechanism.spec.wheel.own_sizes.items()},
+        "sizes.sphere_radius_mm": L,
+        "sizes.crank_arm_mm": mechanism.ratio * L,
+        "sizes.roller_radius_mm": r,
+        "sizes.slot_mouth_polar_deg": math.degrees(mouth),
+        "sizes.slot_bottom_polar_deg": math.degrees(bottom),
+        "sizes.rollers_max": mechanism.rollers_max,
+    }

@@ -1,0 +1,11 @@
+"""What a section of a report gives."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from geneva_cli.table import Table
+
+Numbers: TypeAlias = dict[str, float | None]
+# Named values; None is one that does not apply. The names are the same for every machine.
+Values: TypeAlias = dict[str, float | str | tuple[str, ...] | Table | None]

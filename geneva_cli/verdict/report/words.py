@@ -1,0 +1,37 @@
+"""A design in words: the paragraph above its numbers."""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.timing import timings
+from geneva_cli.machine.mechanism import Mechanism
+
+
+def words(mechanism: Mechanism) -> str:
+    """The design in words."""
+    spec = mechanism.spec
+    wheel, drive = spec.wheel, spec.drive
+    article = "An" if wheel.NAME[0] in "aeiou" else "A"
+    slot = mechanism.engagements[0].slot
+    slots = "curved" if slot.curved else "straight offset" if slot.offset else "straight radial"
+    count = len(wheel.steps or drive.roller_angles_deg or ()) or drive.rollers
+    rollers = "one roller" if count == 1 else f"{count} rollers"
+    text = (
+        f"{article} {wheel.NAME} wheel of {wheel.z} {slots} slots, driven by {drive.WORDS} with "
+        f"{rollers} at {drive.n_rpm:g} rpm."
+    )
+    if spec.motion:
+        text += f' The wheel follows the law "{spec.motion.law.NAME}"'
+        if spec.motion.alpha0_deg:
+            text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
+        text += "; its slots are cut to suit." if slot.curved else "; the groove is cut to suit."
+    each = [timings(mechanism)[i] for i in range(len(mechanism.engagements))]
+    steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.engagements))})
+    turn = "turns by " + " or ".join(f"{step:.6g}" for step in steps) + " deg"
+    if len(each) == 1:
+        text += (
+            f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."
+        )
+    else:
+        lasting = sorted({f"{t.motion_s:.4g}" for t in each}, key=float)
+        text += f" It {turn} {len(each)} times in a turn of the crank, in {' or '.join(lasting)} s."
+    return text
