@@ -8,9 +8,9 @@ What is imported from here is loaded when it is first asked for.
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # what a type checker sees
+if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs no other
     from geneva_cli.design import Design as Design
     from geneva_cli.design import load as load
     from geneva_cli.errors import GenevaError as GenevaError
@@ -50,54 +50,49 @@ if TYPE_CHECKING:  # what a type checker sees
 
 __version__ = "0.1.0"
 
+# Where what is no kind comes from; a drive, a wheel and a law are found in their registry.
 _FROM = {
-    "load": "design",
-    "Design": "design",
-    "GenevaError": "errors",
-    "Spec": "machine.spec",
-    "Motion": "machine.spec",
-    "Size": "spec.tables",
-    "Load": "spec.tables",
-    "Limits": "spec.tables",
-    "Mass": "spec.tables",
-    "Motor": "spec.tables",
-    "RollerMaterial": "spec.tables",
-    "Shaft": "spec.tables",
-    "Support": "spec.tables",
-    "Tolerance": "spec.tables",
-    "WheelMaterial": "spec.tables",
-    "External": "machine.wheels.external",
-    "Internal": "machine.wheels.internal",
-    "Spherical": "machine.wheels.spherical",
-    "Crank": "machine.drives.crank",
-    "SideCrank": "machine.drives.side_crank",
-    "EllipticalGears": "machine.drives.elliptical_gears",
-    "NoncircularGears": "machine.drives.noncircular_gears",
-    "GenevaPair": "machine.drives.geneva_pair",
-    "FourBar": "machine.drives.four_bar",
-    "SliderCrank": "machine.drives.slider_crank",
-    "Epicyclic": "machine.drives.epicyclic",
-    "GearSector": "machine.drives.gear_sector",
-    "Cam": "machine.drives.cam",
-    "Harmonic": "machine.laws.standard",
-    "Cycloidal": "machine.laws.standard",
-    "ModifiedTrapezoid": "machine.laws.standard",
-    "ModifiedSine": "machine.laws.standard",
-    "Polynomial345": "machine.laws.standard",
-    "Polynomial4567": "machine.laws.standard",
-    "SineGroup": "machine.laws.standard",
-    "TableLaw": "machine.laws.table",
+    "design": ("Design", "load"),
+    "errors": ("GenevaError",),
+    "machine.spec": ("Motion", "Spec"),
+    "spec.tables": (
+        "Limits",
+        "Load",
+        "Mass",
+        "Motor",
+        "RollerMaterial",
+        "Shaft",
+        "Size",
+        "Support",
+        "Tolerance",
+        "WheelMaterial",
+    ),
 }
-__all__ = ["__version__", *_FROM]
 
 
-def __getattr__(name: str) -> Any:
-    if name not in _FROM:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = vars(importlib.import_module(f"{__name__}.{_FROM[name]}"))[name]
-    globals()[name] = value
-    return value
+def _rooms() -> dict[str, str]:
+    """The module of each name that is offered."""
+    from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
+
+    rooms = {name: module for module, names in _FROM.items() for name in names}
+    for path in (*GEARINGS.values(), *DRIVES.values(), *LAWS.values()):
+        module, _, name = path.partition(":")
+        rooms[name] = f"machine.{module}"
+    return rooms
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return ["__version__", *sorted(_rooms())]
+
+
+if not TYPE_CHECKING:  # which would take any name for known
+
+    def __getattr__(name: str) -> object:
+        if name == "__all__":
+            return __dir__()
+        rooms = _rooms()
+        if name not in rooms:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = vars(importlib.import_module(f"{__name__}.{rooms[name]}"))[name]
+        globals()[name] = value
+        return value
