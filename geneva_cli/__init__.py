@@ -2,7 +2,8 @@
 
     from geneva_cli import load, Design, External, SideCrank
 
-What is imported from here is loaded when it is first asked for.
+What is imported from here is loaded when it is first asked for. The examples in docstrings take
+it as imported.
 """
 
 from __future__ import annotations

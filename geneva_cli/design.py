@@ -57,6 +57,9 @@ def load(path: str, given: Iterable[str] = ()) -> Design:
     ``given`` are keys set beside the file or over it, as ``["drive.A=0.6"]``.
     Raises GenevaError, ``FILE:LINE: what is wrong; what would be right``, here for what cannot be
     read, and from every answer for what cannot be built.
+
+    >>> load("designs/side-crank-z6.toml", ["drive.A=0.3"]).spec.drive.A
+    0.3
     """
     from geneva_cli.specfile.reader import read
 
@@ -81,6 +84,9 @@ class Design:
     file with ``A = 2`` gets, without the line. Angles are in degrees, lengths in millimetres,
     loads in newtons, newton metres and megapascals; velocity, acceleration and jerk are
     derivatives of the wheel's angle by the input's in radians.
+
+    >>> Design(External(6), SideCrank(A=0.6)).timing.motion_s  # at 60 rpm
+    0.5072580347148502
     """
 
     def __init__(
@@ -121,7 +127,11 @@ class Design:
 
     @classmethod
     def of(cls, spec: Spec, text: Text | None = None) -> Design:
-        """The design of a whole spec; ``text`` is the file that it was read from."""
+        """The design of a whole spec; ``text`` is the file that it was read from.
+
+        >>> Design.of(Spec(External(6))).spec.wheel.z
+        6
+        """
         design = cls.__new__(cls)
         design.spec, design._text = spec, text
         return design
@@ -130,6 +140,9 @@ class Design:
         """The design with one key changed, ``table.key`` as in the file; None: its default.
 
         Raises GenevaError for a key that it does not have, or a value out of its range.
+
+        >>> Design(External(6)).with_("wheel.z", 8).timing.motion_deg
+        135.0
         """
         return Design.of(self.spec.with_(key, value), None)
 
@@ -141,19 +154,31 @@ class Design:
 
     @answer
     def mechanism(self) -> Mechanism:
-        """The machine: its engagements over a period. Raises GenevaError where there is none."""
+        """The machine: its engagements over a period. Raises GenevaError where there is none.
+
+        >>> round(Design(External(6)).mechanism.ratio, 12)  # crank over centre distance, sin(pi/z)
+        0.5
+        """
         return build(self.spec)
 
     @answer
     def timings(self) -> list[Timing]:
-        """Motion, dwell and cycle of each engagement in a period: degrees and seconds."""
+        """Motion, dwell and cycle of each engagement in a period: degrees and seconds.
+
+        >>> [t.index_deg for t in Design(External(6, steps_deg=(72, 48))).timings]
+        [72.0, 48.0]
+        """
         from geneva_cli.analysis.timing import timings
 
         return timings(self.mechanism)
 
     @property
     def timing(self) -> Timing:
-        """Motion, dwell and cycle of the first engagement."""
+        """Motion, dwell and cycle of the first engagement.
+
+        >>> Design(External(6)).timing.dwell_deg
+        240.0
+        """
         return self.timings[0]
 
     @answer
@@ -161,6 +186,12 @@ class Design:
         """Greatest velocity, acceleration, jerk and power of a period, and where.
 
         Invariants: derivatives by the input's angle in radians. Angles are input angles in degrees.
+
+        >>> peaks = Design(External(6)).peaks
+        >>> peaks.jerk
+        Peak(max=6.0, at_deg=0.0)
+        >>> round(peaks.acceleration.max, 12), round(peaks.acceleration.at_deg, 9)
+        (1.349637275902, -22.903061866)
         """
         from geneva_cli.analysis.peaks import worst
 
@@ -168,7 +199,11 @@ class Design:
 
     @answer
     def peaks_table(self) -> Table:
-        """The peaks as ``geneva peaks`` prints them, engagement by engagement where they differ."""
+        """The peaks as ``geneva peaks`` prints them, engagement by engagement where they differ.
+
+        >>> Design(External(6)).peaks_table.to_dict()["velocity.max"]
+        1.0
+        """
         from geneva_cli.analysis.peaks import peaks_table
 
         return peaks_table(self.mechanism)
@@ -177,6 +212,9 @@ class Design:
         """``samples`` rows over a period from the first entry, evenly in the input angle.
 
         Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+
+        >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
+        [-60.0, 60.0, 180.0, 300.0]
         """
         from geneva_cli.analysis.motion import motion_table
 
@@ -188,6 +226,10 @@ class Design:
 
         Infinite where nothing bounds them; the stress needs a ``face_width_mm``. Newtons, newton
         metres, megapascals; input angles in degrees.
+
+        >>> loaded = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=15))
+        >>> round(loaded.loads["pin_force_N"].max, 3)
+        649.007
         """
         from geneva_cli.analysis.loads.loads import greatest
 
@@ -200,37 +242,68 @@ class Design:
         """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.
 
         Or ``samples`` rows, evenly in the input angle.
+
+        >>> slot = Design(External(6), motion=Motion(Cycloidal(), ratio="matched")).slot(samples=5)
+        >>> len(slot), slot.names[:4]
+        (5, ('input_deg', 'wheel_deg', 'x_mm', 'y_mm'))
         """
         return self.part_table("slot", tolerance_mm, samples)
 
     def part_table(
         self, part: str, tolerance_mm: float = 0.001, samples: int | None = None
     ) -> Table:
-        """A part as a table of points: ``slot``, ``gears``, ``groove``, or a sphere's ``wheel``."""
+        """A part as a table of points: ``slot``, ``gears``, ``groove``, or a sphere's ``wheel``.
+
+        Columns as ``profile --part`` writes them, lengths in mm. Raises GenevaError for a part
+        that the machine does not have.
+
+        >>> geared = Design(External(6), EllipticalGears(eccentricity=0.3))
+        >>> len(geared.part_table("gears", samples=5))
+        5
+        """
         from geneva_cli.parts.catalogue import part_table
 
         return self._located(lambda: part_table(self.mechanism, part, tolerance_mm, samples))
 
     def is_table(self, part: str, drawn: bool) -> bool:
-        """Whether a part is a table of points; ``drawn`` where a drawing is asked for."""
+        """Whether a part is a table of points; ``drawn`` where a drawing is asked for.
+
+        >>> wheel = Design(External(6))
+        >>> wheel.is_table("slot", drawn=False), wheel.is_table("wheel", drawn=False)
+        (True, False)
+        """
         from geneva_cli.parts.catalogue import is_table
 
         return self._located(lambda: is_table(self.mechanism, part, drawn))
 
     @answer
     def proof(self) -> Proof:
-        """Outlines and full turn, which all questions about the parts share."""
+        """Outlines and full turn, which all questions about the parts share.
+
+        >>> Design(External(6)).proof.turn.holds  # its lock, in the dwell
+        True
+        """
         from geneva_cli.parts.proof import Proof
 
         return Proof(self.mechanism)
 
     @answer
     def parts(self) -> Outlines:
-        """Wheel and crank as closed outlines. Raises GenevaError where there are no flat parts."""
+        """Wheel and crank as closed outlines. Raises GenevaError where there are no flat parts.
+
+        >>> Design(External(6)).parts.relief
+        'arc'
+        """
         return self.proof.found
 
     def drawn(self, tolerance_mm: float) -> Proof:
-        """The parts as they are written for a tolerance in mm above 0, and their full turn."""
+        """The parts as they are written for a tolerance in mm above 0, and their full turn.
+
+        Raises GenevaError for another tolerance, or where there are no flat parts.
+
+        >>> Design(External(6)).drawn(0.01).found.relief
+        'arc'
+        """
         from geneva_cli.parts.outlines import outlines
         from geneva_cli.parts.proof import Proof
 
@@ -245,6 +318,9 @@ class Design:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
         ``slot``, ``wheel``, ``crank``, ``assembly`` or ``groove``; millimetres.
+
+        >>> Design(External(6)).drawing("wheel").layers
+        ('WHEEL', 'BORE')
         """
         from geneva_cli.parts.catalogue import part_drawing
 
@@ -255,34 +331,58 @@ class Design:
 
     @answer
     def checks(self) -> list[Check]:
-        """Every check: its value, its limit, and where it fails the nearest change that passes."""
+        """Every check: its value, its limit, and where it fails the nearest change that passes.
+
+        >>> first = Design(External(6)).checks[0]
+        >>> first.name, first.value, first.must_be, first.limit, first.passes
+        ('dwell_deg', 240.0, 'at least', 0.0, True)
+        """
         from geneva_cli.verdict.advice import judged
 
         return judged(self.mechanism, self.proof)
 
     @property
     def passes(self) -> bool:
-        """Whether no check fails; what cannot be proved does not fail."""
+        """Whether no check fails; what cannot be proved does not fail.
+
+        >>> Design(External(6), limits=Limits(velocity_max=0.8)).passes
+        False
+        """
         from geneva_cli.verdict.checks import all_pass
 
         return all_pass(self.checks)
 
     def judge(self, proof: Proof) -> tuple[str, list[str]]:
-        """Why drawn parts cannot be written, empty where they can, and what else is wrong."""
+        """Why drawn parts cannot be written, empty where they can, and what else is wrong.
+
+        >>> wheel = Design(External(6))
+        >>> wheel.judge(wheel.drawn(0.01))
+        ('', [])
+        """
         from geneva_cli.verdict.advice import verdict
 
         return self._located(lambda: verdict(proof))
 
     @answer
     def warnings(self) -> list[str]:
-        """What a number alone would hide."""
+        """What a number alone would hide.
+
+        >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
+        >>> shock.warnings[0]
+        'the law "harmonic" starts and stops with a jump in acceleration: a soft shock at both ends'
+        """
         from geneva_cli.verdict.cautions import cautions
 
         return cautions(self.mechanism)
 
     @answer
     def report(self) -> Report:
-        """The whole page: a record of named values, whether all checks pass, and the cautions."""
+        """The whole page: a record of named values, whether all checks pass, and the cautions.
+
+        >>> page = Design(External(6)).report
+        >>> page.passes, page.table.to_dict()["timing.k_r"]
+        (True, 0.5)
+        """
         from geneva_cli.verdict.report import report
 
         return report(self.mechanism, self.proof, self.checks)

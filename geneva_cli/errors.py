@@ -12,6 +12,10 @@ class GenevaError(Exception):
 
     ``key`` names the place in the spec, as in ``("drive", "A")``; the reader of the spec
     turns it into a file and a line; a number in it counts a list's tables from 0.
+
+    >>> SideCrank(A=2.0)
+    Traceback (most recent call last):
+    geneva_cli.errors.GenevaError: A = 2 must be above -1, below 1 (side-crank: base offset / ...)
     """
 
     def __init__(self, message: str, key: tuple[str | int, ...] = ()) -> None:

@@ -1,13 +1,18 @@
-"""The examples in docstrings, run; and what is offered at the top of the package."""
+"""The examples in docstrings, run: everything public has one. And what the package offers."""
 
 import ast
 import doctest
 import importlib
+import inspect
 import os
 
 import pytest
+import repo
 
 import geneva_cli
+from geneva_cli import Design, Motion, Spec
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.spec.schema import Table
 
 ROOT = os.path.dirname(geneva_cli.__file__)
 
@@ -23,11 +28,47 @@ def with_examples():
                         yield f"geneva_cli.{name}"
 
 
+OFFERED = {name: getattr(geneva_cli, name) for name in geneva_cli.__all__ if name != "__version__"}
+# Classes whose methods are for a user to call, besides what is offered. The methods of drives and
+# wheels are what the machine asks of them.
+CALLED = (Design, Spec, Motion, Table, Law)
+
+
+def public():
+    """What a Python user sees, by name: what is offered, and its methods."""
+    yield from OFFERED.items()
+    for cls in CALLED:
+        for name, made in vars(cls).items():
+            # a field's default is no method, and has no text of its own
+            if not name.startswith("_") and (callable(made) or hasattr(made, "__get__")):
+                yield f"{cls.__name__}.{name}", made
+
+
+PUBLIC = dict(public())
+
+
 @pytest.mark.parametrize("module", sorted(with_examples()))
 def test_examples_of(module):
-    result = doctest.testmod(importlib.import_module(module), optionflags=doctest.ELLIPSIS)
+    found = importlib.import_module(module)
+    taken = {**OFFERED, **vars(found)}
+    result = doctest.testmod(found, globs=taken, optionflags=doctest.ELLIPSIS)
     assert result.attempted
     assert not result.failed
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_everything_public_has_an_example(name, monkeypatch):
+    """Also of answers that are kept, which doctest finds in later Pythons only."""
+    monkeypatch.chdir(repo.ROOT)
+    text = inspect.getdoc(PUBLIC[name])
+    example = doctest.DocTestParser().get_doctest(text, dict(OFFERED), name, None, None)
+    assert example.examples
+    assert not doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(example).failed
+
+
+@pytest.mark.parametrize("name", ["Design.peaks", "Design.checks", "Table.but", "load", "Cam"])
+def test_what_is_public_is_found(name):
+    assert name in PUBLIC
 
 
 def test_what_is_offered_is_there_and_typed():

@@ -35,7 +35,15 @@ LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  #
 
 @dataclass(frozen=True)
 class Motion(Table):
-    """``[motion]``: present when the motion is given and the slots are solved for."""
+    """``[motion]``: present when the motion is given and the slots are solved for.
+
+    ``law`` is the wheel's motion over its step; ``alpha0_deg`` lengthens the dwell, degrees, at the
+    motion's cost; ``ratio`` is R/L of curved slots, "matched" the one at which the pressure angle
+    stays below 90 degrees at mid-motion.
+
+    >>> Design(External(6), motion=Motion(Cycloidal(), ratio="matched")).peaks.acceleration.max
+    1.5
+    """
 
     TABLE: ClassVar[str] = "motion"
     law: Law
@@ -51,7 +59,11 @@ class Motion(Table):
         _refuse_other(self, "law", Law, "Cycloidal()")
 
     def with_key(self, key: str, value: Any) -> Self:
-        """The same with one key of the motion or of its law changed; None: its default."""
+        """The same with one key of the motion or of its law changed; None: its default.
+
+        >>> Motion(SineGroup(0.1)).with_key("lambda", 0.05).law
+        SineGroup(lambda_=0.05)
+        """
         law, own = ([f.key for f in fields(type(part))] for part in (self.law, self))
         if key in law:
             return self.but(law=self.law.with_key(key, value))
@@ -77,6 +89,9 @@ class Spec:
     """All that a machine is built from, as it was given.
 
     ``path`` is the spec's file, for messages; ``files`` those that its points were read from.
+
+    >>> Spec(External(6)).drive.n_rpm
+    60.0
     """
 
     wheel: Gearing
@@ -124,11 +139,19 @@ class Spec:
                     )
 
     def but(self, **changes: Any) -> Self:
-        """The same with some of its tables changed."""
+        """The same with some of its tables changed.
+
+        >>> Spec(External(6)).but(wheel=Internal(6)).wheel.NAME
+        'internal'
+        """
         return dataclasses.replace(self, **changes)
 
     def table(self, name: str) -> dict[str, Any]:
-        """The values of a table by their keys; of ``motion`` its law's too."""
+        """The values of a table by their keys; of ``motion`` its law's too.
+
+        >>> Spec(External(6)).table("drive")
+        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None}
+        """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
         part = self._part(name)
@@ -151,6 +174,9 @@ class Spec:
         """The same with one key changed, written ``table.key`` as in the file; None: its default.
 
         Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
+
+        >>> Spec(External(6)).with_("wheel.z", 8).wheel.z
+        8
         """
         table, _, name = key.rpartition(".")
         part = self._part(table)
@@ -166,21 +192,37 @@ class Spec:
 
     @property
     def is_loaded(self) -> bool:
-        """Whether anything is known that resists the wheel: an inertia, a mass or a torque."""
+        """Whether anything is known that resists the wheel: an inertia, a mass or a torque.
+
+        >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
+        (False, True)
+        """
         return bool(self.load.inertia_kgm2 or self.load.torque_Nm or self.mass)
 
     @property
     def is_flat(self) -> bool:
-        """Whether wheel and crank are flat outlines, of a wheel that can be cut."""
+        """Whether wheel and crank are flat outlines, of a wheel that can be cut.
+
+        >>> Spec(External(6)).is_flat, Spec(Spherical(6)).is_flat
+        (True, False)
+        """
         return self.wheel.FLAT and self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
-        """The roller's radius r, by default L/20."""
+        """The roller's radius r, by default L/20.
+
+        >>> Spec(External(6)).roller_radius_mm(160.0)
+        8.0
+        """
         given = self.size.roller_radius_mm
         return center_distance_mm / 20.0 if given is None else given
 
     @property
     def given_distance_mm(self) -> float:
-        """The centre distance L, where the machine does not solve for it."""
+        """The centre distance L, where the machine does not solve for it.
+
+        >>> Spec(External(6)).given_distance_mm
+        100.0
+        """
         given = self.size.center_distance_mm
         return DISTANCE_MM if given is None else given

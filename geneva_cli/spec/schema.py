@@ -71,11 +71,21 @@ class Table:
                 object.__setattr__(self, field.attribute, value)
 
     def as_dict(self) -> dict[str, Any]:
-        """The values by their keys."""
+        """The values by their keys.
+
+        >>> External(6).as_dict()
+        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None}
+        """
         return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
 
     def with_key(self, key: str, value: Any) -> Self:
-        """The same with one key, as it is written in the file, changed; None: its default."""
+        """The same with one key, as it is written in the file, changed; None: its default.
+
+        Raises GenevaError for a key that the table does not have, or a value out of its range.
+
+        >>> SideCrank(A=0.6).with_key("A", 0.5).A
+        0.5
+        """
         known = {field.key: field for field in fields(type(self))}
         if key not in known:
             raise unknown(key, self.TABLE, tuple(known))
@@ -86,7 +96,11 @@ class Table:
         return self.but(**{field.attribute: value})
 
     def but(self, **changes: Any) -> Self:
-        """The same with some of its fields changed, checked like any other."""
+        """The same with some of its fields changed, checked like any other.
+
+        >>> SideCrank(A=0.6).but(n_rpm=30.0)
+        SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6)
+        """
         return dataclasses.replace(self, **changes)
 
 

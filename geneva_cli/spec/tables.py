@@ -19,7 +19,13 @@ Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
 
 @dataclass(frozen=True)
 class Size(Table):
-    """``[size]``."""
+    """``[size]``.
+
+    Lengths in mm, diameters where a key says so. What is left out follows from the rest.
+
+    >>> Design(External(6), size=Size(center_distance_mm=200.0)).mechanism.roller_radius_mm
+    10.0
+    """
 
     TABLE: ClassVar[str] = "size"
 
@@ -76,7 +82,11 @@ class Size(Table):
 
 @dataclass(frozen=True)
 class Load(Table):
-    """``[load]``."""
+    """``[load]``.
+
+    >>> Design(External(6), load=Load(torque_Nm=15.0)).loads["input_torque_Nm"].max
+    15.0
+    """
 
     TABLE: ClassVar[str] = "load"
 
@@ -88,7 +98,11 @@ class Load(Table):
 
 @dataclass(frozen=True)
 class Mass(Table):
-    """One ``[[mass]]``: a body that the wheel carries, or several alike."""
+    """One ``[[mass]]``: a body that the wheel carries, or several alike.
+
+    >>> Mass("disc", mass_kg=2.0, diameter_mm=300.0).count
+    1
+    """
 
     TABLE: ClassVar[str] = "mass"
 
@@ -142,7 +156,11 @@ class Mass(Table):
 
 @dataclass(frozen=True)
 class Support(Table):
-    """``[support]``: the bearing of the table that the wheel turns, and the gears to it."""
+    """``[support]``: the bearing of the table that the wheel turns, and the gears to it.
+
+    >>> Support(friction=0.01, radius_mm=80.0).gear_ratio
+    1.0
+    """
 
     TABLE: ClassVar[str] = "support"
 
@@ -157,7 +175,11 @@ class Support(Table):
 
 @dataclass(frozen=True)
 class Motor(Table):
-    """``[motor]``: what is behind the input shaft."""
+    """``[motor]``: what is behind the input shaft.
+
+    >>> Motor(gear_ratio=20.0, gear_efficiency=0.9).service_factor
+    1.0
+    """
 
     TABLE: ClassVar[str] = "motor"
 
@@ -174,7 +196,11 @@ class Motor(Table):
 
 @dataclass(frozen=True)
 class Shaft(Table):
-    """``[shaft]``: the shafts of wheel and crank, and what is elastic between wheel and load."""
+    """``[shaft]``: the shafts of wheel and crank, and what is elastic between wheel and load.
+
+    >>> Shaft(wheel_diameter_mm=25.0, wheel_overhang_mm=30.0).damping_ratio
+    0.0
+    """
 
     TABLE: ClassVar[str] = "shaft"
 
@@ -204,21 +230,33 @@ class Material(Table):
 
 @dataclass(frozen=True)
 class WheelMaterial(Material):
-    """``[material.wheel]``."""
+    """``[material.wheel]``.
+
+    >>> WheelMaterial().youngs_modulus_GPa  # steel
+    210.0
+    """
 
     TABLE: ClassVar[str] = "material.wheel"
 
 
 @dataclass(frozen=True)
 class RollerMaterial(Material):
-    """``[material.roller]``: of the roller and its pin."""
+    """``[material.roller]``: of the roller and its pin.
+
+    >>> RollerMaterial(stress_max_MPa=1500.0).density_kgm3
+    7850.0
+    """
 
     TABLE: ClassVar[str] = "material.roller"
 
 
 @dataclass(frozen=True)
 class Tolerance(Table):
-    """``[tolerance]``: the dimensions' deviations, each plus or minus."""
+    """``[tolerance]``: the dimensions' deviations, each plus or minus.
+
+    >>> Tolerance(center_distance_mm=0.02).distribution
+    'uniform'
+    """
 
     TABLE: ClassVar[str] = "tolerance"
 
@@ -236,7 +274,12 @@ class Tolerance(Table):
 
 @dataclass(frozen=True)
 class Limits(Table):
-    """``[limits]``: what ``geneva check`` holds the design against."""
+    """``[limits]``: what ``geneva check`` holds the design against.
+
+    >>> strict = Design(External(6), limits=Limits(velocity_max=0.8))
+    >>> [check.name for check in strict.checks if not check.passes]
+    ['velocity_max']
+    """
 
     TABLE: ClassVar[str] = "limits"
 

@@ -10,7 +10,14 @@ from geneva_cli.machine.drives.transmission import About, Transmission, same
 
 @dataclass(frozen=True, kw_only=True)
 class Crank(Transmission):
-    """The plain crank: crank angle and input angle are one."""
+    """The plain crank: crank angle and input angle are one.
+
+    ``n_rpm`` is its constant speed, ``rollers`` how many it carries, evenly unless
+    ``roller_angles_deg`` places them.
+
+    >>> Design(External(6), Crank(n_rpm=30, rollers=2)).timing.cycle_s  # a roller's passage
+    1.0
+    """
 
     NAME: ClassVar[str] = "crank"
     WORDS: ClassVar[str] = "a crank"

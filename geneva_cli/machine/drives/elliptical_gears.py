@@ -26,7 +26,13 @@ DISTANCE_MM = 100.0  # of the gears' axes
 
 @dataclass(frozen=True, kw_only=True)
 class EllipticalGears(Transmission):
-    """Two equal ellipses: the index in their slow phase, or in their quick one."""
+    """Two equal ellipses: the index in their slow phase, or in their quick one.
+
+    ``eccentricity`` is that of the pitch ellipses, 0 or more and below 1; they turn about a focus.
+
+    >>> round(Design(External(6), EllipticalGears(eccentricity=0.3)).timing.motion_deg, 6)
+    187.984352
+    """
 
     NAME: ClassVar[str] = "elliptical-gears"
     WORDS: ClassVar[str] = "a crank behind elliptical gears"

@@ -27,7 +27,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Epicyclic(PinPath):
-    """A planet carries the roller."""
+    """A planet carries the roller.
+
+    ``planet_ratio`` is the planet's crank over the centre distance, or "shockless" for the one
+    whose acceleration does not jump at entry; ``fixed`` is the gear that the planet rolls on.
+
+    >>> soft = Design(External(4), Epicyclic(planet_ratio="shockless"))
+    >>> abs(soft.peaks.ends.acceleration_entry) < 1e-9
+    True
+    """
 
     NAME: ClassVar[str] = "epicyclic"
     WORDS: ClassVar[str] = "a roller on a planet gear"

@@ -21,7 +21,19 @@ from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 @dataclass(frozen=True, kw_only=True)
 class FourBar(Linkage):
-    """A point of a four-bar's coupler carries the roller."""
+    """A point of a four-bar's coupler carries the roller.
+
+    Links in mm, ``point_deg`` from the coupler's line to the roller's; the wheel that the path can
+    drive is solved for. Raises GenevaError, when the machine is built, where the links do not close
+    or their path drives no wheel.
+
+    >>> coupler = FourBar(
+    ...     crank_mm=40, ground_mm=90, coupler_mm=100, rocker_mm=100,
+    ...     point_mm=161.519, point_deg=-36.138, entry_deg=123.3,
+    ... )
+    >>> round(Design(External(4), coupler).mechanism.center_distance_mm, 2)
+    119.49
+    """
 
     NAME: ClassVar[str] = "four-bar"
     WORDS: ClassVar[str] = "a point of a four-bar linkage"

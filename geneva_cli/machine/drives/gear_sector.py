@@ -30,7 +30,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class GearSector(PinPath):
-    """Slot, gears at constant ratio, slot."""
+    """Slot, gears at constant ratio, slot.
+
+    ``sector_deg`` is the crank's angle in gear; ``gear_ratio`` the wheel's speed over the crank's
+    there, or "shockless" for the one at which the speed does not jump.
+
+    >>> Design(External(3), GearSector(sector_deg=60)).timing.motion_deg
+    180.0
+    """
 
     NAME: ClassVar[str] = "gear-sector"
     WORDS: ClassVar[str] = "a crank with gear sectors"

@@ -21,7 +21,13 @@ from geneva_cli.spec.rules import Z_MAX, Range
 
 @dataclass(frozen=True, kw_only=True)
 class GenevaPair(Transmission):
-    """An external wheel in front of the crank: one index in many turns of the input."""
+    """An external wheel in front of the crank: one index in many turns of the input.
+
+    ``first_z`` is the number of its slots: so many turns of the input are one index.
+
+    >>> Design(External(4), GenevaPair(first_z=4)).timing.cycle_s  # at 60 rpm
+    4.0
+    """
 
     NAME: ClassVar[str] = "geneva-pair"
     WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"

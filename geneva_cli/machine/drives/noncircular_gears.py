@@ -32,7 +32,14 @@ MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
 
 @dataclass(frozen=True, kw_only=True)
 class NoncircularGears(Transmission):
-    """Gears of any ratio that closes over a turn."""
+    """Gears of any ratio that closes over a turn.
+
+    Either the side-crank's ``A``, or the points of a ratio, output speed over input speed, over a
+    turn of the input in degrees: pairs, or a CSV file's.
+
+    >>> round(Design(External(6), NoncircularGears(A=0.6)).peaks.velocity.max, 12)
+    0.625
+    """
 
     NAME: ClassVar[str] = "noncircular-gears"
     WORDS: ClassVar[str] = "a crank behind noncircular gears"

@@ -19,7 +19,14 @@ from geneva_cli.spec.rules import Range
 
 @dataclass(frozen=True, kw_only=True)
 class SideCrank(Transmission):
-    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 quickens it."""
+    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 quickens it.
+
+    ``A`` is the distance of the two axes over the input crank's length, between -1 and 1.
+    Raises GenevaError for one beyond.
+
+    >>> Design(External(6), SideCrank(A=0.6)).peaks.velocity.max  # 1 / (1 + A) of the plain crank's
+    0.625
+    """
 
     NAME: ClassVar[str] = "side-crank"
     WORDS: ClassVar[str] = "a side-crank"

@@ -21,7 +21,16 @@ from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
 @dataclass(frozen=True, kw_only=True)
 class SliderCrank(Linkage):
-    """A point of a connecting rod carries the roller."""
+    """A point of a connecting rod carries the roller.
+
+    Links in mm, ``point_deg`` from the rod's line to the roller's; the wheel that the path can
+    drive is solved for. Raises GenevaError, when the machine is built, where the rod is too short
+    or the path drives no wheel.
+
+    >>> rod = SliderCrank(crank_mm=40, rod_mm=100, point_mm=80, point_deg=90)
+    >>> round(Design(External(8), rod).mechanism.center_distance_mm, 2)
+    211.92
+    """
 
     NAME: ClassVar[str] = "slider-crank"
     WORDS: ClassVar[str] = "a point of a slider-crank"

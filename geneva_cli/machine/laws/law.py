@@ -35,19 +35,36 @@ class Law(Table):
 
     @property
     def symmetric(self) -> bool:
-        """Whether the second half mirrors the first."""
+        """Whether the second half mirrors the first.
+
+        >>> Cycloidal().symmetric, SineGroup(0.1).symmetric
+        (True, False)
+        """
         return True
 
     def doubt(self) -> Doubt | None:
-        """Of points: the decimals given, and what their rounding moves the third derivative by."""
+        """Of points: the decimals given, and what their rounding moves the third derivative by.
+
+        >>> Cycloidal().doubt() is None
+        True
+        """
         return None
 
     @abstractmethod
     def first(self, u: Coefficient, order: int) -> Jet:
-        """The share s on 0 <= u <= 1/2, with its derivatives by u."""
+        """The share s on 0 <= u <= 1/2, with its derivatives by u.
+
+        >>> Polynomial345().first(0.5, 3).derivatives()  # s, ds/du and so on
+        (0.5, 1.875, 0.0, -30.0)
+        """
 
     def second(self, w: Coefficient, order: int) -> Jet:
-        """What is left, 1 - s, on 0 <= w = 1 - u <= 1/2, with its derivatives by w."""
+        """What is left, 1 - s, on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
+
+        >>> law = SineGroup(0.1)
+        >>> round(law.first(0.5, 0).c[0] + law.second(0.5, 0).c[0], 12)
+        1.0
+        """
         return self.first(w, order)
 
     def __call__(self, u: Coefficient, order: int = 3) -> Jet:

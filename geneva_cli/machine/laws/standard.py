@@ -17,7 +17,13 @@ def _sine(x: Jet) -> Jet:
 
 @dataclass(frozen=True)
 class Harmonic(Law):
-    """Simple sine line: ds/du = (pi/2) sin(pi u)."""
+    """Simple sine line: ds/du = (pi/2) sin(pi u).
+
+    Acceleration jumps at both ends, by pi²/2.
+
+    >>> round(Harmonic()(0.5).c[1], 6)  # ds/du at its greatest
+    1.570796
+    """
 
     NAME: ClassVar[str] = "harmonic"
     ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
@@ -34,7 +40,13 @@ class Harmonic(Law):
 
 @dataclass(frozen=True)
 class Cycloidal(Law):
-    """Inclined sine line: ds/du = 2 sin²(pi u)."""
+    """Inclined sine line: ds/du = 2 sin²(pi u).
+
+    Acceleration starts and ends at 0.
+
+    >>> round(Cycloidal()(0.5).c[1], 6)  # ds/du at its greatest
+    2.0
+    """
 
     NAME: ClassVar[str] = "cycloidal"
     ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
@@ -53,7 +65,13 @@ class Cycloidal(Law):
 
 @dataclass(frozen=True)
 class ModifiedTrapezoid(Law):
-    """Modified acceleration trapezoid: constant acceleration, joined by quarter sines."""
+    """Modified acceleration trapezoid: constant acceleration, joined by quarter sines.
+
+    The least peak of acceleration of those here, 4.888.
+
+    >>> round(ModifiedTrapezoid()(0.5).c[1], 6)  # ds/du at its greatest
+    2.0
+    """
 
     NAME: ClassVar[str] = "modified-trapezoid"
     ABOUT: ClassVar[str] = "constant acceleration joined by sines; the lowest peak without a jump"
@@ -98,7 +116,13 @@ class ModifiedTrapezoid(Law):
 
 @dataclass(frozen=True)
 class ModifiedSine(Law):
-    """Modified sine line: sine acceleration of period 1/2 for u < 1/8, of period 3/2 between."""
+    """Modified sine line: sine acceleration of period 1/2 for u < 1/8, of period 3/2 between.
+
+    The least peak of velocity, 1.760, of those here without a jump in acceleration.
+
+    >>> round(ModifiedSine()(0.5).c[1], 6)  # ds/du at its greatest
+    1.759603
+    """
 
     NAME: ClassVar[str] = "modified-sine"
     ABOUT: ClassVar[str] = "sines of two periods; a low peak of velocity and of torque"
@@ -135,7 +159,13 @@ class ModifiedSine(Law):
 
 @dataclass(frozen=True)
 class Polynomial345(Law):
-    """Polynomial 3-4-5: ds/du = 30 u² (1-u)²."""
+    """Polynomial 3-4-5: ds/du = 30 u² (1-u)².
+
+    Acceleration starts and ends at 0.
+
+    >>> round(Polynomial345()(0.5).c[1], 6)  # ds/du at its greatest
+    1.875
+    """
 
     NAME: ClassVar[str] = "3-4-5"
     ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
@@ -152,7 +182,13 @@ class Polynomial345(Law):
 
 @dataclass(frozen=True)
 class Polynomial4567(Law):
-    """Polynomial 4-5-6-7: ds/du = 140 u³ (1-u)³."""
+    """Polynomial 4-5-6-7: ds/du = 140 u³ (1-u)³.
+
+    Jerk starts and ends at 0.
+
+    >>> round(Polynomial4567()(0.5).c[1], 6)  # ds/du at its greatest
+    2.1875
+    """
 
     NAME: ClassVar[str] = "4-5-6-7"
     ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
@@ -175,6 +211,9 @@ class SineGroup(Law):
     """Krasniqi's law: ds/du = (8/3) sin⁴ x (1 - 8 lambda cos x), x = pi u.
 
     Velocity to snap vanish at both ends. Beyond |lambda| = 1/8 the wheel turns back.
+
+    >>> round(SineGroup(0.1)(0.5).c[1], 6)
+    2.666667
     """
 
     NAME: ClassVar[str] = "sine-group"

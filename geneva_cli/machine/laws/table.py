@@ -23,7 +23,15 @@ from geneva_cli.spec.schema import Points
 
 @dataclass(frozen=True)
 class TableLaw(Law):
-    """A spline through the points of a CSV file."""
+    """A spline through the points of a CSV file.
+
+    ``file`` are pairs u,s from 0,0 to 1,1 in ascending order, or a CSV file's. Raises GenevaError
+    for pairs that are not.
+
+    >>> law = TableLaw([(u / 10, (u / 10) ** 2 * (3 - u / 5)) for u in range(11)])
+    >>> round(law(0.5).c[0], 12)
+    0.5
+    """
 
     NAME: ClassVar[str] = "table"
     ABOUT: ClassVar[str] = "your own: a CSV of u,s points, file = ..."

@@ -21,7 +21,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class External(Gearing):
-    """The crank turns outside the wheel: less motion than dwell."""
+    """The crank turns outside the wheel: less motion than dwell.
+
+    ``z`` slots, 3 or more; ``offset_mm`` is the distance at which their axes miss the wheel's;
+    ``steps_deg`` are unequal steps, a pattern that repeats over a turn.
+
+    >>> Design(External(6)).timing.motion_deg
+    120.0
+    >>> Design(External(6, steps_deg=(72, 48))).timing.index_deg
+    72.0
+    """
 
     NAME: ClassVar[str] = "external"
     offset_mm: Annotated[

@@ -12,7 +12,13 @@ from geneva_cli.machine.wheels.poses import Step
 
 @dataclass(frozen=True)
 class Internal(Gearing):
-    """The crank turns inside the wheel: more motion than dwell, and no peak inside the motion."""
+    """The crank turns inside the wheel: more motion than dwell, and no peak inside the motion.
+
+    ``z`` slots, 3 or more.
+
+    >>> Design(Internal(6)).timing.motion_deg
+    240.0
+    """
 
     NAME: ClassVar[str] = "internal"
     SIGN: ClassVar[float] = -1.0

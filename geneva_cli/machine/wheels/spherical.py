@@ -22,7 +22,15 @@ AXES_MIN = 1e-6  # degrees
 
 @dataclass(frozen=True)
 class Spherical(Gearing):
-    """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal."""
+    """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal.
+
+    ``z`` slots, 3 or more; ``axes_deg`` is the angle between the two shafts.
+
+    >>> Design(Spherical(6)).timing.k
+    1.0
+    >>> round(Design(Spherical(6, axes_deg=60)).timing.motion_deg, 6)
+    147.795772
+    """
 
     NAME: ClassVar[str] = "spherical"
     FLAT: ClassVar[bool] = False
