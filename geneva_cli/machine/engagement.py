@@ -97,6 +97,8 @@ class Motion(ABC):
 
     # the motion law, where the motion is given by one
     law: Law | None = None
+    # the pin at entry, about which its path is written where the slot follows it
+    entry: Anchor | None = None
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative
@@ -152,6 +154,7 @@ class Engagement:
     crank turns where the roller is not on its arm: with the wheel (-1) or against it (1); 0 where
     it is, and the pin's direction is the crank's. ``groove`` is the path where a fixed groove
     guides the roller along the crank; ``body`` carries the roller where the crank's arm does not.
+    ``hub`` is where the crank's arm turns about, on the line of centres: 1 but on a sphere.
     """
 
     def __init__(
@@ -163,11 +166,12 @@ class Engagement:
         crank_sense: float = 0.0,
         groove: SolvedPath | None = None,
         body: Body | None = None,
+        hub: float = 1.0,
     ) -> None:
         self.mid_deg = mid_deg
         self.path, self.slot, self.motion = path, slot, motion
         self.crank_sense = crank_sense
-        self.groove, self.body = groove, body
+        self.groove, self.body, self.hub = groove, body, hub
 
     @property
     def entry_deg(self) -> float:

@@ -119,6 +119,7 @@ class Followed(Motion):
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
         super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
         self.path, self.mirrored = path, mirrored
+        self.entry = path.anchors[0]
 
     def known(self, quantity: str) -> Known | None:
         """The greatest size of a quantity, where there is a quicker way to it."""

@@ -104,7 +104,7 @@ class Transmission(Drive):
         else:
             motion.peaks_known = self.known(wheel, place)
         body = wheel.body(place, here.advance)
-        return Engagement(here.input_deg, path, slot, motion, body=body)
+        return Engagement(here.input_deg, path, slot, motion, body=body, hub=wheel.hub(place))
 
     @property
     def direct(self) -> bool:

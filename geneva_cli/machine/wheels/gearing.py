@@ -104,6 +104,10 @@ class Gearing(Table):
         """What carries the roller, where the crank's arm in the plane of the wheel does not."""
         return None
 
+    def hub(self, place: Place) -> float:
+        """Distance of the point that the crank's arm turns about from the wheel's axis, over L."""
+        return 1.0
+
     def closed_form(self, place: Place) -> tuple[float, float, float] | None:
         """Sign, l and 1 - l of the closed forms that hold on a plain crank, where there are any."""
         return None

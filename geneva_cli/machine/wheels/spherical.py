@@ -80,6 +80,10 @@ class Spherical(Gearing):
         """The crank, whose axis is not the roller's."""
         return Cone(turn, place.cone)
 
+    def hub(self, place: Place) -> float:
+        """The arm turns in a plane square to the crank's axis, cos th from the sphere's centre."""
+        return sin_cos_deg(self.axes_deg)[0] * place.cone
+
 
 class Cone(NamedTuple):
     """The crank of a sphere, which carries its roller on a cone: its turning about the roller."""

@@ -1,0 +1,64 @@
+"""What a jump of the wheel's velocity costs: its impulse, and the force of an elastic contact.
+
+The wheel's inertia I is struck at its lever by a roller that the crank carries on unmoved. With the
+roller pressed into the wall and its pin bent, both under the force Q,
+
+    d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: line of contact, mm),
+
+the energy I dw² / 2 is taken up where c Q^1.9 0.9 / 1.9 + Q² / (2 k) reaches it. For a spring
+alone that is dv sqrt(k m), whatever the lever. c is Palmgren's for steel on steel (Ball and Roller
+Bearing Engineering, 3rd ed., 1959), and goes with the 0.9th power of the materials' softness; the
+pin is held at one end, 3 E pi d⁴ / (64 (b/2)³), and pushed in the middle of its roller.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.analysis.loads.carried import MM, inertia_kgm2
+from geneva_cli.analysis.loads.forces import contact_modulus_GPa
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.roots import root
+from geneva_cli.spec.tables import Material
+
+PALMGREN = 3.84e-5  # mm, of 1 N on a line of 1 mm, steel on steel
+POWER, WIDTH = 0.9, 0.8
+STEEL_GPa = 0.5 * Material().youngs_modulus_GPa / (1.0 - Material().poisson_ratio ** 2)
+
+
+def impulse_Nms(mechanism: Mechanism, jump: float) -> float:
+    """The moment of the blow, I dw, for a jump over the input's speed; over the lever its impulse.
+
+    The roller stays at the wall: a plastic blow, the least that there is.
+    """
+    w = omega(mechanism.spec.drive.n_rpm)
+    return inertia_kgm2(mechanism.spec) * abs(jump) * w
+
+
+def force_N(mechanism: Mechanism, jump: float) -> float | None:
+    """The greatest force of an elastic blow; None without a ``face_width_mm`` or an inertia."""
+    spec = mechanism.spec
+    face, inertia = spec.size.face_width_mm, inertia_kgm2(spec)
+    if face is None or not inertia:
+        return None
+    dw = jump * omega(spec.drive.n_rpm)
+    energy = 0.5 * inertia * dw * dw / MM  # N mm
+    soft = STEEL_GPa / contact_modulus_GPa(spec)
+    press = PALMGREN * soft**POWER / face**WIDTH
+    bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
+
+    def over(force: float) -> tuple[float, float]:
+        taken = press * POWER / (1.0 + POWER) * force ** (1.0 + POWER) + 0.5 * bend * force * force
+        return taken - energy, press * POWER * force**POWER + bend * force
+
+    return root(over, 0.0, math.sqrt(2.0 * energy / bend)) if energy else 0.0
+
+
+def pin_stiffness_N_mm(mechanism: Mechanism, face_mm: float) -> float:
+    """The pin as a cantilever that is pushed half-way along the roller."""
+    spec = mechanism.spec
+    given = spec.size.pin_mm
+    d = given or mechanism.roller_radius_mm
+    modulus = spec.material_roller.youngs_modulus_GPa * 1e3
+    return 3.0 * modulus * math.pi * d**4 / 64.0 / (0.5 * face_mm) ** 3

@@ -1,0 +1,228 @@
+"""Shocks against closed forms and searches of 50 digits that know nothing of jets or anchors."""
+
+import mpmath as mp
+import pytest
+
+from geneva_cli import Design, External, Internal, Load, SideCrank, Size, Spherical
+from geneva_cli.analysis import shock
+from geneva_cli.analysis.shock_force import force_N, impulse_Nms
+from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.machine.laws.standard import Cycloidal
+from geneva_cli.machine.spec import Motion
+from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
+
+# A contact is where a square root of the error says: half of a double's digits would be lost of
+# the angle if the path were not written about its entry. Here only the angle's own last digits go.
+NEAR = 4e-14
+
+
+@pytest.fixture(autouse=True)
+def digits():
+    with mp.workdps(50):
+        yield
+
+
+def of(*kinds):
+    return Design(*kinds).mechanism.engagements[0]
+
+
+def near(found, true, tolerance=NEAR):
+    assert abs(found - true) <= tolerance * max(abs(true), mp.mpf(1) / 100), (found, mp.nstr(true))
+
+
+def deg(x):
+    return mp.degrees(x)
+
+
+def test_the_values_of_the_theory():
+    """theory-loads.md, section 6: z = 3."""
+    contact = shock.contact(of(External(3)), 1e-4)
+    near(contact.at_deg, mp.mpf("-30.81025092485702"))
+    near(contact.jump, mp.mpf("-0.023909826405751256"))
+    [impact] = shock.impacts(of(External(3)), 1e-4)
+    near(impact.at_deg, mp.mpf("0.55220712276288262"))
+    near(impact.speed, mp.mpf("0.031071640094697492"))
+
+
+@pytest.mark.parametrize("z", [3, 4, 6, 24, 200])
+@pytest.mark.parametrize("crank, center", [(1e-4, 0.0), (1e-9, 0.0), (2e-3, 1e-3), (-1e-3, -5e-3)])
+@pytest.mark.parametrize("gearing, sign", [(External, 1), (Internal, -1)])
+def test_first_contact_by_the_law_of_sines(gearing, sign, z, crank, center):
+    b = mp.pi / z
+    l = mp.sin(b) * (1 + mp.mpf(crank)) / (1 + mp.mpf(center))
+    # the obtuse of the two triangles of the wheel, the crank and the roller on the axis
+    a = -(mp.pi - mp.asin(mp.sin(b) / l) - b) if sign > 0 else -(mp.pi - mp.asin(mp.sin(b) / l) + b)
+    jump = sign * l * (sign * mp.cos(a) - l) / (1 - 2 * sign * l * mp.cos(a) + l * l)
+    found = shock.contact(of(gearing(z)), crank, center)
+    near(found.at_deg, deg(a))
+    near(found.jump, jump, 1e-12 if crank - center > 1e-6 else 1e-7)  # crank - center is rounded
+
+
+def test_of_a_side_crank():
+    A, z, eps = mp.mpf("0.6"), 6, mp.mpf("1e-3")
+    b = mp.pi / z
+    l = mp.sin(b) * (1 + eps)
+
+    def crank(phi):
+        return mp.atan2(mp.sin(phi), A + mp.cos(phi))
+
+    def wheel(phi):
+        f = crank(phi)
+        return mp.atan2(l * mp.sin(f), 1 - l * mp.cos(f))
+
+    at = mp.findroot(lambda phi: wheel(phi) + b, mp.radians(-94.5))
+    found = shock.contact(of(External(6), SideCrank(A=0.6)), 1e-3)
+    near(found.at_deg, deg(at))
+    near(found.jump, mp.diff(wheel, at), 1e-12)
+
+
+@pytest.mark.parametrize("offset", [10.0, -10.0])
+@pytest.mark.parametrize("crank, center", [(1e-3, 0.0), (0.0, -1e-3), (3e-4, 1e-4)])
+def test_of_slots_beside_the_centre(offset, crank, center):
+    """The circle with errors, and the axis at rest: the line at -e beside the wheel's centre."""
+    z, e = 6, mp.mpf(offset) / 100
+    b = mp.pi / z
+    d = mp.asin(e / mp.cos(b))
+    R, L = mp.sin(b) * mp.cos(d) * (1 + mp.mpf(crank)), 1 + mp.mpf(center)
+    ahead = b - d  # of the crank's axis against the slot's direction
+    # (L sin(ahead) + e) is the crank's axis' distance from the slot's axis; the chord's far end
+    chord = mp.sqrt(R**2 - (L * mp.sin(ahead) + e) ** 2)
+    along = L * mp.cos(ahead) + chord
+    pin = along * mp.expj(-ahead) + -e * 1j * mp.expj(-ahead)
+    a = mp.arg(-(pin - L))  # from the line of centres, clockwise
+    velocity = 1j * (pin - L) * -1
+    jump = mp.im(velocity * mp.expj(ahead)) / along
+    found = shock.contact(of(External(6, offset_mm=offset)), crank, center)
+    near(found.at_deg, -deg(a))
+    near(found.jump, jump, 1e-11)
+
+
+@pytest.mark.parametrize("axes", [40.0, 90.0, 120.0])
+def test_on_a_sphere(axes):
+    """The arm longer by eps, in its plane; the pin reaches the meridian plane of the slot."""
+    z, eps = 5, mp.mpf("1e-3")
+    b, S = mp.pi / z, mp.radians(axes)
+    th = mp.asin(mp.sin(S) * mp.sin(b))
+
+    def wheel(a):
+        x = mp.sin(S) * mp.cos(th) - (1 + eps) * mp.sin(th) * mp.cos(S) * mp.cos(a)
+        return mp.atan2((1 + eps) * mp.sin(th) * mp.sin(a), x)
+
+    found = shock.contact(of(Spherical(5, axes_deg=axes)), 1e-3)
+    at = mp.findroot(lambda a: wheel(a) + b, mp.radians(found.at_deg))
+    near(found.at_deg, deg(at))
+    near(found.jump, mp.diff(wheel, at), 1e-12)
+    assert found.jump < 0.0
+
+
+def test_the_square_root_warning():
+    """A hundredth of a percent of R/L costs 1.4 % of tan b."""
+    for gearing, z in ((External, 3), (External, 12), (Internal, 6)):
+        size = -shock.contact(of(gearing(z)), 1e-4).jump / mp.tan(mp.pi / z)
+        assert 0.0137 < size < 0.0145
+        # fourfold the error, twice the jump; the next term is about sqrt(2 eps) of it
+        four = -shock.contact(of(gearing(z)), 4e-8).jump
+        one = -shock.contact(of(gearing(z)), 1e-8).jump
+        assert four / one == pytest.approx(2.0, rel=1e-3)
+
+
+def test_a_crank_that_is_too_short_meets_the_mouth():
+    assert shock.contact(of(External(5)), -1e-9) is None
+    assert shock.contact(of(External(5)), 0.0, 1e-9) is None
+    assert shock.contact(of(External(5)), 0.0) is None
+
+
+def test_slots_and_grooves_that_are_solved_for_have_no_such_entry():
+    assert shock.contact(of(External(6), None, Motion(Cycloidal())), 1e-3) is None
+    assert shock.contact(of(External(6), Cam(), Motion(Cycloidal())), 1e-3) is None
+
+
+@pytest.mark.parametrize("gearing, sign", [(External, 1), (Internal, -1)])
+@pytest.mark.parametrize("z, play, drag", [(3, 1e-6, 0), (5, 1e-3, 0.1), (8, 1e-4, 0.05)])
+def test_impact_by_search(gearing, sign, z, play, drag):
+    l = mp.sin(mp.pi / z)
+
+    def wheel(a):
+        return mp.atan2(l * mp.sin(a), 1 - sign * l * mp.cos(a))
+
+    start = mp.findroot(lambda a: mp.diff(wheel, a, 2) + drag, mp.mpf("0.001")) if drag else 0
+    w0, v0 = wheel(start), mp.diff(wheel, start)
+
+    def gap(x):
+        return w0 + v0 * x - drag * x * x / 2 - wheel(start + x) - play
+
+    [found] = shock.impacts(of(gearing(z)), play, drag)
+    x = mp.findroot(gap, mp.radians(found.at_deg) - start)
+    near(found.from_deg, deg(start), 1e-11)
+    near(found.at_deg, deg(start + x), 1e-11)
+    near(found.speed, mp.diff(gap, x), 1e-10)
+
+
+def test_small_plays_keep_their_digits():
+    """phi -> (6 q / |psi3|)^(1/3), and the speed |psi3| phi² / 2."""
+    l = mp.sin(mp.pi / 3)
+    jerk = l * (1 + l) / (1 - l) ** 3  # -psi3(0)
+    [found] = shock.impacts(of(External(3)), 1e-15)
+    phi = (6 * mp.mpf(1e-15) / jerk) ** (mp.mpf(1) / 3)
+    near(found.at_deg, deg(phi), 1e-7)  # the next term is of order phi²
+    near(found.speed, jerk * phi**2 / 2, 1e-6)
+
+
+def test_a_drag_ends_the_change_of_sides():
+    heavy = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=1.0))
+    drag = shock.lasting_drag_Nm(heavy.mechanism)
+    # I w² times the peak acceleration, which brakes as it drives
+    w = 2 * mp.pi
+    near(drag, mp.mpf("0.4") * w**2 * mp.mpf(heavy.peaks.acceleration.max) - 1, 1e-13)
+    for more, changes in ((-1e-6, 2), (1e-6, 0)):
+        load = Load(inertia_kgm2=0.4, torque_Nm=1.0 + drag + more)
+        over = shock.drag_over(Design(External(6), load=load).mechanism)
+        assert len(shock.changes(of(External(6)), over)) == changes
+
+
+def test_what_does_not_happen():
+    assert shock.impacts(of(External(6)), 0.0) == []
+    assert shock.impacts(of(External(6)), 1e-3, 1e9) == []
+    assert shock.impacts(of(External(6)), 0.53) == []  # pi/3 - pi/6 = 0.52 by the end
+    assert shock.drag_over(Design(External(6)).mechanism) == mp.inf
+
+
+def test_force_by_the_energy():
+    """The work of pressing and bending, summed from the formula in the books, is the energy."""
+    design = Design(
+        External(6),
+        size=Size(face_width_mm=18.0, pin_mm=8.0),
+        load=Load(inertia_kgm2=1.2),
+        material_roller=RollerMaterial(210.0, 0.3),
+        material_wheel=WheelMaterial(3.0, 0.35),
+    )
+    Q = mp.mpf(force_N(design.mechanism, 0.02))
+    eta = sum((1 - nu**2) / E for E, nu in ((210, mp.mpf("0.3")), (3, mp.mpf("0.35"))))
+    soft = eta / (2 * (1 - mp.mpf("0.09")) / 210)
+
+    def press(q):
+        return mp.mpf("3.84e-5") * (soft * q) ** mp.mpf("0.9") / mp.mpf(18) ** mp.mpf("0.8")
+
+    k = 3 * 210e3 * mp.pi * 8**4 / 64 / mp.mpf(9) ** 3
+    depth = press(Q) + Q / k
+    work = Q * depth - mp.quad(lambda q: press(q) + q / k, [0, Q])  # by parts
+    near(work / 1000, mp.mpf("1.2") * (mp.mpf("0.02") * 2 * mp.pi) ** 2 / 2, 1e-12)
+
+
+def test_force_of_a_stiff_contact_is_that_of_the_pin():
+    """dv sqrt(k m) = dw sqrt(k I), with a wheel and a roller that hardly give."""
+    hard = {"youngs_modulus_GPa": 1e9}
+    soft_pin = Size(face_width_mm=18.0, pin_mm=0.02)
+    load = Load(inertia_kgm2=1.2)
+    design = Design(External(6), size=soft_pin, load=load, material_wheel=WheelMaterial(**hard))
+    k = 3 * 210e3 * mp.pi * mp.mpf("0.02") ** 4 / 64 / mp.mpf(9) ** 3 * 1000
+    near(force_N(design.mechanism, 0.02), 0.02 * 2 * mp.pi * mp.sqrt(k * mp.mpf("1.2")), 1e-3)
+
+
+def test_force_and_impulse_need_something_to_strike():
+    bare = Design(External(6)).mechanism
+    assert force_N(bare, 0.1) is None
+    assert impulse_Nms(bare, 0.1) == 0.0
+    loaded = Design(External(6), load=Load(inertia_kgm2=2.0)).mechanism
+    assert force_N(loaded, 0.1) is None  # no line of contact
+    assert impulse_Nms(loaded, -0.1) == pytest.approx(0.4 * float(mp.pi), rel=1e-15)
