@@ -1,5 +1,7 @@
 """Reads DXF and SVG back into pieces, by formulas of its own, and measures them against a drawing.
 
+Also polylines, lengths and larger drawings, which only tests need.
+
 A piece is ``(start, end, point)`` where ``point(share)`` is the point at a share of the way.
 """
 
@@ -13,6 +15,7 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from geneva_cli.curves.measure import STRAIGHT, at, mapped, segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
 
 SHARES = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
@@ -267,3 +270,59 @@ def apart(found, wanted):
             if rest:
                 return math.inf
     return worst
+
+
+def vertices(shape, tolerance):
+    """A polyline whose chords stay within ``tolerance`` of the shape, with all segments' ends.
+
+    It runs from the first start to the last end: on a closed contour the last point is the first
+    one again.
+    """
+    if isinstance(shape, Circle):
+        (x, y), r = shape.centre, shape.radius
+        count = max(chords(2.0 * math.pi, r, tolerance), 3)
+        turns = [2.0 * math.pi * i / count for i in range(count)]
+        points = [(x + r * math.cos(a), y + r * math.sin(a)) for a in turns]
+        return [*points, points[0]]
+    points = [shape.segments[0].start] if shape.segments else []
+    for segment in shape.segments:
+        count = pieces(segment, tolerance)
+        points += [at(segment, i / count) for i in range(1, count + 1)]
+    return points
+
+
+def pieces(segment, tolerance):
+    """Chords that a segment needs."""
+    if isinstance(segment, Cubic):
+        bends = [
+            math.hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1])
+            for p, q, r in zip(segment[:-2], segment[1:-1], segment[2:], strict=True)
+        ]
+        # a chord is off by at most an eighth of the second derivative, which is 6 bends
+        return max(math.ceil(math.sqrt(0.75 * max(bends) / tolerance)), 1)
+    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
+        return 1
+    return chords(abs(segment.sweep), segment.radius, tolerance)
+
+
+def chords(sweep, radius, tolerance):
+    """Chords within the tolerance of an arc: r (1 - cos(step / 2)) is how far one is off."""
+    step = 4.0 * math.asin(math.sqrt(tolerance / max(2.0 * radius, tolerance)))
+    return max(math.ceil(sweep / step), 1)
+
+
+def length(shape):
+    """The length of the line that is drawn."""
+    if isinstance(shape, Circle):
+        return 2.0 * math.pi * shape.radius
+    return math.fsum(map(segment_length, shape.segments))
+
+
+def scaled(drawing, factor):
+    """The drawing enlarged from the origin; ``factor`` above 0."""
+
+    def point(p):
+        return factor * p[0], factor * p[1]
+
+    shapes = (mapped(shape, point, lambda r: factor * r) for shape in drawing.shapes)
+    return drawing._replace(shapes=tuple(shapes))

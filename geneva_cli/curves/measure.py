@@ -1,4 +1,4 @@
-"""Measures of shapes: bounds, area, length, polylines; and shapes scaled and turned.
+"""Measures of shapes: bounds, areas, lengths; and shapes moved and turned.
 
 Lengths are in the unit of the coordinates, areas in its square. An arc is taken by its ends and
 its bulge throughout: its centre is far off and badly known where it is nearly straight.
@@ -76,13 +76,6 @@ def area(shape: Shape) -> float:
     return math.fsum(_swept(segment, origin) for segment in shape.segments)
 
 
-def length(shape: Shape) -> float:
-    """The length of the line that is drawn, in closed form but for cubics (LENGTH_ERROR)."""
-    if isinstance(shape, Circle):
-        return 2.0 * math.pi * shape.radius
-    return math.fsum(map(segment_length, shape.segments))
-
-
 def segment_length(segment: Segment) -> float:
     """The length of one segment."""
     if isinstance(segment, Cubic):
@@ -122,27 +115,6 @@ def halves(segment: Segment) -> tuple[Segment, Segment]:
     return Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
 
 
-def vertices(shape: Shape, tolerance: float) -> list[Point]:
-    """A polyline whose chords stay within ``tolerance`` of the shape, with all segments' ends.
-
-    It runs from the first start to the last end: on a closed contour the last point is the first
-    one again. Raises GenevaError where the tolerance is not above 0.
-    """
-    if not tolerance > 0.0:
-        raise GenevaError(f"the tolerance is {tolerance}; it must be above 0")
-    if isinstance(shape, Circle):
-        (x, y), r = shape.centre, shape.radius
-        count = max(_chords(2.0 * math.pi, r, tolerance), 3)
-        turns = [2.0 * math.pi * i / count for i in range(count)]
-        points = [(x + r * math.cos(a), y + r * math.sin(a)) for a in turns]
-        return [*points, points[0]]
-    points = [shape.segments[0].start] if shape.segments else []
-    for segment in shape.segments:
-        count = _pieces(segment, tolerance)
-        points += [at(segment, i / count) for i in range(1, count + 1)]
-    return points
-
-
 def mapped(
     shape: S,
     point: Callable[[Point], Point],
@@ -155,16 +127,6 @@ def mapped(
     if isinstance(shape, Circle):
         return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
     return shape._replace(segments=tuple(_mapped(s, point) for s in shape.segments))
-
-
-def scaled(drawing: Drawing, factor: float) -> Drawing:
-    """The drawing enlarged from the origin; ``factor`` above 0."""
-
-    def point(p: Point) -> Point:
-        return factor * p[0], factor * p[1]
-
-    shapes = (mapped(shape, point, lambda r: factor * r) for shape in drawing.shapes)
-    return drawing._replace(shapes=tuple(shapes))
 
 
 def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
@@ -291,23 +253,3 @@ def _halves(cubic: Cubic, t: float) -> tuple[Cubic, Cubic]:
     abc, bcd = between(ab, bc), between(bc, cd)
     middle = between(abc, bcd)
     return Cubic(a, ab, abc, middle), Cubic(middle, bcd, cd, d)
-
-
-def _pieces(segment: Segment, tolerance: float) -> int:
-    """Chords that a segment needs."""
-    if isinstance(segment, Cubic):
-        bends = [
-            math.hypot(p[0] - 2.0 * q[0] + r[0], p[1] - 2.0 * q[1] + r[1])
-            for p, q, r in zip(segment[:-2], segment[1:-1], segment[2:], strict=True)
-        ]
-        # a chord is off by at most an eighth of the second derivative, which is 6 bends
-        return max(math.ceil(math.sqrt(0.75 * max(bends) / tolerance)), 1)
-    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
-        return 1
-    return _chords(abs(segment.sweep), segment.radius, tolerance)
-
-
-def _chords(sweep: float, radius: float, tolerance: float) -> int:
-    """Chords within the tolerance of an arc: r (1 - cos(step / 2)) is how far one is off."""
-    step = 4.0 * math.asin(math.sqrt(tolerance / max(2.0 * radius, tolerance)))
-    return max(math.ceil(sweep / step), 1)

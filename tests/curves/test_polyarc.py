@@ -6,13 +6,12 @@ import mpmath
 import numpy as np
 import pytest
 import shapely
-from drawing_witness import contours
+from drawing_witness import contours, vertices
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import vertices
 from geneva_cli.curves.shapes import Arc, Contour, Line, about, backwards, closed
 
 FINE = 1e-5  # mm, how far the witnesses' polygons stray from the arcs

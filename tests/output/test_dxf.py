@@ -12,13 +12,21 @@ import ezdxf
 import ezdxf.path
 import pytest
 import repo
-from drawing_witness import apart, contours, drawn_shapes, dxf_document, dxf_shapes
+from drawing_witness import (
+    apart,
+    contours,
+    drawn_shapes,
+    dxf_document,
+    dxf_shapes,
+    scaled,
+    vertices,
+)
 from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
-from geneva_cli.curves.measure import area, extent, scaled, vertices
+from geneva_cli.curves.measure import area, extent
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import svg

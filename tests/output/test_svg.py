@@ -5,11 +5,11 @@ import re
 from xml.etree import ElementTree
 
 import pytest
-from drawing_witness import apart, contours, drawn_shapes, dxf_shapes, svg_path, svg_shapes
+from drawing_witness import apart, contours, drawn_shapes, dxf_shapes, scaled, svg_path, svg_shapes
 from hypothesis import given, settings
 from test_dxf import MANY, TINY, bow, of, smooth
 
-from geneva_cli.curves.measure import extent, scaled
+from geneva_cli.curves.measure import extent
 from geneva_cli.curves.shapes import Circle, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import dxf

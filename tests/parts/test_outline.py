@@ -14,11 +14,12 @@ import mpmath
 import numpy as np
 import pytest
 import shapely
+from drawing_witness import length, vertices
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
-from geneva_cli.curves.measure import area, length, vertices
+from geneva_cli.curves.measure import area
 from geneva_cli.curves.measure import turned as turn
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError

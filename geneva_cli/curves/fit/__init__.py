@@ -1,4 +1,4 @@
-"""A smooth parametric curve in as few pieces as a tolerance allows: chords, arcs or cubics.
+"""A smooth parametric curve in as few pieces as a tolerance allows: arcs or cubics.
 
 A curve is a function of an array of n parameters: its points (n, 2) in millimetres and its unit
 tangents (n, 2) in the direction of rising parameters. It is smooth from a to b > a, inflections
@@ -12,21 +12,12 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves.fit.arcs import fitted_arcs
-from geneva_cli.curves.fit.chords import fitted_chords
 from geneva_cli.curves.fit.cubics import fitted_cubics
 from geneva_cli.curves.fit.path import Path
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
     from geneva_cli.curves.shapes import Arc, Cubic, Line, Segment
-
-
-def chords(curve: Curve, a: float, b: float, tolerance: float) -> list[Line]:
-    """Chords that stray from the curve by at most ``tolerance`` mm, their ends on it.
-
-    Raises GenevaError for a tolerance that double precision cannot show.
-    """
-    return fitted_chords(Path(curve, a, b, tolerance))
 
 
 def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
@@ -49,6 +40,6 @@ def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
     return fitted_cubics(Path(curve, a, b, tolerance))
 
 
-# what curves may become, beside chords
+# what curves may become
 KINDS: dict[str, Callable[[Curve, float, float, float], Sequence[Segment]]]
 KINDS = {"arcs": arcs, "cubics": cubics}
