@@ -15,7 +15,7 @@ from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.roots import extrema
+from geneva_cli.numerics.roots import TIE, extrema
 from geneva_cli.table import Table, record_table, rows_table
 
 
@@ -53,9 +53,8 @@ QUANTITIES: dict[str, Callable[[tuple[float, ...]], tuple[float, float, float]]]
     "power": lambda p: (p[1] * p[2], p[2] ** 2 + p[1] * p[3], 3 * p[2] * p[3] + p[1] * p[4]),
 }
 _ORDER = {"velocity": 3, "acceleration": 4, "jerk": 5, "power": 4}
-_TIE = 1e-13  # two peaks nearer than this are one peak that occurs twice
 _SAME = 1e-15  # of the motion: a rounding
-_BESIDE = (1e-12, 1e-6)  # of the motion: nearer is rounding; some root of _TIE, the flat of a top
+_BESIDE = (1e-12, 1e-6)  # of the motion: nearer is rounding; some root of TIE, the flat of a top
 
 
 def peak(motion: Motion, quantity: str) -> Peak:
@@ -77,7 +76,7 @@ def peak(motion: Motion, quantity: str) -> Peak:
         places += [(Peak(_summit(x, *curve(x)), x), True) for x in extrema(curve, start, b)]
         places.append((Peak(abs(curve(b)[0]), b), False))
     size = max(p.max for p, _ in places)
-    equal = [(p.at_deg, top) for p, top in places if p.max * (1.0 + _TIE) >= size]
+    equal = [(p.at_deg, top) for p, top in places if p.max * (1.0 + TIE) >= size]
     at_deg = equal[0][0]
     # As high as its neighbour, a break so near a summit is on its flat top.
     low, high = (share * (breaks[-1] - breaks[0]) for share in _BESIDE)
@@ -140,7 +139,7 @@ def worst(mechanism: Mechanism) -> Peaks:
     def greatest(candidates: list[Peak]) -> Peak:
         best = candidates[0]
         for other in candidates[1:]:
-            best = other if other.max > best.max * (1.0 + _TIE) else best
+            best = other if other.max > best.max * (1.0 + TIE) else best
         return best
 
     return Peaks(

@@ -14,16 +14,21 @@ _Sample: TypeAlias = tuple[float, float, float]
 SCAN = 16  # intervals of the first scan
 DEEPEST = 50  # halvings of one of them: a feature 2**-50 of the interval wide is still seen
 PREDICTED = 1e-2  # share of the range by which a cubic may miss the middle of its interval
+TIE = 1e-13  # peaks whose sizes differ by a smaller share are one peak that occurs twice
 
 
-def root(slope: Callable[[float], tuple[float, float]], a: float, b: float) -> float:
+def root(
+    slope: Callable[[float], tuple[float, float]], a: float, b: float, before: float | None = None
+) -> float:
     """Where ``slope`` (value, derivative) changes sign in [a, b]: Newton, kept in the bracket.
+
+    ``before`` has the sign just after a, where it is not that at a.
 
     Falls back on bisection wherever Newton leaves the bracket or shrinks it too slowly, so at
     most about a hundred steps, and stops where the bracket or the step is one unit in the last
     place.
     """
-    f_a = slope(a)[0]
+    f_a = slope(a)[0] if before is None else before
     x, step = 0.5 * (a + b), b - a
     for _ in range(200):
         f, d = slope(x)
@@ -72,8 +77,28 @@ def extrema(f: Curve, a: float, b: float) -> list[float]:
             (open_ if missed else settled).extend(((left, middle), (middle, right)))
     found = []
     for (p, _, d_p), (q, _, d_q) in sorted(settled + open_):
+        # A stationary neighbour may hide another: the slope beside it has its bend's sign.
+        before, after = d_p or f(p)[2], d_q or -f(q)[2]
+        if before * after < 0.0:
+            found.append(root(_without(f, p, d_p, q, d_q), p, q, before))
         if d_q == 0.0:
             found.append(q)
-        elif d_p * d_q < 0.0:
-            found.append(root(lambda t: f(t)[1:], p, q))
     return found
+
+
+def _without(
+    f: Curve, p: float, d_p: float, q: float, d_q: float
+) -> Callable[[float], tuple[float, float]]:
+    """The slope of f; where it is zero at p or q, as if that root had been divided out of it."""
+    if d_p and d_q:
+        return lambda x: f(x)[1:]
+
+    def slope(x: float) -> tuple[float, float]:
+        _, s, bend = f(x)
+        if not d_p:
+            bend -= s / (x - p)
+        if not d_q:
+            bend += s / (q - x)
+        return s, bend
+
+    return slope

@@ -1,0 +1,195 @@
+"""Roots and extrema of many functions at once: those of each alone, none stepped over."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial import polynomial
+
+from geneva_cli.numerics import roots_many as many
+from geneva_cli.numerics.roots import extrema, root
+from geneva_cli.numerics.roots_many import extrema_many, peaks_many
+
+pytestmark = pytest.mark.filterwarnings("error")  # nothing is said of designs that are no numbers
+
+
+def column(values):
+    return np.array(values, dtype=float)[:, None]
+
+
+def polynomials(c):
+    """One polynomial a row of c, by Horner's rule."""
+
+    def f(x, which, order):
+        rows, out = c[which], []
+        for _ in range(order + 1):
+            value = 0.0 * x
+            for k in reversed(range(rows.shape[1])):
+                value = value * x + rows[:, k : k + 1]
+            out.append(value)
+            rows = rows[:, 1:] * np.arange(1, rows.shape[1])
+        return out
+
+    return f
+
+
+def lorentzians(middle, width):
+    def f(x, which, order):
+        t = (x - middle[which]) / width[which]
+        d = 1.0 + t * t
+        slope = -2.0 * t / (d * d) / width[which]
+        return [1.0 / d, slope, (6.0 * t * t - 2.0) / d**3 / width[which] ** 2][: order + 1]
+
+    return f
+
+
+def one(f, i):
+    """The function of one design, as the scalar solvers take it."""
+
+    def alone(x):
+        return tuple(float(v[0, 0]) for v in f(np.array([[x]]), np.array([i]), 2))
+
+    return alone
+
+
+@pytest.fixture(scope="module")
+def random_polynomials():
+    return np.random.default_rng(3).normal(size=(3000, 8))
+
+
+def test_stationary_points_of_polynomials(random_polynomials):
+    """Against the eigenvalues of companion matrices: those, and nothing else.
+
+    A hill and a hollow beside each other may be missed if their heights are the same within the
+    hundredth of the range that the scan lets a cubic miss. Of these polynomials, two such are.
+    """
+    f = polynomials(random_polynomials)
+    n = len(random_polynomials)
+    found = extrema_many(f, column([-1.5] * n), column([1.5] * n))
+    assert (np.diff(found.which) >= 0).all()
+    unseen = 0
+    for i, c in enumerate(random_polynomials):
+        roots = polynomial.polyroots(polynomial.polyder(c))
+        sure = np.sort(roots[(roots.imag == 0.0) & (abs(roots) < 1.5)].real)
+        mine = found.x[found.which == i]
+        assert (np.diff(mine) > 0.0).all()
+        near = [abs(sure - x).argmin() for x in mine]
+        # the eigenvalues' own error, which is the greater the nearer two of them are
+        assert mine == pytest.approx(sure[near], rel=0.0, abs=1e-9)
+        lost = np.delete(sure, near)
+        assert len(lost) in (0, 2)
+        if len(lost):
+            unseen += 1
+            span = np.ptp(polynomial.polyval(np.linspace(-1.5, 1.5, 301), c))
+            assert np.ptp(polynomial.polyval(lost, c)) < 1e-2 * span
+    assert unseen <= 2
+
+
+def test_greatest_size_of_polynomials(random_polynomials):
+    """The greatest of the ends and of the companion matrix's real parts: that of no real root is
+    a value of the function as well, so it is never above.
+    """
+    f = polynomials(random_polynomials)
+    n = len(random_polynomials)
+    size, x = peaks_many(f, column([-1.5] * n), column([1.5] * n))
+    for i, c in enumerate(random_polynomials):
+        roots = polynomial.polyroots(polynomial.polyder(c)).real
+        places = np.concatenate(([-1.5, 1.5], roots[abs(roots) < 1.5]))
+        # 2e-14: the rounding of terms that add up to 1.5^7 times the peak and cancel
+        assert size[i] == pytest.approx(abs(polynomial.polyval(places, c)).max(), rel=2e-14)
+        assert abs(polynomial.polyval(x[i], c)) == pytest.approx(size[i], rel=2e-14)
+
+
+def test_one_by_one(random_polynomials):
+    """The scalar solver on each finds the same points, but for the last bits of the slope."""
+    f = polynomials(random_polynomials[:200])
+    found = extrema_many(f, column([-1.5] * 200), column([1.5] * 200))
+    for i in range(200):
+        alone = extrema(one(f, i), -1.5, 1.5)
+        assert found.x[found.which == i] == pytest.approx(alone, rel=0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("solver", [extrema_many, peaks_many])
+def test_blocks_and_groups_change_nothing(random_polynomials, monkeypatch, solver):
+    f, n = polynomials(random_polynomials), len(random_polynomials)
+    whole = solver(f, column([-1.5] * n), column([1.5] * n))
+    monkeypatch.setattr(many, "BLOCK", 7)
+    monkeypatch.setattr(many, "GROUP", 91)
+    for a, b in zip(whole, solver(f, column([-1.5] * n), column([1.5] * n)), strict=True):
+        assert np.array_equal(a, b)
+
+
+def test_narrow_peaks_among_broad_ones():
+    """Peaks from as broad as the span to a billionth of it: each refined as far as it needs."""
+    width = 10.0 ** -np.linspace(0.0, 9.0, 181)[:, None]
+    middle = np.linspace(-0.9, 0.7, 181)[:, None]
+    calls = []
+
+    def f(x, which, order):
+        calls.append(x.size)
+        return lorentzians(middle, width)(x, which, order)
+
+    size, x = peaks_many(f, column([-1.0] * 181), column([1.0] * 181))
+    assert x == pytest.approx(middle[:, 0], rel=0.0, abs=2.3e-16)  # one unit of 1
+    assert size == pytest.approx(1.0, rel=2.3e-16)
+    assert sum(calls) < 181 * 300  # 30 levels about one place, not 2^30 places
+
+
+def test_designs_that_are_not_numbers():
+    """They have no answer, and the others have the very answers that they have alone."""
+    A = column([1.0, math.nan, 3.0, math.inf, 2.0])
+
+    def f(x, which, order):
+        a = A[which]
+        return [np.sin(a * x), a * np.cos(a * x), -a * a * np.sin(a * x)][: order + 1]
+
+    a, b = np.zeros((5, 1)), np.ones((5, 1))
+    size, x = peaks_many(f, a, b)
+    assert np.isnan(size).tolist() == np.isnan(x).tolist() == [False, True, False, True, False]
+    assert size[[0, 2, 4]].tolist() == [math.sin(1.0), 1.0, 1.0]
+    assert x[[0, 2, 4]] == pytest.approx([1.0, math.pi / 6.0, math.pi / 4.0], rel=2.3e-16)
+    assert extrema_many(f, a, b).which.tolist() == [2, 4]
+    assert peaks_many(f, a[:0], b[:0]).size.shape == (0,)
+    assert extrema_many(f, a[:0], b[:0]).x.shape == (0,)
+
+
+def test_the_first_of_equals():
+    def f(x, which, order):
+        return [np.sin(x), np.cos(x), -np.sin(x)][: order + 1]
+
+    a = column([0.0, 1.0, -0.5 * math.pi, -1.0])
+    b = column([7.0, 8.0, 0.5 * math.pi, 1.0])
+    size, x = peaks_many(f, a, b)
+    assert size == pytest.approx([1.0, 1.0, 1.0, math.sin(1.0)], rel=2.3e-16)
+    assert x == pytest.approx([math.pi / 2, math.pi / 2, -math.pi / 2, -1.0], rel=2.3e-16)
+
+
+@pytest.mark.parametrize("c", [0.3, 0.01, 1e-3])
+def test_a_stationary_end_hides_nothing(c):
+    """Top at -c, valley at 0 where the span ends: the slope's sign beside 0 is the bend's."""
+    curve = polynomials(np.array([[0.0, 0.0, 2.0 * c * c, 0.0, -1.0]]))
+    # c exact, but for the two roundings of the slope's coefficients
+    assert extrema(one(curve, 0), -1.0, 0.0) == pytest.approx([-c, 0.0], rel=1e-15)
+    assert extrema(one(curve, 0), 0.0, 1.0) == pytest.approx([c], rel=1e-15)
+    found = extrema_many(curve, column([-1.0]), column([0.0]))
+    assert found.x == pytest.approx([-c, 0.0], rel=1e-15)
+    found = extrema_many(curve, column([0.0]), column([1.0]))
+    assert found.x == pytest.approx([c], rel=1e-15)
+
+
+def test_roots_many():
+    """Newton, a bend that misleads it, a slope that is none, and no number."""
+    rate = np.array([1.0, 50.0, 1e3, math.nan])
+    place = np.array([0.3, 0.1, -0.7, 0.0])
+
+    def f(x, which):
+        t = rate[which] * (x - place[which])
+        return np.arctan(t), rate[which] / (1.0 + t * t)
+
+    found = many.roots_many(f, np.full(4, -9.0), np.full(4, 9.0))
+    assert found[:3] == pytest.approx(place[:3], rel=2.3e-16)
+    assert math.isnan(found[3])
+    flat = many.roots_many(lambda x, which: (x - 0.1, 0.0 * x), np.array([0.0]), np.array([1.0]))
+    assert flat[0] == root(lambda x: (x - 0.1, 0.0), 0.0, 1.0)
+    falling = many.roots_many(lambda x, _: (0.25 - x, 0.0 * x - 1.0), np.zeros(2), np.ones(2))
+    assert falling.tolist() == [0.25, 0.25]
