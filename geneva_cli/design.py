@@ -339,7 +339,8 @@ class Design:
         """
         from geneva_cli.verdict.advice import judged
 
-        return judged(self.mechanism, self.proof)
+        # what has no flat parts is judged without NumPy
+        return judged(self.mechanism, self.proof if self.spec.is_flat else None)
 
     @property
     def passes(self) -> bool:
@@ -365,7 +366,7 @@ class Design:
 
     @answer
     def warnings(self) -> list[str]:
-        """What a number alone would hide.
+        """What a number alone would hide of the motion and the slots.
 
         >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
         >>> shock.warnings[0]
@@ -374,6 +375,19 @@ class Design:
         from geneva_cli.verdict.cautions import cautions
 
         return cautions(self.mechanism)
+
+    @answer
+    def turn_warnings(self) -> list[str]:
+        """What a whole turn of the parts shows that breaks no limit; none without flat parts.
+
+        >>> Design(External(6)).turn_warnings
+        []
+        """
+        if not self.spec.is_flat:
+            return []
+        from geneva_cli.verdict.turn_cautions import turn_cautions
+
+        return turn_cautions(self.proof)
 
     @answer
     def report(self) -> Report:

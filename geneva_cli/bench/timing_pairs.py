@@ -6,7 +6,6 @@ pairs.
 
 from __future__ import annotations
 
-import os
 import statistics
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
@@ -26,17 +25,6 @@ def process_seconds(
     start = perf_counter()
     subprocess.run(list(command), capture_output=True, env=environment, input=text, stdin=stdin)
     return perf_counter() - start
-
-
-def paired(
-    baseline: Sequence[str], command: Sequence[str], environment: Mapping[str, str], pairs: int
-) -> list[Pair]:
-    """Times of baseline and command, alternating; one more pair before them warms the caches."""
-    found = [
-        (process_seconds(baseline, os.environ), process_seconds(command, environment))
-        for _ in range(pairs + 1)
-    ]
-    return found[1:]
 
 
 def median_ratio(pairs: Sequence[Pair]) -> float:

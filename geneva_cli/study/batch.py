@@ -10,12 +10,9 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
+from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import build
-from geneva_cli.specfile.reader import read
 from geneva_cli.table import Table, rows_table
-from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks import Check, all_pass
 
 NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
@@ -39,19 +36,9 @@ class Verdict(NamedTuple):
 def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
     """Judge one spec, keys ``given`` set over its own; one that cannot be read is a verdict too."""
     try:
-        text = read(path, given)
-        spec = text.spec()
-        with text.located():
-            mechanism = build(spec)
-            told, proof = cautions(mechanism), None
-            if spec.is_flat:  # what has no flat parts is judged without NumPy
-                from geneva_cli.parts.proof import Proof
-                from geneva_cli.verdict.turn_cautions import turn_cautions
-
-                proof = Proof(mechanism)
-                told += turn_cautions(proof)
-            checks = tuple(judged(mechanism, proof))
-        return Verdict(spec.path, spec.files, checks, tuple(told))
+        design = load(path, given)
+        told = (*design.warnings, *design.turn_warnings)
+        return Verdict(design.spec.path, design.spec.files, tuple(design.checks), told)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
