@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any
 
 DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
 
@@ -21,6 +24,36 @@ class GenevaError(Exception):
     def __init__(self, message: str, key: tuple[str | int, ...] = ()) -> None:
         super().__init__(message)
         self.key = key
+
+
+_MARKS: ContextVar[list[Any] | None] = ContextVar("_MARKS", default=None)
+
+
+def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
+    """Raise an error where something cannot be; of an array of designs, mark those that cannot.
+
+    ``where`` is a truth value, or an array (n, 1) of them, one a design. The error is only made
+    when it is raised: an array has none to tell, but one of its designs built alone has.
+    """
+    if isinstance(where, bool):
+        if where:
+            raise error()
+        return
+    marks = _MARKS.get()
+    if marks is None:
+        raise GenevaError("an array of designs is built by geneva_cli.machine.many")
+    marks.append(where)
+
+
+@contextmanager
+def marking() -> Iterator[list[Any]]:
+    """Where ``refuse`` marks designs of an array: the list of what it was told meanwhile."""
+    marks: list[Any] = []
+    token = _MARKS.set(marks)
+    try:
+        yield marks
+    finally:
+        _MARKS.reset(token)
 
 
 def clean(text: str) -> str:

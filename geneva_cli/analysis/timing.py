@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from geneva_cli.numerics.arrays import choose
+
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
 
@@ -12,7 +14,8 @@ if TYPE_CHECKING:
 class Timing(NamedTuple):
     """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
 
-    k = motion / dwell (the work coefficient), tau = motion / cycle.
+    k = motion / dwell (the work coefficient), tau = motion / cycle. Of an array of designs each is
+    a number or an array (n, 1).
     """
 
     motion_deg: float
@@ -29,11 +32,12 @@ def timing(motion_deg: float, dwell_deg: float, index_deg: float, n_rpm: float) 
     """The timing of one cycle at a steady input speed."""
     second = 6.0 * n_rpm  # degrees of input a second
     cycle = motion_deg + dwell_deg
+    pause = dwell_deg != 0.0
     return Timing(
         motion_deg,
         dwell_deg,
         index_deg,
-        motion_deg / dwell_deg if dwell_deg else math.inf,
+        choose(pause, motion_deg / choose(pause, dwell_deg, math.nan), math.inf),
         motion_deg / cycle,
         motion_deg / second,
         dwell_deg / second,

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Needs
+from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
 
 
 class Clash(NamedTuple):
-    """Two things that cannot be together: when, the key to blame, and what to say."""
+    """Two things that cannot be together: when, the key to blame, and what to say.
 
-    when: Callable[[Spec], object]
+    Of an array of designs ``when`` may be an array of truth values.
+    """
+
+    when: Callable[[Spec], Any]
     key: tuple[str, str]
     text: str
 
@@ -27,7 +32,7 @@ def _several(spec: Spec) -> int:
 
 CLASHES = (
     Clash(
-        lambda s: s.drive.RADIAL and (not s.wheel.radial or s.drive.roller_angles_deg),
+        lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
         ("drive", "kind"),
         'kind = "{drive}" has one roller and radial slots: remove offset_mm, steps_deg and '
         "roller_angles_deg",
@@ -54,7 +59,7 @@ CLASHES = (
         "steps_deg shapes straight slots; with a law the slots are solved for (remove one)",
     ),
     Clash(
-        lambda s: s.motion is not None and not s.wheel.radial,
+        lambda s: s.motion is not None and s.wheel.skewed,
         ("wheel", "offset_mm"),
         "offset_mm shapes straight slots; with a law the slots are solved for (remove one)",
     ),
@@ -97,16 +102,20 @@ CLASHES = (
 )
 
 
-def refuse(spec: Spec) -> None:
+def refuse_clashes(spec: Spec) -> None:
     """Raise GenevaError for things that make no machine together, saying why."""
     for clash in CLASHES:
-        if clash.when(spec):
-            text = clash.text.format(
-                drive=spec.drive.NAME,
-                gearing=spec.wheel.NAME,
-                gearings=" or ".join(spec.drive.GEARINGS),
-                rollers=spec.drive.rollers,
-                several=_several(spec),
-                places="steps" if spec.wheel.steps else "angles",
-            )
-            raise GenevaError(text, clash.key)
+        when = clash.when(spec)
+        refuse(when if is_array(when) else bool(when), partial(_error, clash, spec))
+
+
+def _error(clash: Clash, spec: Spec) -> GenevaError:
+    text = clash.text.format(
+        drive=spec.drive.NAME,
+        gearing=spec.wheel.NAME,
+        gearings=" or ".join(spec.drive.GEARINGS),
+        rollers=spec.drive.rollers,
+        several=_several(spec),
+        places="steps" if spec.wheel.steps else "angles",
+    )
+    return GenevaError(text, clash.key)

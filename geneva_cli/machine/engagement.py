@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ class Slot(ABC):
     # whether it is a curve that was solved for: it has two branches and walls of its own
     curved = False
     # e: by how much a straight slot's axis misses the wheel's centre
-    offset = 0.0
+    offset: float = 0.0
 
     @abstractmethod
     def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
@@ -112,7 +113,7 @@ class Motion(ABC):
     @property
     def symmetric(self) -> bool:
         """Whether the second half mirrors the first."""
-        return self.entry_deg == -self.exit_deg
+        return all_true(self.entry_deg == -self.exit_deg)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -124,14 +125,20 @@ class Motion(ABC):
         return None
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """The wheel's angle and its derivatives at many ascending input angles.
+        """The wheel's angle and its derivatives at many ascending input angles (k,).
 
-        A symmetric motion at symmetric angles is computed once and mirrored.
+        A symmetric motion at symmetric angles is computed once and mirrored. Of many designs the
+        values are (n, k).
         """
         mirrored = self.symmetric and is_mirrored(input_deg)
         first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
         values = self(first, max(orders)).derivatives()
         return [mirror(values[k], len(input_deg), k) if mirrored else values[k] for k in orders]
+
+    @property
+    def pieces_deg(self) -> tuple[float, ...]:
+        """Places, entry and exit among them, between which one formula holds; not all breaks."""
+        return self.breaks_deg
 
 
 def is_mirrored(input_deg: Array) -> bool:
@@ -143,8 +150,8 @@ def mirror(first: Array, count: int, order: int) -> Array:
     """``count`` values of a derivative from their first half; the even ones change sign."""
     import numpy
 
-    rest = first[: count - len(first)][::-1]
-    return numpy.concatenate((first, rest if order % 2 else -rest))
+    rest = first[..., : count - first.shape[-1]][..., ::-1]
+    return numpy.concatenate((first, rest if order % 2 else -rest), axis=-1)
 
 
 class Engagement:

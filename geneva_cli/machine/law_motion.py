@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.laws.law import Law, remaining
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import ascending
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
+
+MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
 class LawMotion(Motion):
@@ -27,10 +31,10 @@ class LawMotion(Motion):
         """Entry, the law's own breaks and its middle, the crossing of the centres, and exit."""
         whole = self.exit_deg - self.entry_deg
         places = (0.5, *self.law.BREAKS)
-        inner = {0.0, *[self.entry_deg + u * whole for u in places]}
+        inner = [0.0, *[self.entry_deg + u * whole for u in places]]
         if self.symmetric:
-            inner = {0.0, *[(u - 0.5) * whole for u in self.law.BREAKS]}
-        return (self.entry_deg, *sorted(inner), self.exit_deg)
+            inner = [0.0, *[(u - 0.5) * whole for u in self.law.BREAKS]]
+        return (self.entry_deg, *ascending(inner), self.exit_deg)
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """Each half of the law from its own end."""
@@ -47,3 +51,16 @@ class LawMotion(Motion):
         s = piecewise(input_deg, (middle,), (first, second))
         rate = 1.0 / (whole * DEGREE)
         return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])
+
+
+def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
+    """Raise GenevaError where an extra dwell leaves a motion no angle, or all of the turn."""
+    low, high = natural_deg - 360.0, natural_deg
+    refuse(
+        (alpha0_deg <= low + MOTION_MIN) | (alpha0_deg >= high - MOTION_MIN),
+        lambda: GenevaError(
+            f"alpha0_deg = {alpha0_deg:.12g} leaves no motion angle between 0 and 360 degrees; "
+            f"it must be above {low:.12g} and below {high:.12g}",
+            ("motion", "alpha0_deg"),
+        ),
+    )

@@ -10,6 +10,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import choose, larger, library
 
 ROUNDING_DEG = 1e-9  # input angles nearer to each other are one
 
@@ -42,13 +43,14 @@ class Mechanism(NamedTuple):
     def matched_ratio(self) -> float | None:
         """The R/L at which this machine's curved slots have a finite pressure angle at mid-motion.
 
-        Whatever its own; None where no R/L below 1 has, or the slots are straight.
+        Whatever its own; None where no R/L below 1 has, or the slots are straight. Of one design.
         """
         law = self.law
         if law is None:
             return None
         motion_deg = self.engagements[0].motion_deg
-        return self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
+        matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
+        return None if math.isnan(matched) else float(matched)
 
     def shown_deg(self, input_deg: float) -> float:
         """An input angle as it is shown: between -180 and 180 from the machine's mid-motion.
@@ -56,12 +58,18 @@ class Mechanism(NamedTuple):
         Over a period of several turns it is counted from the first engagement's entry.
         """
         whole = 360.0 * self.spec.drive.turns
-        if whole == 360.0:
-            return math.remainder(input_deg, whole)
+        m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # What rounding put before the entry is at it.
-        periods = math.floor((input_deg - entry + ROUNDING_DEG) / whole)
-        return max(input_deg - periods * whole, entry)
+        periods = m.floor((input_deg - entry + ROUNDING_DEG) / whole)
+        counted = larger(input_deg - periods * whole, entry)
+        if m is math:
+            return math.remainder(input_deg, whole) if whole == 360.0 else counted
+        # as math.remainder does, exactly for angles of some turns
+        shown: float = choose(
+            whole == 360.0, input_deg - 360.0 * m.rint(input_deg / 360.0), counted
+        )
+        return shown
 
     def index_deg(self, i: int) -> float:
         """The wheel's step at an engagement."""
@@ -74,7 +82,8 @@ class Mechanism(NamedTuple):
         turns = self.period_deg if i + 1 == len(self.engagements) else 0.0
         dwell = turns + (after.mid_deg + after.entry_deg) - (here.mid_deg + here.exit_deg)
         # Rollers may follow each other without a pause; what is left then is rounding.
-        return dwell if abs(dwell) > 1e-9 else 0.0
+        out: float = choose(abs(dwell) > 1e-9, dwell, 0.0)
+        return out
 
 
 def build(spec: Spec) -> Mechanism:
@@ -82,7 +91,7 @@ def build(spec: Spec) -> Mechanism:
 
     Raises GenevaError, naming the key, where the values do not make a machine together.
     """
-    compatible.refuse(spec)
+    compatible.refuse_clashes(spec)
     plan = spec.drive.plan(spec)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

@@ -33,7 +33,11 @@ class SolvedSlot(Slot):
 
 
 def engagement(
-    mid_deg: float, motion_deg: float, half_step: float, law: Law, middle: Anchor
+    mid_deg: float,
+    motion_deg: float,
+    half_step: float,
+    law: Law,
+    middle: Anchor,
 ) -> Engagement:
     """The engagement of a curved slot whose motion lies evenly about the line of centres."""
     half = 0.5 * motion_deg

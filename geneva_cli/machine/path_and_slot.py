@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol
@@ -20,6 +19,7 @@ from geneva_cli.machine.engagement import (
 )
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
 
 if TYPE_CHECKING:
@@ -130,6 +130,11 @@ class Followed(Motion):
         """Whether path and slot have a mirror image about mid-motion."""
         return self.mirrored and super().symmetric
 
+    @property
+    def pieces_deg(self) -> tuple[float, ...]:
+        """Each anchor's part."""
+        return (self.entry_deg, *self.path.cuts, self.exit_deg)
+
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""
 
@@ -150,7 +155,12 @@ class Classic(Followed):
     """
 
     def __init__(
-        self, path: AnchoredPath, half_step: float, sign: float, l: float, rest: float
+        self,
+        path: AnchoredPath,
+        half_step: float,
+        sign: float,
+        l: float,
+        rest: float,
     ) -> None:
         super().__init__(path, half_step)
         self.sign, self.l, self.rest = sign, l, rest
@@ -172,6 +182,8 @@ class Classic(Followed):
 
         Near the ends angle and velocity are written from there, and keep their relative accuracy.
         """
+        if not (isinstance(self.l, float) and input_deg.ndim == 1):
+            return super().derivatives(input_deg, orders)
         from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
 
         arrays = ClassicArrays(self.sign, self.l, self.rest)
@@ -213,7 +225,8 @@ def engagement(
 
 def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:
     """A vector turned by a fixed angle in radians."""
-    if angle == 0.0:
+    if isinstance(angle, float) and angle == 0.0:
         return x, y
-    s, c = math.sin(angle), math.cos(angle)
+    m = library(angle)
+    s, c = m.sin(angle), m.cos(angle)
     return x * c - y * s, x * s + y * c

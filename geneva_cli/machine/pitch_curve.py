@@ -8,7 +8,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.numerics.jet import Coefficient, library
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Coefficient
 
 # the columns of a table of a pitch curve with a wall on either side
 WALLED = (

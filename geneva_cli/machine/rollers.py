@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.wheels.classic import refuse_jam
 from geneva_cli.machine.wheels.gearing import Place
 from geneva_cli.machine.wheels.poses import Step
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
+
+
+ANGLES = ("drive", "roller_angles_deg")
 
 
 def places(spec: Spec) -> list[Place]:
@@ -32,20 +36,26 @@ def places(spec: Spec) -> list[Place]:
 
 def _at_angles(angles: tuple[float, ...], one: Place) -> list[Place]:
     """Rollers at given angles: each gap must leave room for half of both motions beside it."""
-    key = ("drive", "roller_angles_deg")
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
-        raise GenevaError("roller_angles_deg must rise from 0 to below 360", key)
+        raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES)
     motion = 2.0 * one.half_motion_deg
     for a, b in zip(angles, (*angles[1:], 360.0), strict=True):
-        if b - a < motion:
-            raise GenevaError(
-                f"the rollers at {a:g} and {b % 360.0:g} deg jam: their motions take "
-                f"{motion:.6g} deg, and there are {b - a:.6g} between them",
-                key,
-            )
-    if motion * len(angles) >= 360.0:
-        raise GenevaError(f"{len(angles)} motions of {motion:.6g} deg leave no dwell at all", key)
+        refuse(b - a < motion, partial(_too_near, a, b, motion))
+    refuse(
+        motion * len(angles) >= 360.0,
+        lambda: GenevaError(
+            f"{len(angles)} motions of {motion:.6g} deg leave no dwell at all", ANGLES
+        ),
+    )
     return [one._replace(crank_deg=a) for a in angles]
+
+
+def _too_near(a: float, b: float, motion: float) -> GenevaError:
+    return GenevaError(
+        f"the rollers at {a:g} and {b % 360.0:g} deg jam: their motions take "
+        f"{motion:.6g} deg, and there are {b - a:.6g} between them",
+        ANGLES,
+    )
 
 
 def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[Place]:

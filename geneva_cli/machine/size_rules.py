@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import smaller
 
 
 class Bound(NamedTuple):
@@ -22,24 +24,31 @@ class Bound(NamedTuple):
     below: float
     what: str
 
+    def error(self) -> GenevaError:
+        """What is said of a size that is not."""
+        return GenevaError(
+            f"{self.key} = {self.value:g}: it must be below {self.below:.6g}, {self.what}",
+            ("size", self.key),
+        )
+
 
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
     size = spec.size
     for one in _bounds(spec, L, ratio):
-        if not one.value < one.below:
-            raise GenevaError(
-                f"{one.key} = {one.value:g}: it must be below {one.below:.6g}, {one.what}",
-                ("size", one.key),
-            )
+        refuse(one.value >= one.below, one.error)
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
-        if bore is not None and hub and hub < bore:
-            raise GenevaError(
-                f"{part}_hub_mm = {hub:g}: a hub is larger than its bore; it must be at least "
-                f"{part}_bore_mm = {bore:g}, or 0 for none",
-                ("size", f"{part}_hub_mm"),
-            )
+        if bore is not None and hub is not None:
+            refuse((hub > 0.0) & (hub < bore), partial(_hub_in_bore, part, hub, bore))
+
+
+def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:
+    return GenevaError(
+        f"{part}_hub_mm = {hub:g}: a hub is larger than its bore; it must be at least "
+        f"{part}_bore_mm = {bore:g}, or 0 for none",
+        ("size", f"{part}_hub_mm"),
+    )
 
 
 def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
@@ -51,7 +60,7 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
         short = long = narrow = L  # a roller whose arm changes has no one length
         what = "the centre distance"
     elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
-        narrow, what = min(short, L - long), "the crank's arm and what it leaves of the wheel"
+        narrow, what = smaller(short, L - long), "the crank's arm and what it leaves of the wheel"
     given = [
         ("roller_radius_mm", narrow, what),
         ("slot_clearance_mm", narrow, what),
@@ -68,5 +77,5 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
     ]
     for key, below, what in given:
         value = getattr(size, key)
-        if value:
+        if value is not None:
             yield Bound(key, value, below, what)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Annotated, Any, ClassVar, Self
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.rules import FINITE, Range, Words
 from geneva_cli.spec.schema import Table, fields, unknown
 from geneva_cli.spec.tables import (
@@ -84,6 +86,14 @@ def _refuse_other(of: Any, name: str, kind: type, example: str) -> None:
         raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(given))}")
 
 
+def _no_load(key: str) -> GenevaError:
+    return GenevaError(
+        f"{key} needs a load, and without one there is nothing to limit: set inertia_kgm2 or "
+        "torque_Nm in [load], or a [[mass]]",
+        ("limits", key),
+    )
+
+
 @dataclass(frozen=True)
 class Spec:
     """All that a machine is built from, as it was given.
@@ -129,14 +139,9 @@ class Spec:
                 ("limits", "contact_stress_max_MPa"),
             )
 
-        if not self.is_loaded:
-            for key in LOADED:
-                if getattr(self.limits, key) is not None:
-                    raise GenevaError(
-                        f"{key} needs a load, and without one there is nothing to limit: set "
-                        "inertia_kgm2 or torque_Nm in [load], or a [[mass]]",
-                        ("limits", key),
-                    )
+        for key in LOADED:
+            if getattr(self.limits, key) is not None:
+                refuse(self._unloaded, partial(_no_load, key))
 
     def but(self, **changes: Any) -> Self:
         """The same with some of its tables changed.
@@ -197,7 +202,12 @@ class Spec:
         >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
         (False, True)
         """
-        return bool(self.load.inertia_kgm2 or self.load.torque_Nm or self.mass)
+        return not all_true(self._unloaded)
+
+    @property
+    def _unloaded(self) -> bool:
+        nothing = (self.load.inertia_kgm2 == 0.0) & (self.load.torque_Nm == 0.0)
+        return nothing & (not self.mass)
 
     @property
     def is_flat(self) -> bool:

@@ -7,7 +7,12 @@ wheels are exact; trigonometry gets radians at the last moment.
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 DEGREE = math.pi / 180.0
 _BITS = 128
@@ -15,33 +20,124 @@ _ONE = 1 << _BITS
 _PI = 1069028584064966747859680373161870783300  # pi * 2**128, rounded down (OEIS A000796)
 
 
+_DEGREE_REST = 2.9486522708701687e-19  # pi/180 - DEGREE
+
+
 def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
-    """sin(pi p/q) and cos(pi p/q), correctly rounded; sin(pi/6) is 0.5.
+    """sin(pi p/q) and cos(pi p/q) of whole numbers, correctly rounded; sin(pi/6) is 0.5.
 
     ``math.sin(math.pi / q)`` sees an argument that was rounded, and a wheel of three slots
     multiplies that by 12 on the way to its peak acceleration. Here the argument is an exact
     fraction, reduced to an eighth of a turn, and both series are summed in integers of 128 bits.
+
+    Of arrays (of designs) each fraction that occurs is worked out once. Where p is no whole number,
+    as an angle in degrees over 180 is none, each of an array is within 2 units in the last place.
     """
-    s, c = scaled_sin_cos(p, q)
-    return s / _ONE, c / _ONE
+    if isinstance(p, int) and isinstance(q, int):
+        s, c = scaled_sin_cos(p, q)
+        return s / _ONE, c / _ONE
+    if not _whole(p):
+        return _sin_cos_degrees(180.0 / q * p)
+    sine, cosine = of_each(sin_cos_pi, p, q)
+    return sine, cosine
 
 
 def one_minus_sin_pi(p: int, q: int) -> float:
-    """1 - sin(pi p/q), correctly rounded however near to 1 the sine is."""
-    return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
+    """1 - sin(pi p/q), correctly rounded however near to 1 the sine is; arrays as above."""
+    if isinstance(p, int) and isinstance(q, int):
+        return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
+    if not _whole(p):
+        return 2.0 * _sin_cos_degrees(45.0 - 90.0 / q * p)[0] ** 2
+    return of_each(lambda p, q: (one_minus_sin_pi(p, q),), p, q)[0]
 
 
 def cos_squared_less(p: int, q: int, x: float) -> float:
     """cos²(pi p/q) - x for an exact double x, to the last digit however near to 0 it is.
 
-    The square is rounded to 112 bits, which its series are exact to: cos² 30° is 3/4.
+    The square is rounded to 112 bits, which its series are exact to: cos² 30° is 3/4. Of arrays
+    the difference is rounded once more.
     """
+    if isinstance(p, int) and isinstance(q, int) and isinstance(x, float):
+        n, d = x.as_integer_ratio()
+        return (_cos_squared(p, q) * d - (n << 112)) / (d << 112)
+    high, low = of_each(_cos_squared_parts, p, q)
+    return (high - x) + low
+
+
+def _cos_squared(p: int, q: int) -> int:
+    """cos²(pi p/q) times 2**112."""
     drop = 2 * _BITS - 112
-    square = (scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
-    n, d = x.as_integer_ratio()
-    return (square * d - (n << 112)) / (d << 112)
+    return (scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
 
 
+def _cos_squared_parts(p: int, q: int) -> tuple[float, float]:
+    """cos²(pi p/q) as a double and what that leaves."""
+    square, scale = _cos_squared(p, q), 1 << 112
+    high = square / scale
+    return high, (square - int(high * 2.0**112)) / scale
+
+
+def _whole(p: Any) -> bool:
+    return isinstance(p, int) or p.dtype.kind == "i"
+
+
+def of_each(f: Callable[..., tuple[float, ...]], *numbers: Any) -> list[Any]:
+    """What a function of Python numbers says of arrays: asked once for each set that occurs.
+
+    ``f`` returns a tuple; the arrays are its members.
+    """
+    import numpy as np
+
+    shaped = np.broadcast_arrays(*numbers)
+    varied = [i for i, x in enumerate(numbers) if np.ndim(x)]
+    flat = [shaped[i].ravel() for i in varied]
+    if len(flat) > 1:
+        sets, index = np.unique(np.stack(flat, 1), axis=0, return_inverse=True)
+        rows = [tuple(row) for row in sets.tolist()]
+        if any(x.dtype.kind == "i" for x in flat) and sets.dtype.kind == "f":
+            kinds = [int if x.dtype.kind == "i" else float for x in flat]
+            rows = [tuple(k(v) for k, v in zip(kinds, row, strict=True)) for row in rows]
+    else:
+        values, index = np.unique(flat[0] if flat else np.ravel(numbers[0]), return_inverse=True)
+        rows = [(value,) for value in values.tolist()]
+    found = []
+    for row in rows:
+        given = list(numbers)
+        for i, value in zip(varied or [0], row, strict=True):
+            given[i] = value
+        found.append(f(*given))
+    return [
+        np.array(column)[index.ravel()].reshape(shaped[0].shape)
+        for column in zip(*found, strict=True)
+    ]
+
+
+def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
+    """Sine and cosine of angles in degrees: reduced exactly, and put into radians in two parts."""
+    import numpy as np
+
+    quarters = np.rint(degrees / 90.0)
+    x = degrees - 90.0 * quarters
+    high = x * DEGREE
+    # x DEGREE - high by Dekker's product of halves
+    (a, b), (c, d) = _halves(x), _halves(DEGREE)
+    low = ((a * c - high) + a * d + b * c) + b * d + x * _DEGREE_REST
+    s, c = np.sin(high), np.cos(high)
+    s, c = s + low * c, c - low * s
+    odd, past = quarters % 2.0 == 1.0, quarters % 4.0
+    sine, cosine = np.where(odd, c, s), np.where(odd, s, c)
+    behind = (past == 1.0) | (past == 2.0)
+    return np.where(past >= 2.0, -sine, sine), np.where(behind, -cosine, cosine)
+
+
+def _halves(x: Any) -> tuple[Any, Any]:
+    """A double as a sum of two of 26 bits (Veltkamp)."""
+    big = 134217729.0 * x
+    high = big - (big - x)
+    return high, x - high
+
+
+@lru_cache(4096)
 def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
     """sin(pi p/q) and cos(pi p/q) times 2**128, each to its last digits."""
     quarter = (4 * p + q) // (2 * q)  # nearest number of quarter turns
@@ -59,9 +155,11 @@ def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
 
 
 def sin_cos_deg(degrees: float) -> tuple[float, float]:
-    """Sine and cosine of an angle given exactly in degrees."""
-    p, q = degrees.as_integer_ratio()
-    return sin_cos_pi(p, 180 * q)
+    """Sine and cosine of an angle given exactly in degrees; of arrays within 2 units as above."""
+    if isinstance(degrees, float):
+        p, q = degrees.as_integer_ratio()
+        return sin_cos_pi(p, 180 * q)
+    return _sin_cos_degrees(degrees)
 
 
 def radians(degrees: Any) -> Any:

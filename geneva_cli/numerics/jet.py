@@ -2,8 +2,8 @@
 
 A jet of order n holds the Taylor coefficients c[0..n] of a function of one
 variable at a point, c[k] = f^(k)/k!. Coefficients are floats, or NumPy arrays
-of one shape; the same formula then runs on one angle through ``math``, without
-NumPy being imported, or on a million through ``numpy``.
+of shapes that go together; the same formula then runs on one angle through ``math``,
+without NumPy being imported, or on a million through ``numpy``.
 
 The recurrences are the classical ones of automatic differentiation
 (Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2).
@@ -11,10 +11,11 @@ The recurrences are the classical ones of automatic differentiation
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+from geneva_cli.numerics.arrays import library
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,28 +30,11 @@ Coefficient: TypeAlias = Any
 _FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
 
 
-def library(x: Coefficient) -> Any:
-    """The module whose sin and cos suit x: ``math`` for a number, ``numpy`` for an array."""
-    if isinstance(x, (float, int)):
-        return math
-    import numpy
-
-    return numpy
-
-
-def choose(condition: Any, yes: Coefficient, no: Coefficient) -> Coefficient:
-    """One of two values, for a truth value, or element by element for an array of them."""
-    if isinstance(condition, bool):
-        return yes if condition else no
-    import numpy
-
-    return numpy.where(condition, yes, no)
-
-
 class Jet:
     """Taylor coefficients of a function at a point (float) or at many (arrays)."""
 
     __slots__ = ("c",)
+    __array_ufunc__ = None  # an array beside a jet leaves the arithmetic to the jet
 
     def __init__(self, coefficients: Sequence[Coefficient]) -> None:
         self.c = tuple(coefficients)
@@ -145,10 +129,11 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
 
 def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient, order: int) -> tuple[Jet, Jet]:
     """The same of the direction of the vector (x, y), which turns at ``rate``."""
-    length = library(x + y).hypot(x, y)
+    m = library(x, y)
+    length = m.hypot(x, y)
     sine, cosine = y / length, x / length
     # 1 - cos = sin²/(1 + cos), or as it stands where the cosine is negative
-    ahead = 0.5 * (1.0 + library(x + y).copysign(1.0, x))
+    ahead = 0.5 * (1.0 + m.copysign(1.0, x))
     versine = ahead * sine * sine / (1.0 + abs(cosine)) + (1.0 - ahead) * (1.0 - cosine)
     s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
     return s, Jet((versine, *[-a for a in c.c[1:]]))
@@ -169,7 +154,7 @@ def integral(slope: Jet, value: Coefficient) -> Jet:
 
 def atan2(y: Jet, x: Jet) -> Jet:
     """Angle of the vector (x, y), from its rate (x y' - y x') / (x² + y²)."""
-    value = library(y.c[0] + x.c[0]).atan2(y.c[0], x.c[0])
+    value = library(y.c[0], x.c[0]).atan2(y.c[0], x.c[0])
     if y.order == 0:
         return Jet((value,))
     low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
@@ -178,25 +163,47 @@ def atan2(y: Jet, x: Jet) -> Jet:
 
 
 def piecewise(
-    x: Coefficient, cuts: Sequence[float], pieces: Sequence[Callable[[Coefficient], Jet]]
+    x: Coefficient, cuts: Sequence[Coefficient], pieces: Sequence[Callable[[Coefficient], Jet]]
 ) -> Jet:
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
-    x is a float or a one-dimensional array; each piece sees only its own part.
+    Of one design each piece sees only its own part of an array of angles. Of many designs, whose
+    cuts may differ, each piece that holds anywhere sees all of it, and its own part is chosen: so
+    it pays to ask for angles that lie in one piece.
     """
-    if isinstance(x, float):
+    if isinstance(x, float) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[bisect_left(cuts, x)](x)
+    import numpy as np
+
+    angles = np.asarray(x)
+    if angles.ndim < 2 and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
+        return _by_parts(angles, np.searchsorted(cuts, angles), pieces)
+    index = sum((angles > cut).astype(np.int8) for cut in cuts)
+    first, last = int(index.min(initial=len(cuts))), int(index.max(initial=0))
+    if first >= last:
+        return pieces[last](x)
+    with np.errstate(all="ignore"):  # outside their own part formulas may have no value
+        out = list(pieces[first](x).c)
+        for i in range(first + 1, last + 1):
+            here = index == i
+            if here.any():
+                out = [np.where(here, b, a) for a, b in zip(out, pieces[i](x).c, strict=True)]
+    return Jet(out)
+
+
+def _by_parts(
+    x: Coefficient, index: Coefficient, pieces: Sequence[Callable[[Coefficient], Jet]]
+) -> Jet:
+    """Of angles (k,), each piece's own; its numbers may be those of many designs."""
     import numpy as np
 
     if not x.size:
         return pieces[0](x)
-    index = np.searchsorted(cuts, x)
-    out: list[Coefficient] = []
-    for i in np.unique(index):
-        where = index == i
-        jet = pieces[i](x[where])
-        if not out:
-            out = [np.empty(x.shape) for _ in jet.c]
-        for total, part in zip(out, jet.c, strict=True):
-            total[where] = part
+    parts = [(index == i, pieces[i]) for i in np.unique(index)]
+    found = [(where, piece(x[where]).c) for where, piece in parts]
+    designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in found for c in jet])
+    out = [np.empty((*designs, *x.shape)) for _ in found[0][1]]
+    for where, jet in found:
+        for total, part in zip(out, jet, strict=True):
+            total[..., where] = part
     return Jet(out)

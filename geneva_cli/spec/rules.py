@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 
@@ -17,10 +18,12 @@ class Range(NamedTuple):
     ends: str = "[]"
 
     def __contains__(self, x: object) -> bool:
-        if not isinstance(x, (int, float)):
-            return False
+        return isinstance(x, (int, float)) and bool(self.holds(x))
+
+    def holds(self, x: Any) -> Any:
+        """Whether a number is in it; of an array each of its numbers."""
         above = self.low < x if self.ends[0] == "(" else self.low <= x
-        return above and (x < self.high if self.ends[1] == ")" else x <= self.high)
+        return above & (x < self.high if self.ends[1] == ")" else x <= self.high)
 
     def __str__(self) -> str:
         if math.isinf(self.low) and math.isinf(self.high):
@@ -49,6 +52,10 @@ class Words(NamedTuple):
 
     def __contains__(self, x: object) -> bool:
         return x in self.range
+
+    def holds(self, x: Any) -> Any:
+        """Whether a number is in the range; of an array each of its numbers."""
+        return self.range.holds(x)
 
     def __str__(self) -> str:
         return f"{self.range}, or " + " or ".join(f'"{word}"' for word in self.words)
@@ -104,3 +111,9 @@ LENGTH = Range(-1e12, 1e12)
 FINITE = Range(-math.inf, math.inf, "()")
 
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed
+
+
+def is_array(x: object) -> bool:
+    """Whether it is a NumPy array, of designs; NumPy is not imported for the question."""
+    numpy = sys.modules.get("numpy")
+    return numpy is not None and isinstance(x, numpy.ndarray)

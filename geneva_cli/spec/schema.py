@@ -24,8 +24,8 @@ from typing import (
     get_type_hints,
 )
 
-from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.spec.rules import Csv, OneOf, Words
+from geneva_cli.errors import GenevaError, cut, nearest, refuse
+from geneva_cli.spec.rules import Csv, OneOf, Words, is_array
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -138,6 +138,8 @@ def checked(table: str, field: Field, value: Any) -> Any:
     numeric = [t for t in field.types if t in (int, float)]
     if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
         return _number(place, field, value, whole=numeric[0] is int)
+    if numeric and is_array(value):
+        return _numbers(place, field, value, whole=numeric[0] is int)
     if isinstance(value, (list, tuple)) and LIST in field.types:
         if not value or len(value) > LIST_MAX:
             raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
@@ -165,6 +167,22 @@ def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> 
         raise GenevaError(
             f"{field.key} = {shown(value)} is too large a number ({field.meaning})", place
         ) from None
+
+
+def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> Any:
+    """The numbers of many designs. Those that cannot be are marked, and become NaN.
+
+    A whole number, which cannot be NaN, becomes the least that the rule allows.
+    """
+    import numpy as np
+
+    wrong = ~field.rule.holds(values)
+    if whole:
+        wrong = wrong | (values != np.floor(values))
+    refuse(wrong, lambda: GenevaError(f"{field.key} must be {field.rule}", place))
+    if whole:
+        return np.where(wrong, field.rule.low, values).astype(np.int64)
+    return np.where(wrong, np.nan, values.astype(np.float64))
 
 
 def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> str:

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
-from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise, sqrt
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sqrt
 
 NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
 BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight

@@ -9,18 +9,18 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Needs, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Engagement, Turning
-from geneva_cli.machine.law_motion import LawMotion
+from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import all_true, choose, larger
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
-
-MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,12 +58,7 @@ class Cam(PinPath):
             )
         natural = 2.0 * wheel.half_motion_deg(wheel.step)
         motion_deg = natural - motion.alpha0_deg
-        if not MOTION_MIN < motion_deg < 360.0 - MOTION_MIN:
-            raise GenevaError(
-                f"alpha0_deg = {motion.alpha0_deg:.12g} leaves no motion angle between 0 and 360 "
-                f"degrees; it must be above {natural - 360.0:.12g} and below {natural:.12g}",
-                ("motion", "alpha0_deg"),
-            )
+        refuse_alpha0(motion.alpha0_deg, natural)
         # Input 0 is where the roller crosses the line of centres: where the wheel is half-way.
         early = _half_way(motion.law) * motion_deg
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
@@ -71,35 +66,43 @@ class Cam(PinPath):
         _refuse_unreachable(turned, wheel.SIGN)
         body = Turning(-wheel.SIGN)  # the roller slides along the crank, and turns with it
         engagement = Engagement(0.0, path, RadialSlot(path), turned, groove=path, body=body)
-        ratio = float(path.distances(0.0, 0)[1].c[0])
+        ratio = path.distances(0.0, 0)[1].c[0]
         return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
 
 
 def _half_way(law: Law) -> float:
     """The share of the motion time after which the wheel is half-way: 1/2 for symmetric laws."""
-    low, high = 0.0, 1.0
-    if law(0.5, 0).c[0] == 0.5:
+    even = law(0.5, 0).c[0] == 0.5
+    if all_true(even):
         return 0.5
+    low, high = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
     for _ in range(60):
         u = 0.5 * (low + high)
-        low, high = (u, high) if law(u, 0).c[0] < 0.5 else (low, u)
-    return 0.5 * (low + high)
+        before = law(u, 0).c[0] < 0.5
+        low, high = choose(before, u, low), choose(before, high, u)
+    half: float = 0.5 * (low + high)
+    return half
 
 
 def _refuse_unreachable(motion: LawMotion, sign: float) -> None:
     """Raise GenevaError where slot and crank become parallel, or the wheel stands at mid-motion."""
     V = motion(0.0, 1).c[1]
-    if V <= 0.0 or (sign < 0.0 and V >= 1.0):
-        raise GenevaError(
+    refuse(
+        (V <= 0.0) | ((V >= 1.0) & (sign < 0.0)),
+        lambda: GenevaError(
             f"the law moves the wheel {V:.4g} times as fast as the crank at mid-motion; the "
             "groove needs more than 0" + (" and less than 1 inside" if sign < 0 else ""),
             ("motion", "law"),
-        )
-    end = math.radians(motion.exit_deg) + sign * motion.half_step
-    start = math.radians(-motion.entry_deg) + sign * motion.half_step
-    if not 0.0 < max(start, end) < math.pi:
-        raise GenevaError(
+        ),
+    )
+    end = radians(motion.exit_deg) + sign * motion.half_step
+    start = radians(-motion.entry_deg) + sign * motion.half_step
+    wide = larger(start, end)
+    refuse(
+        (wide <= 0.0) | (wide >= math.pi),
+        lambda: GenevaError(
             f"with {motion.exit_deg - motion.entry_deg:.6g} deg of motion crank and slot become "
             "parallel before the end; a larger alpha0_deg shortens it",
             ("motion", "alpha0_deg"),
-        )
+        ),
+    )

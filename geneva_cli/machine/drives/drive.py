@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from enum import Enum
@@ -96,9 +97,13 @@ class Drive(Table):
         """The noncircular gears between input and crank; None for a drive that has none."""
         return None
 
-    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float | None:
-        """R/L of curved slots with a finite pressure angle at mid-motion; None where none has."""
-        return None
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
+        """R/L of curved slots with a finite pressure angle at mid-motion; NaN where none has."""
+        return math.nan
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """Whether a number of a table may be an array of many designs' numbers with this drive."""
+        return True
 
     def doubt(self, input_deg: float) -> Doubt | None:
         """Of a ratio given by points: their decimals, and what share of the ratio at an input angle

@@ -9,15 +9,15 @@ Source: the focal property of the ellipse; the same law is Kepler's true anomaly
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Gears
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.jet import Coefficient, Jet, library, sine_versine_of
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
 from geneva_cli.spec.rules import OneOf, Range
 
 MOST = 1.0 - 0.999e-12
@@ -49,12 +49,14 @@ class EllipticalGears(Transmission):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.eccentricity > MOST:
-            raise GenevaError(
+        refuse(
+            self.eccentricity > MOST,
+            lambda: GenevaError(
                 f"eccentricity = {self.eccentricity!r}: so near to 1 the motion is rounding; it "
                 "must be at most 1 - 1e-12",
                 ("drive", "eccentricity"),
-            )
+            ),
+        )
 
     @property
     def gears(self) -> Gears:
@@ -84,7 +86,7 @@ class Focal(NamedTuple):
     def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the driven gear's angle d since, ``tau`` input radians later."""
         e = self.e
-        m = library(tau + e)
+        m = library(tau, e, self.size)
         least = (1.0 - e) * (1.0 + e)
         s, c = m.sin(0.5 * tau), m.cos(0.5 * tau)
         # Half angles: the driver's direction, and the driven gear's against its own at f.
@@ -100,11 +102,11 @@ class Focal(NamedTuple):
 
 
 def _about(e: Coefficient, crank_deg: float) -> About:
-    m = library(e)
+    m = library(e, crank_deg)
     sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
     a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
     size = m.hypot(a, b)
     phi = 2.0 * m.degrees(m.atan2(a, b))
     turns = (crank_deg - phi) / 720.0  # half angles come round every two turns
-    phi = phi + 720.0 * (round(turns) if m is math else m.round(turns))
+    phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
     return About(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))

@@ -11,13 +11,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
+from geneva_cli.numerics.arrays import choose
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
 from geneva_cli.spec.rules import OneOf, Range, Words
 
@@ -57,12 +58,14 @@ class Epicyclic(PinPath):
     def plan(self, spec: Spec) -> Plan:
         """The one engagement, the planet's arm pointing outwards at mid-motion."""
         wheel = spec.wheel
-        if wheel.z not in (3, 4, 6):
-            raise GenevaError(
+        refuse(
+            (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6),
+            lambda: GenevaError(
                 f"z = {wheel.z}: the planet comes round once a turn only where 2z/(z-2) is whole; "
                 "z must be 3, 4 or 6",
                 ("wheel", "z"),
-            )
+            ),
+        )
         step = wheel.step
         teeth = 2 * wheel.z // (wheel.z - 2)
         c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
@@ -96,7 +99,7 @@ class Arms(NamedTuple):
 
     radial: float
     level: float
-    arms: tuple[tuple[Coefficient, Coefficient], ...]
+    arms: tuple[tuple[float, float], ...]
     c: float
 
     def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
@@ -120,10 +123,12 @@ def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
     R0 + c rp > 0, where R0 = l + rp.
     """
     most = l / (c * c - 1.0)
-    least = -l / (1.0 + c) if c > 0.0 else -l / teeth
-    if not least < rp <= most:
-        raise GenevaError(
+    least = -l / choose(c > 0.0, 1.0 + c, teeth)
+    refuse(
+        (rp <= least) | (rp > most),
+        lambda: GenevaError(
             f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot; it "
             f"must be above {least:.6g} and at most {most:.6g} (shockless)",
             ("drive", "planet_ratio"),
-        )
+        ),
+    )

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import Carried, same
@@ -21,7 +21,8 @@ from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise
+from geneva_cli.numerics.arrays import all_true, ascending, choose, larger, library, smaller
+from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
@@ -61,13 +62,13 @@ class GearSector(PinPath):
         b = self._half_angle(spec.wheel.z)
         u, handover, _ = self._handover(b)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
-        return self.planned(engagement, math.sin(b), spec.given_distance_mm)
+        return self.planned(engagement, library(b).sin(b), spec.given_distance_mm)
 
     def _half_angle(self, z: int) -> float:
         """The half angle b of the slots that make up the step together with the gears."""
-        wanted, D = math.pi / z, math.radians(self.sector_deg)
+        wanted, D = math.pi / z, radians(self.sector_deg)
 
-        def excess(b: float) -> float:
+        def excess(b: float) -> Any:
             u, _, turn = self._handover(b)
             return b - turn + 0.5 * u * D - wanted
 
@@ -77,30 +78,36 @@ class GearSector(PinPath):
             # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
             # turns the wheel.
             u = self.gear_ratio
-            ends = (math.pi / 2.0 - 1e-6, math.asin(u / (1.0 + u)))
+            ends = (math.pi / 2.0 - 1e-6, library(u).asin(u / (1.0 + u)))
             least, most = (2.0 * (D / 2.0 - excess(b) / u) for b in reversed(ends))
-            if not least <= D <= most:
-                raise GenevaError(
+            refuse(
+                (least > D) | (most < D),
+                lambda: GenevaError(
                     f"sector_deg = {self.sector_deg:g}: a slot that comes up to {u:g} times the "
                     f"crank's speed leaves no such step of {360.0 / z:.6g} deg; it must be at "
                     f"least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
                     ("drive", "sector_deg"),
-                )
+                ),
+            )
         low, high = ends
         for _ in range(200):
-            b = 0.5 * (low + high)
-            low, high = (b, high) if excess(b) < 0.0 else (low, b)
+            b: float = 0.5 * (low + high)
+            below = excess(b) < 0.0
+            if all_true((b == low) | (b == high) | (b != b)):
+                break
+            low, high = choose(below, b, low), choose(below, high, b)
         return b
 
     def _handover(self, b: float) -> tuple[float, float, float]:
         """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""
-        l = math.sin(b)
+        m = library(b, 0.0 if isinstance(self.gear_ratio, str) else self.gear_ratio)
+        l = m.sin(b)
         if isinstance(self.gear_ratio, str):
             return l / (1.0 - l), 0.0, 0.0
         u = self.gear_ratio
         cosine = (u * (1.0 + l * l) + l * l) / (l * (1.0 + 2.0 * u))
-        a = math.acos(min(1.0, cosine))
-        return u, a, math.atan2(l * math.sin(a), 1.0 - l * math.cos(a))
+        a = m.acos(smaller(1.0, cosine))
+        return u, a, m.atan2(l * m.sin(a), 1.0 - l * m.cos(a))
 
 
 class SectorMotion(Motion):
@@ -109,9 +116,9 @@ class SectorMotion(Motion):
     def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
         self.inner, self.u = inner, u
         self.half_sector = 0.5 * sector_deg
-        self.handover_deg = math.degrees(handover)
+        self.handover_deg: float = library(handover).degrees(handover)
         half = inner.exit_deg - self.handover_deg + self.half_sector
-        turn = float(inner(self.handover_deg, 0).c[0])
+        turn = inner(self.handover_deg, 0).c[0]
         gears: float = u * radians(self.half_sector)
         super().__init__(-half, half, inner.half_step - turn + gears)
 
@@ -122,10 +129,21 @@ class SectorMotion(Motion):
 
     def slot_deg(self, input_deg: Coefficient) -> Coefficient:
         """The crank angle of the roller in its slot; in the gears, the one at handover."""
-        m = library(input_deg)
-        past = abs(input_deg) - self.half_sector
-        past = max(past, 0.0) if m is math else m.maximum(past, 0.0)
-        return m.copysign(past + self.handover_deg, input_deg)
+        return self._moved(input_deg, -self.half_sector, self.handover_deg)
+
+    def _moved(self, x: Coefficient, inwards: float, outwards: float) -> Coefficient:
+        """Angles moved towards 0 by one amount, but not beyond it, and then away by another."""
+        out = larger(abs(x) + inwards, 0.0) + outwards
+        return library(out, x).copysign(out, x)
+
+    @property
+    def pieces_deg(self) -> tuple[float, ...]:
+        """The breaks, and the slot's pieces."""
+        inside = [
+            self._moved(x, -self.handover_deg, self.half_sector)
+            for x in self.inner.pieces_deg[1:-1]
+        ]
+        return (self.entry_deg, *ascending([*self.breaks_deg[1:-1], *inside]), self.exit_deg)
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The slot's motion, moved out by the gears' in between."""
@@ -200,8 +218,12 @@ class SectorEngagement(Engagement):
 
 def _slot(b: float) -> tuple[Engagement, RadialSlot]:
     """The straight slot of half angle b, on a plain crank."""
-    p, q = math.degrees(b).as_integer_ratio()
-    step = poses.Step(p, 180 * q)
+    degrees = library(b).degrees(b)
+    if isinstance(degrees, float):
+        p, q = degrees.as_integer_ratio()
+        step = poses.Step(p, 180 * q)
+    else:
+        step = poses.Step(degrees, 180)
 
     entry, middle, exit_ = (
         Anchor(pose.crank_deg, pose.wheel, pose.along, Carried(pose, same))

@@ -14,7 +14,8 @@ from typing import Annotated, ClassVar, NamedTuple
 from geneva_cli.machine.drives.drive import Example
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.wheels import poses
-from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.angles import of_each, sin_cos_pi
+from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
 from geneva_cli.spec.rules import Z_MAX, Range
 
@@ -53,13 +54,12 @@ class GenevaPair(Transmission):
 
     def about(self, crank_deg: float) -> About:
         """About an angle of the second crank within the first wheel's step, degrees."""
-        step = poses.Step(1, self.first_z)
-        entry, middle, exit_ = poses.radial(1.0, step)
-        if abs(crank_deg) == self.reach_deg:
-            pose = entry if crank_deg < 0.0 else exit_
-        else:
-            pose = _running(middle, _crank_at(step, crank_deg))
-
+        entry, middle, exit_ = poses.radial(1.0, poses.Step(1, self.first_z))
+        reach = self.reach_deg
+        inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
+        running = _running(middle, _crank_at(self.first_z, inside))
+        ends = choose(crank_deg < 0.0, entry, exit_)
+        pose = choose(abs(crank_deg) == reach, ends, running)
         return About(pose.crank_deg, FirstWheel(pose))
 
 
@@ -77,12 +77,16 @@ class FirstWheel(NamedTuple):
         return sine_versine_of(rate, across.c[0], along.c[0], order)
 
 
-def _crank_at(step: poses.Step, wheel_deg: float) -> float:
+def _crank_at(first_z: int, wheel_deg: float) -> float:
     """The first crank's angle a, radians, where its wheel is at psi: sin(a + psi) = sin psi / l.
 
     With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) nothing cancels in
     l sin a = sin psi cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi.
     """
+    if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
+        each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
+        return each
+    step = poses.Step(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q
     here, less = 180 * d * step.p, n * step.q  # b and psi, in parts of pi
@@ -93,10 +97,11 @@ def _crank_at(step: poses.Step, wheel_deg: float) -> float:
 
 def _running(middle: poses.Pose, a: float) -> poses.Pose:
     """The first crank's pin at an angle a (radians) from mid-motion, in its own ray's frame."""
-    l, s, c = middle.bend[0], math.sin(a), math.cos(a)
-    x, y = middle.along + 2.0 * l * math.sin(0.5 * a) ** 2, l * s
-    rho = math.hypot(x, y)
+    m = library(a, middle.along)
+    l, s, c = middle.bend[0], m.sin(a), m.cos(a)
+    x, y = middle.along + 2.0 * l * m.sin(0.5 * a) ** 2, l * s
+    rho = m.hypot(x, y)
     u, v = x / rho, y / rho
     slope = (l * (s * u + c * v), l * (c * u - s * v))
     bend = (l * (c * u - s * v), -l * (s * u + c * v))
-    return poses.Pose(math.degrees(a), math.atan2(y, x), rho, slope, bend)
+    return poses.Pose(m.degrees(a), m.atan2(y, x), rho, slope, bend)

@@ -35,6 +35,10 @@ class Linkage(PinPath):
         float | None, Range(-360.0, 360.0), "crank angle near entry, where several wheels fit"
     ] = None
 
+    def may_vary(self, table: str, key: str) -> bool:
+        """The wheel is searched for, one machine after the other: only what is no part of that."""
+        return table not in ("wheel", "drive") or key == "n_rpm"
+
     @property
     @abstractmethod
     def roller_path(self) -> Path:

@@ -20,8 +20,9 @@ from geneva_cli.machine.drives.drive import Example, Gears
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import PeakKnown
 from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
-from geneva_cli.numerics.jet import Coefficient, Jet, library, sine_versine_of
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
 from geneva_cli.numerics.spline import ZERO, Doubt, Exact, Pieces, doubt, periodic, shifted
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
@@ -68,7 +69,11 @@ class NoncircularGears(Transmission):
                 ("drive", "kind"),
             )
         if self.A is not None:
-            whitworth.refuse(self.A)
+            whitworth.refuse_rounding(self.A)
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """Points are interpolated for one wheel and one law's angles."""
+        return self.ratio is None or table in ("size", "load") or key == "n_rpm"
 
     @property
     def gears(self) -> Gears:

@@ -22,7 +22,11 @@ class PinPath(Drive):
     ALIKE: ClassVar[bool] = True
 
     def planned(
-        self, engagement: Engagement, ratio: float, center_distance_mm: float, inside: bool = False
+        self,
+        engagement: Engagement,
+        ratio: float,
+        center_distance_mm: float,
+        inside: bool = False,
     ) -> Plan:
         """The plan with the one engagement of each roller."""
         motion = engagement.motion_deg

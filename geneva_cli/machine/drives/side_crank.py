@@ -43,7 +43,7 @@ class SideCrank(Transmission):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        whitworth.refuse(self.A)
+        whitworth.refuse_rounding(self.A)
 
     def about(self, crank_deg: float) -> About:
         """About a coulisse angle f in degrees."""

@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_motion
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
 from geneva_cli.machine.engagement import Anchor, Displacement, Engagement, PeakKnown
+from geneva_cli.machine.law_motion import refuse_alpha0
 from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, middle
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
     from geneva_cli.machine.spec import Motion, Spec
-
-MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
 class About(NamedTuple):
@@ -124,7 +123,7 @@ class Transmission(Drive):
         self._refuse_reach(wheel, half)
         natural = 2.0 * self.about(half).input_deg
         motion_deg = natural - motion.alpha0_deg
-        _refuse_alpha0(motion.alpha0_deg, natural)
+        refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
@@ -141,42 +140,36 @@ class Transmission(Drive):
         if not isinstance(motion.ratio, str):
             return motion.ratio
         matched = self.matched_ratio(wheel, motion.law, motion_deg)
-        if matched is None:
-            raise GenevaError(
+        refuse(
+            matched != matched,
+            lambda: GenevaError(
                 "no R/L between 0 and 1 matches this motion: at mid-motion the wheel would have to "
                 "turn too fast (inside, more than half as fast as the crank) or back; give ratio "
                 "as a number, or change alpha0_deg or the law",
                 ("motion", "ratio"),
-            )
+            ),
+        )
         return matched
 
-    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float | None:
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
 
-        At any other R/L the pressure angle at mid-motion is 90 degrees. None where no R/L below 1
+        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN where no R/L below 1
         does.
         """
-        crank: float = self.about(0.0).advance(0.0, 1)[0].c[1]
-        turned: float = law(0.5, 1).c[1] * 2.0 * wheel.step.b / math.radians(motion_deg)
+        crank = self.about(0.0).advance(0.0, 1)[0].c[1]
+        turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(turned / crank)
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError where the crank cannot turn through the whole motion in one go."""
-        if farthest_deg > self.reach_deg * (1.0 + 1e-12):
-            raise GenevaError(
+        refuse(
+            farthest_deg > self.reach_deg * (1.0 + 1e-12),
+            lambda: GenevaError(
                 f"z = {wheel.z}: the crank moves the wheel from up to {farthest_deg:.6g} deg "
                 f'beside the line of centres, and kind = "{self.NAME}" turns it by '
                 f"{self.reach_deg:.6g} on either side; fewer slots here, or fewer on the first "
                 "wheel",
                 ("wheel", "z"),
-            )
-
-
-def _refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
-    low, high = natural_deg - 360.0, natural_deg
-    if not low + MOTION_MIN < alpha0_deg < high - MOTION_MIN:
-        raise GenevaError(
-            f"alpha0_deg = {alpha0_deg:.12g} leaves no motion angle between 0 and 360 degrees; "
-            f"it must be above {low:.12g} and below {high:.12g}",
-            ("motion", "alpha0_deg"),
+            ),
         )

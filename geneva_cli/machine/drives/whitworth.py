@@ -9,31 +9,34 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.transmission import About
 from geneva_cli.machine.engagement import Known
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak
 from geneva_cli.numerics.angles import sin_cos_deg
-from geneva_cli.numerics.jet import Coefficient, Jet, choose, library, sine_versine_of
+from geneva_cli.numerics.arrays import choose, library
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
 
 
-def refuse(A: float) -> None:
+def refuse_rounding(A: Coefficient) -> None:
     """Raise GenevaError so near to 1 that the motion is rounding."""
-    if abs(A) > A_MAX:
-        raise GenevaError(
+    refuse(
+        abs(A) > A_MAX,
+        lambda: GenevaError(
             f"A = {A!r}: so near to 1 the motion is rounding; its size must be at most 1 - 1e-12",
             ("drive", "A"),
-        )
+        ),
+    )
 
 
 class PeakOf(NamedTuple):
     """The peak acceleration of a plain wheel behind a side-crank, without the general search."""
 
-    A: float
-    z: int
+    A: Coefficient
+    z: Coefficient
     sign: float
 
     def __call__(self, quantity: str) -> Known | None:
@@ -43,10 +46,11 @@ class PeakOf(NamedTuple):
         return Known(*acceleration_peak(self.z, self.sign, self.A))
 
 
-def known(A: float, wheel: Gearing, place: Place) -> PeakOf | None:
+def known(A: Coefficient, wheel: Gearing, place: Place) -> PeakOf | None:
     """The peak of a plain wheel's first roller; None for others."""
     closed = wheel.closed_form(place)
-    if closed is None or place.step != wheel.step or place.crank_deg != 0.0:
+    plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
+    if closed is None or wheel.steps or not plain:
         return None
     return PeakOf(A, wheel.z, wheel.SIGN)
 
@@ -71,7 +75,7 @@ class Coulisse(NamedTuple):
     def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the coulisse's angle d since then, ``tau`` input radians later."""
         A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
-        m = library(tau + A)
+        m = library(tau, A, s)
         sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
         # The coulisse's vector in the frame of its own direction at f.
         x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * self.sin_h - sin_t * sin_t * self.rest
@@ -88,22 +92,22 @@ class Coulisse(NamedTuple):
 
 def about(A: Coefficient, crank_deg: float) -> About:
     """About a coulisse angle f in degrees, for an offset A between -1 and 1."""
-    m = library(A)
+    m = library(A, crank_deg)
     s, c = sin_cos_deg(crank_deg)
     # cos h and the coulisse's length are written as sums of positive terms for A near +-1.
     sin_h = A * s
     cos_h = m.hypot(c, s * m.sqrt((1.0 - A) * (1.0 + A)))
     level = s == 0.0  # on the line of centres, which is where most peaks are
-    if level:
-        length, rest = 1.0 + A * c, 1.0 - A * c
-    else:
-        long = cos_h + abs(A * c)
-        short = (1.0 - A) * (1.0 + A) / long
-        length, rest = choose(A * c > 0.0, long, short), choose(A * c > 0.0, short, long)
+    long = cos_h + abs(A * c)
+    short = (1.0 - A) * (1.0 + A) / long
+    ahead = A * c > 0.0
+    length = choose(level, 1.0 + A * c, choose(ahead, long, short))
+    rest = choose(level, 1.0 - A * c, choose(ahead, short, long))
     # phi = f + h, but where the two nearly cancel, the angle of the input crank itself.
     added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
-    whole = 360.0 * round(crank_deg / 360.0)
+    turns = crank_deg / 360.0
+    whole = 360.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
     own = whole + m.degrees(m.atan2(length * s, length * c - A))
     phi = choose(A < 0.0, own, added)
-    grows = (A * c < 0.0) if level else False
+    grows = (A * c < 0.0) & level
     return About(phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows))

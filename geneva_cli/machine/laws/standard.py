@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.machine.laws.law import Law, from_velocity
-from geneva_cli.numerics.jet import Coefficient, Jet, library, piecewise, sin_cos
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sin_cos
 from geneva_cli.spec.rules import Range
 
 

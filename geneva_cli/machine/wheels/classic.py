@@ -5,10 +5,9 @@ b = pi p/q is half the index angle (p/q = 1/z for equal steps), l = R/L = sin b 
 
 from __future__ import annotations
 
-import math
-
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
+from geneva_cli.numerics.arrays import library
 
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
@@ -18,26 +17,34 @@ def half_motion_deg(sign: float, p: int, q: int) -> float:
 
 def gap(sign: float, p: int, q: int) -> float:
     """Least distance of the pin from the wheel's centre in units of L: 1 - l, inside 1 + l."""
-    return 1.0 + sin_cos_pi(p, q)[0] if sign < 0.0 else one_minus_sin_pi(p, q)
+    out: float = 1.0 + sin_cos_pi(p, q)[0] if sign < 0.0 else one_minus_sin_pi(p, q)
+    return out
 
 
 def rollers_max(motion_deg: float) -> int:
-    """The most evenly spaced rollers that leave some dwell: m * motion < 360 degrees."""
-    return math.ceil(360.0 / motion_deg) - 1
+    """The most evenly spaced rollers that leave some dwell: m * motion < 360 degrees.
+
+    A whole number, which of an array is a float.
+    """
+    most: int = library(motion_deg).ceil(360.0 / motion_deg) - 1
+    return most
 
 
 def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
     """Raise GenevaError where so many rollers would leave no dwell."""
     most = rollers_max(motion_deg)
-    if rollers > most:
+
+    def error() -> GenevaError:
         why = (
             "an internal wheel's crank carries one roller only"
             if inside and motion_deg > 180.0
             else f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
         )
-        raise GenevaError(
+        return GenevaError(
             f"rollers = {cut(rollers)} jam: {why}; at most {most}", ("drive", "rollers")
         )
+
+    refuse(rollers > most, error)
 
 
 def velocity_peak(l: float, gap: float) -> float:
@@ -52,8 +59,9 @@ def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
     s = 2 (1-l)² / (B + sqrt(B² - 8 l (1-l)²)), free of cancellation up to l = 1. (An internal
     wheel's peak is its jump at entry, tan b.)
     """
+    m = library(l, gap)
     big = 1.0 + 4.0 * l + l * l
-    s = 2.0 * gap * gap / (big + math.sqrt(big * big - 8.0 * l * gap * gap))
+    s = 2.0 * gap * gap / (big + m.sqrt(big * big - 8.0 * l * gap * gap))
     d = gap * gap + 2.0 * l * s
-    size = l * gap * (1.0 + l) * math.sqrt(s * (2.0 - s)) / (d * d)
-    return size, math.degrees(2.0 * math.asin(math.sqrt(0.5 * s)))
+    size = l * gap * (1.0 + l) * m.sqrt(s * (2.0 - s)) / (d * d)
+    return size, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s)))

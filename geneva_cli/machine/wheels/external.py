@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.offset_slot import OffsetFollowed, OffsetSlot
 from geneva_cli.machine.wheels.poses import Step
-from geneva_cli.machine.wheels.skew import skew
+from geneva_cli.machine.wheels.skew import room, skew
+from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import LENGTH, Range
 
 if TYPE_CHECKING:
@@ -42,29 +43,35 @@ class External(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.offset_mm and self.steps_deg:
-            raise GenevaError(
-                "offset_mm with steps_deg: choose one of them", ("wheel", "offset_mm")
-            )
         if self.steps_deg:
+            refuse(
+                self.offset_mm != 0.0,
+                lambda: GenevaError(
+                    "offset_mm with steps_deg: choose one of them", ("wheel", "offset_mm")
+                ),
+            )
             self._refuse_steps(self.steps_deg)
 
     def _refuse_steps(self, steps: tuple[float, ...]) -> None:
         """The pattern must close over the wheel."""
         z, key = self.z, ("wheel", "steps_deg")
-        if z % len(steps):
-            raise GenevaError(
+        refuse(
+            z % len(steps) != 0,
+            lambda: GenevaError(
                 f"z = {z} is no multiple of the pattern's {len(steps)} steps; "
                 f"{_multiples(z, len(steps))} would be",
                 key,
-            )
+            ),
+        )
         turn = math.fsum(steps) * z / len(steps)
-        if abs(turn - 360.0) > 1e-9:
-            raise GenevaError(
+        refuse(
+            abs(turn - 360.0) > 1e-9,
+            lambda: GenevaError(
                 f"the pattern, {z // len(steps)} times over the wheel, adds up to {turn:.12g} deg; "
                 f"it must be 360, so its steps {360.0 * len(steps) / z:.12g}",
                 key,
-            )
+            ),
+        )
         if max(steps) >= 180.0:
             raise GenevaError(f"a step of {max(steps):g} deg is out of reach; below 180", key)
 
@@ -74,9 +81,9 @@ class External(Gearing):
         return self.steps_deg or ()
 
     @property
-    def radial(self) -> bool:
-        """Whether all slots are radial and alike."""
-        return not (self.offset_mm or self.steps_deg)
+    def skewed(self) -> Any:
+        """Whether slots are not radial or not alike."""
+        return True if self.steps_deg else self.offset_mm != 0.0
 
     def half_motion_deg(self, step: Step) -> float:
         """Crank angle from entry to the line of centres: 90° - b."""
@@ -86,18 +93,21 @@ class External(Gearing):
         """A roller's passage; GenevaError where an offset slot cannot be entered without shock."""
         half = self.half_motion_deg(step)
         e = self.offset_mm / center_distance_mm
-        if not e:
+        if isinstance(e, float) and not e:
             return Place(step, half, poses.radial(self.SIGN, step), step.sin_cos[0])
-        try:
-            slot = skew(step, e)
-        except ValueError:
+
+        def error() -> GenevaError:
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
             limit = step.sin_cos[1] ** 2 * center_distance_mm
-            raise GenevaError(
+            return GenevaError(
                 f"offset_mm = {self.offset_mm:g}: the roller cannot enter such a slot without "
                 f"shock; its size must be below {limit:.6g}",
                 ("wheel", "offset_mm"),
-            ) from None
+            )
+
+        spare = room(step, e)
+        refuse(spare <= 0.0, error)
+        slot = skew(step, e, spare)
         return Place(step, half, slot.poses, slot.poses[2].slope[0], slot)
 
     def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
@@ -109,13 +119,15 @@ class External(Gearing):
 
     def closed_form(self, place: Place) -> tuple[float, float, float] | None:
         """Of radial slots."""
-        if place.skew:
+        if place.skew is not None:
             return None
         return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
 
-    def matched_ratio(self, v: float) -> float | None:
+    def matched_ratio(self, v: float) -> float:
         """psi1(0) = l/(1-l) f1(0), with f1 the transmission's ratio."""
-        return v / (1.0 + v) if v > 0.0 else None
+        able = v > 0.0
+        ratio: float = choose(able, v, math.nan) / (1.0 + choose(able, v, 0.0))
+        return ratio
 
 
 def _multiples(z: int, n: int) -> str:

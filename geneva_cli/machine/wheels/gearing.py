@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels.poses import Pose, Step
 from geneva_cli.machine.wheels.skew import Skew
+from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Table
 
@@ -37,7 +39,8 @@ class Place(NamedTuple):
     @property
     def reach_deg(self) -> float:
         """Farthest from the line of centres that its crank moves the wheel."""
-        return max(-self.poses[0].crank_deg, self.poses[2].crank_deg)
+        farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
+        return farthest
 
 
 @dataclass(frozen=True)
@@ -68,9 +71,12 @@ class Gearing(Table):
         return ()
 
     @property
-    def radial(self) -> bool:
-        """Whether all slots are radial and alike, which a drive or a law may need."""
-        return True
+    def skewed(self) -> Any:
+        """Whether slots are not radial or not alike, as a drive or a law may need them.
+
+        A truth value, or of an array of designs one each.
+        """
+        return False
 
     @property
     def own_sizes(self) -> dict[str, float]:
@@ -112,9 +118,9 @@ class Gearing(Table):
         """Sign, l and 1 - l of the closed forms that hold on a plain crank, where there are any."""
         return None
 
-    def matched_ratio(self, v: float) -> float | None:
+    def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
 
-        ``v`` is the wheel's speed over the crank's. None where no R/L below 1 does.
+        ``v`` is the wheel's speed over the crank's. NaN where no R/L below 1 does.
         """
-        return None
+        return math.nan

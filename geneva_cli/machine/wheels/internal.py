@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.numerics.arrays import choose
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,8 @@ class Internal(Gearing):
         """Of radial slots."""
         return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
 
-    def matched_ratio(self, v: float) -> float | None:
+    def matched_ratio(self, v: float) -> float:
         """psi1(0) = l/(1+l) f1(0), with f1 the transmission's ratio."""
-        return v / (1.0 - v) if 0.0 < v < 0.5 else None
+        able = (v > 0.0) & (v < 0.5)
+        ratio: float = choose(able, v, math.nan) / (1.0 - choose(able, v, 0.0))
+        return ratio

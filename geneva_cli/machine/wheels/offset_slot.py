@@ -7,7 +7,8 @@ from collections.abc import Callable
 from geneva_cli.machine.engagement import Anchor, Axis, Slot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
 from geneva_cli.machine.wheels.skew import Skew
-from geneva_cli.numerics.jet import Coefficient, Jet, integral, library, piecewise, sqrt
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Coefficient, Jet, integral, piecewise, sqrt
 
 
 class OffsetSlot(Slot):
@@ -33,7 +34,7 @@ class OffsetSlot(Slot):
 class OffsetFollowed(Followed):
     """The motion of a wheel whose offset slot follows the pin."""
 
-    def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
+    def __init__(self, path: AnchoredPath, half_step: Coefficient, skew: Skew) -> None:
         super().__init__(path, half_step)
         self.skew = skew
 
@@ -58,7 +59,7 @@ class OffsetFollowed(Followed):
             s = sqrt(square)
             gain = more / (s + along)
             a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
-            value = library(a).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
+            value = library(a, b, e).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
             return _turning(along, across, gain * e, square + e * e, value)
 
         return solve
@@ -69,7 +70,7 @@ class OffsetFollowed(Followed):
         toward, across = mid.way(x, order)
         s, rho2 = _depth(self.skew, toward)
         along = toward + mid.along
-        m, u, depth = library(across.c[0]), toward.c[0], s.c[0]
+        m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]
         value = m.atan2(across.c[0], along.c[0]) + mid.wheel
         # atan2(e, deepest) - atan2(e, s)
         value -= m.atan2(2.0 * u / (depth + deepest) * e, depth * deepest + e * e)

@@ -39,7 +39,10 @@ class Pose(NamedTuple):
 
 
 class Step(NamedTuple):
-    """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z."""
+    """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z.
+
+    Of an array of designs p or q is an array; p may then be degrees, and q 180.
+    """
 
     p: int
     q: int

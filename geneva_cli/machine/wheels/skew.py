@@ -9,12 +9,12 @@ the distance to that limit, which is taken once, exactly.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from geneva_cli.machine.wheels.classic import gap, half_motion_deg
 from geneva_cli.machine.wheels.poses import Pose, Step, middle
 from geneva_cli.numerics.angles import cos_squared_less, sin_cos_pi
+from geneva_cli.numerics.arrays import choose, library
 
 
 class Skew(NamedTuple):
@@ -28,37 +28,43 @@ class Skew(NamedTuple):
     # centre; in the middle in that of the line of centres
 
 
-def skew(step: Step, e: float) -> Skew:
-    """The slot of offset e for half an index angle b. Raises ValueError unless |e| < cos² b."""
-    spare = cos_squared_less(*step, abs(e))
-    if not spare > 0.0:
-        raise ValueError
+def room(step: Step, e: float) -> float:
+    """cos² b - |e|: above 0 where there is a slot of offset e for half an index angle b."""
+    spare: float = cos_squared_less(*step, abs(e))
+    return spare
+
+
+def skew(step: Step, e: float, spare: float) -> Skew:
+    """The slot of offset e for half an index angle b; ``spare`` is its ``room``, above 0."""
+    m = library(e, step.p, step.q)
     sin_b, cos_b = step.sin_cos
     less = 2.0 * sin_cos_pi(step.p, 2 * step.q)[0] ** 2  # 1 - cos b
     size = abs(e) / cos_b  # |sin d|
     # cos b - |e| = (cos² b - |e|) + cos b (1 - cos b)
-    cos_d = math.sqrt((spare + cos_b * less) * (cos_b + abs(e))) / cos_b
-    d = math.atan2(size, cos_d)
+    cos_d = m.sqrt((spare + cos_b * less) * (cos_b + abs(e))) / cos_b
+    d = m.atan2(size, cos_d)
     wide = cos_b * cos_d + sin_b * size  # cos(b - |d|), a sum of positive terms
     near = spare / cos_b * (cos_b + size)  # cos² b - sin² d
     narrow = near / wide  # cos(b + |d|)
     deepest = near / (cos_d + sin_b)  # cos d - sin b
     least = gap(1.0, *step) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
     l = sin_b * cos_d
-    long = half_motion_deg(1.0, *step) + math.degrees(d)
-    short = math.degrees(math.atan2(narrow, sin_b * cos_d + cos_b * size))
-    turn = math.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
+    long = half_motion_deg(1.0, *step) + m.degrees(d)
+    short = m.degrees(m.atan2(narrow, sin_b * cos_d + cos_b * size))
+    turn = m.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
     mid = middle(1.0, l, least)
-    if e > 0.0:
-        poses = (
-            Pose(-long, -step.b, wide, (-l, 0.0), (0.0, l)),
-            mid._replace(wheel=turn),
-            Pose(short, step.b, narrow, (l, 0.0), (0.0, -l)),
-        )
-    else:
-        poses = (
-            Pose(-short, -step.b, narrow, (-l, 0.0), (0.0, l)),
-            mid._replace(wheel=-turn),
-            Pose(long, step.b, wide, (l, 0.0), (0.0, -l)),
-        )
-    return Skew(e, math.copysign(d, e), deepest, poses)
+    gentle = e > 0.0  # at entry
+    poses = (
+        Pose(
+            choose(gentle, -long, -short),
+            -step.b,
+            choose(gentle, wide, narrow),
+            (-l, 0.0),
+            (0.0, l),
+        ),
+        mid._replace(wheel=choose(gentle, turn, -turn)),
+        Pose(
+            choose(gentle, short, long), step.b, choose(gentle, narrow, wide), (l, 0.0), (0.0, -l)
+        ),
+    )
+    return Skew(e, m.copysign(d, e), deepest, poses)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, Step
 from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2
 from geneva_cli.spec.rules import Range
 
@@ -40,13 +40,15 @@ class Spherical(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not AXES_MIN <= self.axes_deg <= 180.0 - AXES_MIN:
-            raise GenevaError(
+        refuse(
+            (self.axes_deg < AXES_MIN) | (self.axes_deg > 180.0 - AXES_MIN),
+            lambda: GenevaError(
                 f"axes_deg = {self.axes_deg:g}: the shafts are parallel but for rounding; it must "
                 f"be at least {AXES_MIN:g} away from 0 and 180, or the gearing "
                 '"external" or "internal"',
                 ("wheel", "axes_deg"),
-            )
+            ),
+        )
 
     @property
     def own_sizes(self) -> dict[str, float]:
@@ -89,7 +91,7 @@ class Cone(NamedTuple):
     """The crank of a sphere, which carries its roller on a cone: its turning about the roller."""
 
     turn: Displacement
-    cos_th: Coefficient
+    cos_th: float
 
     def __call__(self, tau: Coefficient, order: int) -> Jet:
         """Positive with the wheel, ``tau`` input radians after mid-motion."""
@@ -101,8 +103,8 @@ class Cone(NamedTuple):
 class Height(NamedTuple):
     """The pin's place along the wheel's axis: top - fall (1 - cos a)."""
 
-    top: Coefficient
-    fall: Coefficient
+    top: float
+    fall: float
     turn: Displacement
 
     def __call__(self, tau: Coefficient, order: int) -> Jet:
@@ -128,7 +130,9 @@ class Sphere(NamedTuple):
     @property
     def half_motion_deg(self) -> float:
         """Crank angle from entry to mid-motion."""
-        return math.degrees(math.atan2(self.sin_a, self.cos_a))
+        m = library(self.sin_a)
+        half: float = m.degrees(m.atan2(self.sin_a, self.cos_a))
+        return half
 
 
 def sphere(step: Step, axes_deg: float) -> Sphere:
@@ -137,7 +141,7 @@ def sphere(step: Step, axes_deg: float) -> Sphere:
     sin_S, cos_S = sin_cos_deg(axes_deg)
     sin_th = sin_S * sin_b
     # cos² th = cos² S + sin² S cos² b: a sum of positive terms
-    cos_th = math.hypot(cos_S, sin_S * cos_b)
+    cos_th = library(sin_th).hypot(cos_S, sin_S * cos_b)
     return Sphere(sin_S, cos_S, sin_th, cos_th, sin_b * cos_S / cos_th, cos_b / cos_th)
 
 
@@ -150,14 +154,14 @@ def poses(step: Step, ball: Sphere) -> tuple[Pose, Pose, Pose]:
     half = ball.half_motion_deg
     # derivatives of the pin's place at the crank angle a, by it
     across, along = ball.sin_th * ball.cos_S, ball.sin_th
-    mouth = math.hypot(ball.sin_S * ball.cos_th - across * ball.cos_a, along * ball.sin_a)
+    mouth = library(along).hypot(ball.sin_S * ball.cos_th - across * ball.cos_a, along * ball.sin_a)
     slope = across * ball.sin_a * cos_b + along * ball.cos_a * sin_b
     inward = across * ball.cos_a * cos_b - along * ball.sin_a * sin_b
     aside = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
     # sin(S - th), where both are positive as sin² S cos² b / sin(S + th)
-    middle_ = ball.sin_S * ball.cos_th - across
-    if across > 0.0:
-        middle_ = (ball.sin_S * cos_b) ** 2 / (ball.sin_S * ball.cos_th + across)
+    far = ball.sin_S * ball.cos_th
+    positive = (ball.sin_S * cos_b) ** 2 / (far + abs(across))
+    middle_ = choose(across > 0.0, positive, far - across)
     return (
         Pose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
         Pose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),

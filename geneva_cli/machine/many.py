@@ -1,0 +1,205 @@
+"""Many designs at once: one machine whose numbers are arrays along a design axis.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, SideCrank
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(6), SideCrank(A=0.0))
+    >>> found = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
+    >>> found.refused
+    array([False, False,  True])
+    >>> found.spread(found.machine.ratio * np.ones(2))
+    array([0.5, 0.5, nan])
+
+``found.machine`` is a machine like any other, of the designs that can be built, in their order. The
+numbers that vary in it are arrays (m, 1); what follows from them is (m, 1) too, and at k input
+angles (k,) or (m, k) it is (m, k). ``found.spread`` puts (m, 1) back among the n designs as (n,).
+Why a design is refused, it says itself when it is built alone.
+
+``groups`` takes the designs apart whose differing keys are no numbers (words, lists, rollers),
+and gives each group to ``many``.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError, marking
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec, attribute
+from geneva_cli.spec.schema import Field, Points, Table, fields, unknown
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+TABLES = ("wheel", "drive", "motion", "size", "load")  # whose numbers may vary
+ONE_BY_ONE = {"rollers"}  # numbers that count what a machine is made of
+
+
+class Many(NamedTuple):
+    """What ``many`` built of n designs."""
+
+    machine: Mechanism | None  # of those that can be built; None where there is none
+    refused: Any  # (n,) booleans
+
+    @property
+    def which(self) -> Any:
+        """The numbers of the designs in ``machine``."""
+        return np.flatnonzero(~self.refused)
+
+    def spread(self, values: Any) -> Array:
+        """A number of each design in ``machine``, among all n designs; NaN for those refused."""
+        which = self.which
+        out = np.full(len(self.refused), np.nan)
+        out[which] = np.broadcast_to(np.reshape(values, -1), which.shape)
+        return out
+
+
+def many(spec: Spec, varied: Mapping[str, Any]) -> Many:
+    """The machine of a spec with some of its keys varied.
+
+    ``varied`` has keys as in the file (``drive.A``, ``wheel.z``, ``motion.lambda``) with arrays
+    (n,) of numbers, or with one value for all designs. Raises GenevaError for a key that the spec
+    does not have, and ValueError for arrays of unlike lengths or keys that cannot be arrays.
+    """
+    arrays = {key: np.asarray(v) for key, v in varied.items() if _is_array(v)}
+    lengths = {len(values) for values in arrays.values()}
+    if len(lengths) != 1 or any(values.ndim != 1 for values in arrays.values()):
+        raise ValueError("keys must vary in arrays (n,) of one length")
+    wrong = [key for key in arrays if not may_vary(spec, key)]
+    if wrong:
+        raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine; see groups")
+    (n,) = lengths
+    given = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
+    with np.errstate(all="ignore"), marking() as marks:
+        try:
+            machine = build(changed(spec, given)) if n else None
+        except GenevaError:  # what holds for all of them
+            machine = None
+    refused = np.full(n, machine is None)
+    for mark in marks:
+        refused |= np.broadcast_to(mark, (n, 1))[:, 0]
+    if machine is None or refused.all():
+        return Many(None, np.full(n, True))
+    return Many(taken(machine, ~refused) if refused.any() else machine, refused)
+
+
+def groups(
+    spec: Spec, varied: Mapping[str, Sequence[Any]]
+) -> Iterator[tuple[Any, dict[str, Any], Many | GenevaError]]:
+    """The designs of a spec with its keys varied, those together that one machine can be.
+
+    ``varied`` has keys as in the file with sequences of n values of any kind. Each group is the
+    numbers of its designs, the values that they share, and what was built of them: a ``Many``; of
+    a machine that cannot be an array the designs one by one, each a ``Many`` of one; or, where
+    what they share is refused already, the error that says why.
+    """
+    n = len(next(iter(varied.values())))
+    wide = [key for key in varied if may_vary(spec, key)]
+    shared = [key for key in varied if key not in wide]
+    together: dict[tuple[Any, ...], list[int]] = {}
+    for i in range(n):
+        together.setdefault(tuple(varied[key][i] for key in shared), []).append(i)
+    for values, members in together.items():
+        which = np.array(members)
+        common = dict(zip(shared, values, strict=True))
+        if not wide:
+            yield which, common, _one(spec, common, len(which))
+            continue
+        arrays = {key: np.asarray(varied[key])[which] for key in wide}
+        yield which, common, many(spec, {**common, **arrays})
+
+
+def _one(spec: Spec, common: Mapping[str, Any], n: int) -> Many | GenevaError:
+    try:
+        return Many(build(changed(spec, common)), np.full(n, False))
+    except GenevaError as error:
+        return error
+
+
+def may_vary(spec: Spec, key: str) -> bool:
+    """Whether a key of this spec may be an array: whether it is a number of a kind that takes it.
+
+    Raises GenevaError for a key that the spec does not have.
+    """
+    table, _, name = key.rpartition(".")
+    if table not in TABLES:
+        return False
+    numeric = bool({int, float} & set(_field(spec, key).types))
+    return numeric and name not in ONE_BY_ONE and spec.drive.may_vary(table, name)
+
+
+def changed(spec: Spec, values: Mapping[str, Any]) -> Spec:
+    """The spec with several keys changed at once: only the whole must be a design."""
+    tables: dict[str, dict[str, Any]] = {}
+    for key, value in values.items():
+        tables.setdefault(key.rpartition(".")[0], {})[_field(spec, key).attribute] = value
+    parts: dict[str, Table] = {}
+    for table, new in tables.items():
+        if spec.motion is not None and table == "motion":
+            own = {name: v for name, v in new.items() if name in Motion.__dataclass_fields__}
+            law = {name: v for name, v in new.items() if name not in own}
+            parts[table] = spec.motion.but(law=spec.motion.law.but(**law), **own)
+        else:
+            part: Table = vars(spec)[attribute(table)]
+            parts[attribute(table)] = part.but(**new)
+    return spec.but(**parts)
+
+
+def _field(spec: Spec, key: str) -> Field:
+    table, _, name = key.rpartition(".")
+    held = vars(spec).get(attribute(table))
+    if not isinstance(held, Table):
+        raise GenevaError(f"{key}: this spec has no [{table or key}]", (table, name))
+    known = {field.key: field for field in fields(type(held))}
+    if isinstance(held, Motion):
+        known |= {field.key: field for field in fields(type(held.law))}
+    if name not in known:
+        raise unknown(name, table, tuple(known))
+    return known[name]
+
+
+def taken(thing: Any, which: Any) -> Any:
+    """Some of the designs of an object of many: ``which`` is a mask or their numbers."""
+    return _changed(thing, lambda array: array[which], {})
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray)
+
+
+def _changed(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> Any:
+    """The same object with every array (n, 1) in it changed; what holds none is itself."""
+    if _is_array(thing):
+        return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
+    if not isinstance(thing, (tuple, list)) and not _is_ours(thing):
+        return thing
+    if isinstance(thing, Points):
+        return thing
+    if id(thing) not in done:
+        done[id(thing)] = _anew(thing, change, done)
+    return done[id(thing)]
+
+
+def _anew(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> Any:
+    if isinstance(thing, (tuple, list)):
+        parts = [_changed(part, change, done) for part in thing]
+        if all(a is b for a, b in zip(parts, thing, strict=True)):
+            return thing
+        return type(thing)(parts) if type(thing) in (tuple, list) else type(thing)(*parts)
+    held = vars(thing)
+    values = {name: _changed(value, change, done) for name, value in held.items()}
+    if all(values[name] is value for name, value in held.items()):
+        return thing
+    new = copy.copy(thing)
+    vars(new).update(values)
+    return new
+
+
+def _is_ours(thing: Any) -> bool:
+    """Whether it is an object of the machine or of its spec, whose numbers may be arrays."""
+    return type(thing).__module__.startswith(("geneva_cli.machine.", "geneva_cli.spec."))

@@ -1,0 +1,64 @@
+"""Numbers that are floats or arrays: what a formula needs to be written once for both.
+
+One convention holds for arrays, in the whole program. The numbers of a machine (its ratio, its
+offset, ...) are floats, or arrays (n, 1) along a design axis; input angles are floats, or arrays
+(k,) or (n, k). What comes out is (k,) of one design, (n, k) of n designs, and (n, 1) where no array
+of angles went in. To the type checker the numbers of a machine are floats.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+_PLAIN = (float, int)
+
+
+def library(x: Any, y: Any = 0.0, z: Any = 0.0) -> Any:
+    """The module whose sin and cos suit numbers: ``numpy`` where one of them is an array."""
+    if isinstance(x, _PLAIN) and isinstance(y, _PLAIN) and isinstance(z, _PLAIN):
+        return math
+    import numpy
+
+    return numpy
+
+
+def choose(condition: Any, yes: Any, no: Any) -> Any:
+    """One of two values, for a truth value, or element by element for an array of them.
+
+    Of two records (tuples of the same shape) each number is chosen for itself.
+    """
+    if isinstance(condition, bool):
+        return yes if condition else no
+    if isinstance(yes, tuple):
+        parts = [choose(condition, a, b) for a, b in zip(yes, no, strict=True)]
+        return type(yes)(*parts) if type(yes) is not tuple else tuple(parts)
+    import numpy
+
+    return numpy.where(condition, yes, no)
+
+
+def all_true(condition: Any) -> bool:
+    """Whether a truth value, or each of an array of them, is true."""
+    return condition if isinstance(condition, bool) else bool(condition.all())
+
+
+def ascending(places: Sequence[Any]) -> list[Any]:
+    """Numbers in order, each once; of designs each one's in its own order, equal ones too."""
+    if all(isinstance(x, float) for x in places):
+        return sorted(set(places))
+    import numpy
+
+    each = numpy.concatenate(numpy.broadcast_arrays(*places), axis=-1)
+    return list(numpy.hsplit(numpy.sort(each, axis=-1), each.shape[-1]))
+
+
+def larger(a: Any, b: Any) -> Any:
+    """The larger of two numbers, element by element for arrays."""
+    return choose(b > a, b, a)
+
+
+def smaller(a: Any, b: Any) -> Any:
+    """The smaller of two numbers, element by element for arrays."""
+    return choose(b < a, b, a)
