@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 from geneva_cli.curves.measure import mapped, segment_length
 from geneva_cli.curves.shapes import (
@@ -53,7 +52,7 @@ def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
     for number, shape in enumerate(prepared(drawing, units).shapes, 1):
         pieces = shape.segments if isinstance(shape, Contour) else (shape,)
         for i, piece in enumerate(pieces, 1):
-            kind, *values = _values(piece)
+            kind, values = _values(piece)
             shown = [None if v is None else round(v, DECIMALS) + 0.0 for v in values]
             rows.append((shape.layer, number, i, kind, *shown))
     lengths = [f"{name}_{SUFFIX[units]}" for name in LENGTHS]
@@ -121,14 +120,14 @@ def _require_finite(shape: Shape) -> None:
                 )
 
 
-def _values(piece: Segment | Circle) -> tuple[Any, ...]:
-    """Kind, start, end, centre, radius, sweep in degrees and control points."""
+def _values(piece: Segment | Circle) -> tuple[str, tuple[float | None, ...]]:
+    """Kind; and start, end, centre, radius, sweep in degrees and control points."""
     if isinstance(piece, Circle):
-        return "circle", *[None] * 4, *piece.centre, piece.radius, 360.0, *[None] * 4
+        return "circle", (*[None] * 4, *piece.centre, piece.radius, 360.0, *[None] * 4)
     ends = (*piece.start, *piece.end)
     if isinstance(piece, Cubic):
-        return "cubic", *ends, *[None] * 4, *piece.first, *piece.second
+        return "cubic", (*ends, *[None] * 4, *piece.first, *piece.second)
     if isinstance(piece, Line):
-        return "line", *ends, *[None] * 8
+        return "line", (*ends, *[None] * 8)
     sweep = math.degrees(piece.sweep)
-    return "arc", *ends, *piece.centre, piece.radius, sweep, *[None] * 4
+    return "arc", (*ends, *piece.centre, piece.radius, sweep, *[None] * 4)

@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
+Angle = TypeVar("Angle", float, "Array")
 DEGREE = math.pi / 180.0
 _BITS = 128
 _ONE = 1 << _BITS
@@ -162,7 +163,7 @@ def sin_cos_deg(degrees: float) -> tuple[float, float]:
     return _sin_cos_degrees(degrees)
 
 
-def radians(degrees: Any) -> Any:
+def radians(degrees: Angle) -> Angle:
     """Degrees to radians, for numbers and arrays alike."""
     return degrees * DEGREE
 
