@@ -25,6 +25,7 @@ COMMANDS = {
     "table": "Timing and peaks of wheels, one row for each number of slots.",
     "peaks": "Greatest velocity, acceleration, jerk and power of a design.",
     "motion": "Position, velocity, acceleration and jerk over a cycle.",
+    "loads": "Torque, forces, stress and power over the cycle; what to buy, how long it lasts.",
     "profile": "The slot: pitch curve, both flanks, pressure angle and curvature.",
     "report": "One page on a design, for a person.",
     "check": "Does the design work? Exit status 1 where a check fails.",

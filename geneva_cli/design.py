@@ -36,7 +36,8 @@ from geneva_cli.spec.tables import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.loads.forces import Greatest
+    from geneva_cli.analysis.loads.cycle import Cycle
+    from geneva_cli.analysis.loads.summary import Summary
     from geneva_cli.analysis.peaks import Peaks
     from geneva_cli.analysis.timing import Timing
     from geneva_cli.curves.shapes import Drawing
@@ -221,22 +222,64 @@ class Design:
         return self._located(lambda: motion_table(self.mechanism, samples))
 
     @answer
-    def loads(self) -> dict[str, Greatest]:
-        """The greatest wheel torque, pin force, input torque and contact stress, and where.
+    def cycle(self) -> Cycle:
+        """The cycle under load: states at any input angles, exact extremes and integrals.
 
-        Infinite where nothing bounds them; the stress needs a ``face_width_mm``. Newtons, newton
-        metres, megapascals; input angles in degrees.
+        >>> cycle = Design(External(6), load=Load(torque_Nm=15)).cycle
+        >>> [round(work, 9) for work in cycle.integrals(lambda at: at.input_torque_Nm)]  # joules
+        [15.707963268]
+        """
+        from geneva_cli.analysis.loads.cycle import Cycle
+
+        return Cycle(self.mechanism)
+
+    @answer
+    def loads(self) -> dict[str, Summary]:
+        """Greatest, least, mean and root-mean-square of each load over a period, by its name.
+
+        None where nothing bounds a value, or what it needs is not given. Newtons, newton metres,
+        megapascals, watts; input angles in degrees.
 
         >>> loaded = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(loaded.loads["pin_force_N"].max, 3)
         649.007
         """
-        from geneva_cli.analysis.loads.loads import greatest
+        from geneva_cli.analysis.loads.summary import summaries
 
-        names = ["torque_Nm", "pin_force_N", "input_torque_Nm"]
-        if self.spec.size.face_width_mm is not None:
-            names.append("contact_stress_MPa")
-        return {name: greatest(self.mechanism, name) for name in names}
+        return summaries(self.cycle)
+
+    @answer
+    def loads_table(self) -> Table:
+        """The loads as ``geneva loads`` prints them: ``loads``, reversals, sizing and life.
+
+        >>> Design(External(6), load=Load(0.4, 15)).loads_table.to_dict()["reversals_deg"]
+        (10.34475855916..., 43.0339138141...)
+        """
+        from geneva_cli.analysis.loads.summary import loads_table
+
+        return loads_table(self.cycle, [*self.warnings, *self.load_warnings])
+
+    @answer
+    def load_warnings(self) -> list[str]:
+        """What the loads' numbers alone would hide: what has no bound, and what is not known.
+
+        >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings
+        ['contact_stress_MPa: needs face_width_mm in [size]']
+        """
+        from geneva_cli.analysis.loads.summary import missing
+        from geneva_cli.verdict.load_cautions import load_cautions
+
+        return [*load_cautions(self.mechanism), *missing(self.cycle)]
+
+    def load_cycle(self, samples: int = 361) -> Table:
+        """``samples`` rows of the loads over a period, evenly in the input angle, dwells too.
+
+        >>> Design(External(6), load=Load(torque_Nm=15)).load_cycle(4).to_dict()["pin_force_N"]
+        array([173.20508076, 173.20508076,   0.        ,   0.        ])
+        """
+        from geneva_cli.analysis.loads.summary import cycle_table
+
+        return self._located(lambda: cycle_table(self.cycle, samples))
 
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
         """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table, pieces
 
@@ -39,36 +41,77 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     return Table(NAMES, _rows(mechanism, samples, 0, samples))
 
 
-def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Array]:
-    """The columns' rows from ``begin`` up to ``end``, left out, of ``samples`` in all."""
-    engagements = mechanism.engagements
-    start = engagements[0].mid_deg + engagements[0].entry_deg
-    input_deg = start + mechanism.period_deg * np.arange(begin, end) / (samples - 1)
+class Span(NamedTuple):
+    """A motion and the dwell after it, among input angles that ascend."""
+
+    engagement: Engagement
+    moves: slice
+    rests: slice
+    base: float  # the wheel's angle half-way through the step, radians from half-way the first
+
+
+def inputs(mechanism: Mechanism, samples: int, begin: int, end: int) -> Array:
+    """The input angles of rows ``begin`` up to ``end``, left out, of ``samples`` over a period."""
+    start = first_entry_deg(mechanism)
+    input_deg: Array = start + mechanism.period_deg * np.arange(begin, end) / (samples - 1)
     if end == samples:
         input_deg[-1] = start + mechanism.period_deg
-    wheel = np.empty(len(input_deg))
-    rates = [np.zeros(len(input_deg)) for _ in range(3)]
+    return input_deg
+
+
+def first_entry_deg(mechanism: Mechanism) -> float:
+    """The input angle at which a period begins."""
+    return mechanism.engagements[0].mid_deg + mechanism.engagements[0].entry_deg
+
+
+def spans(mechanism: Mechanism, input_deg: Array) -> Iterator[Span]:
+    """The motions of a period with the dwells after them; entry and exit belong to the motion."""
+    engagements = mechanism.engagements
     first = 0
     for i, engagement in enumerate(engagements):
         # What stays constant within a cycle: the steps that are done before it.
         base = sum(2.0 * s.half_step for s in engagements[:i]) + engagement.half_step
         base -= engagements[0].half_step
         exit_ = engagement.mid_deg + engagement.exit_deg
-        last = int(np.searchsorted(input_deg, exit_, side="right"))
-        if last > first:
-            local = np.clip(
-                input_deg[first:last] - engagement.mid_deg,
-                engagement.entry_deg,
-                engagement.exit_deg,
-            )
-            for out, values in zip(
-                [wheel, *rates], engagement.motion.derivatives(local), strict=True
-            ):
-                out[first:last] = values
-            wheel[first:last] += base
+        last = max(first, int(np.searchsorted(input_deg, exit_, side="right")))
         following = i + 1 < len(engagements)
         next_entry = exit_ + mechanism.dwell_deg(i) if following else math.inf
-        first = int(np.searchsorted(input_deg, next_entry, side="left"))
-        wheel[last:first] = base + engagement.half_step
-    time = (input_deg - start) / (6.0 * mechanism.spec.drive.n_rpm)
-    return [time, input_deg, np.degrees(wheel), *rates]
+        after = int(np.searchsorted(input_deg, next_entry, side="left"))
+        yield Span(engagement, slice(first, last), slice(last, after), base)
+        first = after
+
+
+def local_deg(span: Span, input_deg: Array) -> Array:
+    """The input angles of a motion from its own mid-motion."""
+    engagement = span.engagement
+    here = input_deg[span.moves] - engagement.mid_deg
+    return np.clip(here, engagement.entry_deg, engagement.exit_deg)
+
+
+def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Array]:
+    """The columns' rows from ``begin`` up to ``end``, left out, of ``samples`` in all."""
+    input_deg = inputs(mechanism, samples, begin, end)
+    wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
+    return [times_s(mechanism, input_deg), input_deg, np.degrees(wheel), *rates]
+
+
+def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+    """The wheel's angle, radians, and its derivatives at ascending input angles of a period."""
+    out = [np.zeros(len(input_deg)) for _ in orders]
+    for span in spans(mechanism, input_deg):
+        local = local_deg(span, input_deg)
+        rest = span.engagement.half_step
+        if len(local):
+            found = span.engagement.motion.derivatives(local, orders)
+            for total, values in zip(out, found, strict=True):
+                total[span.moves] = values
+        for order, total in zip(orders, out, strict=True):
+            if order == 0:
+                total[span.rests] = rest
+                total[span.moves.start : span.rests.stop] += span.base
+    return out
+
+
+def times_s(mechanism: Mechanism, input_deg: Array) -> Array:
+    """Seconds from the first entry."""
+    return (input_deg - first_entry_deg(mechanism)) / (6.0 * mechanism.spec.drive.n_rpm)

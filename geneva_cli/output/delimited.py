@@ -20,7 +20,7 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
         yield from _numbers(table)
         return
     for block in table.blocks():
-        if all(type(v) is float for v in block[0]):
+        if all(type(v) is float for row in block for v in row):
             line = ",".join(["%r"] * len(table.names)) + "\n"
             yield line * len(block) % tuple(v + 0.0 for row in block for v in row)
         else:

@@ -18,6 +18,7 @@ COMMANDS = {
     "peaks": [],
     "motion": ["--samples", "73"],
     "profile": ["--tolerance", "0.05"],
+    "loads": [],
     "report": [],
     "check": [],
 }

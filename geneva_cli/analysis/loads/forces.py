@@ -26,6 +26,7 @@ from geneva_cli.numerics.jet import Coefficient, Jet
 class Setting(NamedTuple):
     """What the loads depend on besides the motion."""
 
+    speed_rad_s: float  # of the input
     inertia_Nm: float  # inertia times the square of the input speed
     resists_Nm: float
     L: float  # metres
@@ -46,6 +47,7 @@ def setting(mechanism: Mechanism) -> Setting:
         modulus = contact_modulus_GPa(spec) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
     return Setting(
+        w,
         inertia_kgm2(spec) * w * w,
         resisting_torque_Nm(spec),
         mechanism.center_distance_mm / 1000.0,
@@ -70,10 +72,14 @@ class Greatest(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A quantity that is looked for, and what must be positive for it to have a value."""
+    """A quantity that is looked for, and what must be positive for it to have a bound.
+
+    ``way`` is the sign towards which it goes where it has none.
+    """
 
     value: Jet
     room: Jet | None = None
+    way: Coefficient = 1.0
 
 
 class Forces(NamedTuple):
@@ -96,15 +102,28 @@ def sliding(at: Contact, drives: Coefficient, radius: float) -> Jet:
     return speed
 
 
+def gain(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+    """Torque on the input shaft over the wheel's, times the grip: it has a value everywhere."""
+    lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
+    over: Jet = at.velocity * _grip(given, at, drives, slides) + lost
+    return over
+
+
+def _grip(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+    if not given.friction:
+        return at.lever
+    rub = at.touches * (given.friction * slides)
+    grip: Jet = at.lever + rub * (at.aside * drives - at.arm * given.radius)
+    return grip
+
+
 def forces(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Forces:
     """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
     torque = at.acceleration * given.inertia_Nm + given.resists_Nm
-    grip, shaft = at.lever, torque * at.velocity
-    if given.friction:
-        rub = at.touches * (given.friction * slides)
-        grip = grip + rub * (at.aside * drives - at.arm * given.radius)
+    grip, shaft = _grip(given, at, drives, slides), torque * at.velocity
     force = torque * drives / (grip * given.L)
     if given.friction:
+        rub = at.touches * (given.friction * slides)
         shaft = shaft + force * rub * sliding(at, drives, given.radius) * given.L
     if given.hertz is None:
         return Forces(torque, grip, force, shaft, None, None)

@@ -85,7 +85,7 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
     """The greatest of each field of ``State``, at the engagement's own input angles."""
     from geneva_cli.analysis.loads.peaks import maxima
 
-    def rows(at: Contact, drives: Coefficient, slides: Coefficient) -> list[Row]:
+    def rows(at: Contact, drives: Coefficient, slides: Coefficient, _: Coefficient) -> list[Row]:
         found = forces(given, at, drives, slides)
         grip = found.grip if given.friction else None
         slope = at.aside / at.lever
@@ -153,7 +153,7 @@ def _slowness(
     force_max, torque_max, stress_max = limits
     unit = given._replace(inertia_Nm=0.0, resists_Nm=1.0)
 
-    def rows(at: Contact, drives: Coefficient, slides: Coefficient) -> list[Row]:
+    def rows(at: Contact, drives: Coefficient, slides: Coefficient, _: Coefficient) -> list[Row]:
         found = forces(unit, at, drives, slides)
         needed = at.acceleration * given.inertia_Nm
         held: list[tuple[float, Jet]] = []

@@ -10,12 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, is_straight
-from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, sliding
+from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, gain, sliding
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
@@ -32,16 +33,17 @@ TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier
 
 
 class Stretch(NamedTuple):
-    """Input angles between which the loads are smooth, and the signs of torque and sliding."""
+    """Input angles between which the loads are smooth, and the signs that they have there."""
 
     start: float
     end: float
-    drives: float
-    slides: float
+    drives: float  # of the wheel's torque
+    slides: float  # of the sliding
+    pays: float  # of the input's torque
 
 
-# contact, sign of torque, sign of sliding -> the quantities
-Rows: TypeAlias = Callable[[Contact, Coefficient, Coefficient], list[Row]]
+# contact, signs of torque, of sliding and of the input's torque -> the quantities
+Rows: TypeAlias = Callable[[Contact, Coefficient, Coefficient, Coefficient], list[Row]]
 
 
 @lru_cache(maxsize=256)
@@ -52,18 +54,46 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     it keeps away from the slopes that are rounding.
     """
 
-    def torque(at: Contact, _: Coefficient) -> Jet:
+    def torque(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
         return at.acceleration * given.inertia_Nm + given.resists_Nm
 
-    def rubs(at: Contact, drives: Coefficient) -> Jet:
+    def rubs(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
         return sliding(at, drives, given.radius)
 
-    cut = [Stretch(a, b, 1.0, 1.0) for a, b in _smooth(engagement)]
+    def shaft(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+        torque: Jet = gain(given, at, drives, slides) * drives
+        return torque
+
+    cut = [Stretch(a, b, 1.0, 1.0, 1.0) for a, b in _smooth(engagement)]
     if given.inertia_Nm:
         cut = _cut_at_zeros(engagement, cut, torque, "drives")
-    if given.friction:
-        cut = _cut_at_zeros(engagement, cut, rubs, "slides")
-    return tuple(cut)
+    cut = _cut_at_zeros(engagement, cut, rubs, "slides")
+    return tuple(_cut_at_zeros(engagement, cut, shaft, "pays"))
+
+
+def whole(engagement: Engagement, given: Setting) -> list[Stretch]:
+    """The stretches of a motion without gaps, for values alone: what is left out is given back."""
+    pieces = stretches(engagement, given)
+    cuts = [engagement.entry_deg]
+    for before, after in pairwise(pieces):
+        cuts.append(_between(engagement, given, before, after))
+    cuts.append(engagement.exit_deg)
+    placed = zip(pieces, pairwise(cuts), strict=True)
+    return [p._replace(start=a, end=b) for p, (a, b) in placed if a < b]
+
+
+def _between(engagement: Engagement, given: Setting, before: Stretch, after: Stretch) -> float:
+    """Where one stretch ends and the next begins: a break, or a change of sign beside it."""
+    a, b = before.end, after.start
+    if b - a > NEAR * engagement.motion_deg * 1e-3 and before.drives != after.drives:
+
+        def torque(way: float) -> tuple[float, float]:
+            c = engagement.motion(a + way, 3).derivative().derivative().c
+            return c[0] * given.inertia_Nm + given.resists_Nm, c[1] * given.inertia_Nm * DEGREE
+
+        if torque(0.0)[0] * torque(b - a)[0] < 0.0:
+            return a + root(torque, 0.0, b - a)
+    return min(max(a, 0.0), b) if a * b <= 0.0 else _at_break(a, engagement)
 
 
 def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
@@ -83,14 +113,14 @@ def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
 def _cut_at_zeros(
     engagement: Engagement,
     pieces: list[Stretch],
-    of: Callable[[Contact, Coefficient], Jet],
+    of: Callable[[Contact, Coefficient, Coefficient], Jet],
     sign: str,
 ) -> list[Stretch]:
     """The pieces cut at the zeros of a jet, with its sign between them."""
-    drives = np.array([p.drives for p in pieces])
+    drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
-        return _columns([of(contact(engagement, x, 1), drives[span])], x)
+        return _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
     changes = found.changes(0)
@@ -99,14 +129,15 @@ def _cut_at_zeros(
         places = [piece.start]
         for i in changes[found.span[changes] == number]:
 
-            def here(x: float, side: float = piece.drives) -> Jet:
-                return of(contact(engagement, x, 1), side)
+            def here(x: float, piece: Stretch = piece) -> Jet:
+                return of(contact(engagement, x, 1), piece.drives, piece.slides)
 
             places.append(_zero(here, float(found.x[i]), float(found.x[i + 1])))
         places.append(piece.end)
         for a, b in zip(places, places[1:], strict=False):
             if a < b:
-                middle = of(contact(engagement, 0.5 * (a + b)), piece.drives).c[0]
+                at = contact(engagement, 0.5 * (a + b))
+                middle = of(at, piece.drives, piece.slides).c[0]
                 cut = piece._replace(start=a, end=b)
                 out.append(cut._replace(**{sign: math.copysign(1.0, middle)}))
     return out
@@ -129,28 +160,33 @@ def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
     return value, slope
 
 
-def maxima(engagement: Engagement, given: Setting, rows: Rows) -> list[Greatest]:
-    """The greatest of each of ``rows`` over a motion; at least 0, at entry."""
+def maxima(
+    engagement: Engagement, given: Setting, rows: Rows, least: float = 0.0
+) -> list[Greatest]:
+    """The greatest of each of ``rows`` over a motion; if not above ``least`` that, at entry."""
     pieces = stretches(engagement, given)
-    drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:])
+    signs = np.array([piece[2:] for piece in pieces]).T
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
-        asked = rows(contact(engagement, x, 1), drives[span], slides[span])
+        asked = rows(contact(engagement, x, 1), *signs[:, span])
         value, slope = _columns([row.value for row in asked], x)
         for i, row in enumerate(asked):
             if row.room is not None:
-                value[i, np.broadcast_to(row.room.c[0] <= 0.0, x.shape)] = np.nan
+                lost = np.broadcast_to(row.room.c[0] <= 0.0, x.shape)
+                value[i, lost] = np.broadcast_to(np.where(row.way > 0.0, np.nan, -np.inf), x.shape)[
+                    lost
+                ]
         return value, slope
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
-    ends = _at_mid_motion(engagement, given, pieces, rows)
+    ends = _at_mid_motion(engagement, given, pieces, rows, least)
     out = []
     for i in range(len(found.value)):
 
         def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row:
-            return rows(contact(engagement, x, order), piece.drives, piece.slides)[i]
+            return rows(contact(engagement, x, order), *piece[2:])[i]
 
-        out.append(_greatest(found, i, pieces, at, ends, engagement))
+        out.append(_greatest(found, i, pieces, at, ends, engagement, least))
     return out
 
 
@@ -161,12 +197,13 @@ def _greatest(
     at: Callable[[Coefficient, Stretch, int], Row],
     middle: list[float],
     engagement: Engagement,
+    least: float,
 ) -> Greatest:
     value = found.value[row]
     lost = np.isnan(value)
     if lost.any():
         return Greatest(math.inf, _brink(found, lost, pieces, at))
-    if math.isinf(middle[row]):
+    if middle[row] == math.inf:
         return Greatest(math.inf, 0.0)
     places = [(0.0, middle[row])]
     cuts = np.flatnonzero(~found.joined)
@@ -180,14 +217,14 @@ def _greatest(
         x = _zero(slope, float(found.x[i]), float(found.x[i + 1]))
         places.append((x, at(x, piece, 0).value.c[0]))
     most = max(v for _, v in places)
-    if not most > 0.0:
-        return Greatest(0.0, engagement.entry_deg)
-    first = min(x for x, v in places if v >= most * (1.0 - TIE))
+    if not most > least:
+        return Greatest(least, engagement.entry_deg)
+    first = min(x for x, v in places if v >= most - TIE * abs(most))
     return Greatest(most, _at_break(first, engagement))
 
 
 def _at_mid_motion(
-    engagement: Engagement, given: Setting, pieces: tuple[Stretch, ...], rows: Rows
+    engagement: Engagement, given: Setting, pieces: tuple[Stretch, ...], rows: Rows, least: float
 ) -> list[float]:
     """The quantities at mid-motion of a curved slot, which no stretch reaches; infinite or a limit.
 
@@ -200,7 +237,7 @@ def _at_mid_motion(
     beside = [p for p in pieces if NEAR * engagement.entry_deg in (p.end, -p.start)]
     if is_straight(engagement):
         with np.errstate(all="ignore"):
-            return [0.0 for _ in rows(at, 1.0, 1.0)]
+            return [least for _ in rows(at, 1.0, 1.0, 1.0)]
     # The tangent points away from the axis on the way in and out; at a cusp they are one.
     ways = (1.0,) if retraces(engagement) else (1.0, -1.0)
     common = given.inertia_Nm * abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
@@ -211,7 +248,8 @@ def _at_mid_motion(
         drives = math.copysign(1.0, needed)
         slides = math.copysign(1.0, float(sliding(here, drives, given.radius).c[0][0]))
         with np.errstate(all="ignore"):
-            asked = rows(here, drives, slides)
+            pays = float(np.ravel(gain(given, here, drives, slides).c[0])[0]) * drives
+            asked = rows(here, drives, slides, math.copysign(1.0, pays))
         values = []
         for i, row in enumerate(asked):
             room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])
@@ -219,7 +257,7 @@ def _at_mid_motion(
             if room > ZERO and math.isfinite(value):
                 values.append(value)
             elif loaded:
-                values.append(math.inf)
+                values.append(math.copysign(math.inf, row.way))
             else:
                 values.append(max(_towards_mid_motion(engagement, p, rows, i) for p in beside))
         out = [max(pair) for pair in zip(out, values, strict=True)] if out else values
@@ -230,7 +268,7 @@ def _towards_mid_motion(engagement: Engagement, piece: Stretch, rows: Rows, row:
     """The limit of 0/0 there, from the stretch beside it."""
     x = piece.end if piece.end < 0.0 else piece.start
     h = math.radians(x)
-    c = rows(contact(engagement, x, 2), piece.drives, piece.slides)[row].value.c
+    c = rows(contact(engagement, x, 2), *piece[2:])[row].value.c
     return float(c[0] - h * (c[1] - h * c[2]))
 
 

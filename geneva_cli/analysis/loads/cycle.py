@@ -1,0 +1,155 @@
+"""The whole cycle under load: its states at any input angle, its extremes, and its integrals.
+
+A period of the machine, from the first entry: every engagement, and the dwells between. In a dwell
+nothing moves: the lock holds the wheel, what resists motion does not resist rest, and all is 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import contact
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
+from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
+from geneva_cli.analysis.loads.peaks import Stretch, maxima, whole
+from geneva_cli.analysis.motion import local_deg, spans
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.jet import Coefficient
+from geneva_cli.numerics.quadrature import integrals
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.loads.contact import Contact
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.scan import Whole
+
+Integrand: TypeAlias = Callable[[Instant], Coefficient]  # of values, at many angles
+Quantity: TypeAlias = Callable[[Instant], Row]  # of jets
+
+
+class Extremes(NamedTuple):
+    """Greatest and least value over the motions, infinite where nothing bounds it, and where.
+
+    Input angles are the machine's, as they are shown.
+    """
+
+    max: float
+    max_at_deg: float
+    min: float
+    min_at_deg: float
+
+
+class Cycle:
+    """A machine under its load, over one period.
+
+    ``given`` is what the loads depend on besides the motion. All answers are exact to some units
+    in the last place of a quantity's peak: none is taken from samples.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self.given: Setting = setting(mechanism)
+
+    @property
+    def is_loaded(self) -> bool:
+        """Whether anything is known that the wheel moves against."""
+        return bool(self.given.inertia_Nm or self.given.resists_Nm)
+
+    @property
+    def period(self) -> float:
+        """Input angle of the period, radians."""
+        return self.mechanism.period_deg * DEGREE
+
+    def states(self, input_deg: Array) -> Instant:
+        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
+
+        Infinite where nothing bounds a force: where friction alone holds the wheel, and at
+        mid-motion of a slot across the way.
+        """
+        out: list[Array | None] = [np.zeros(len(input_deg)) for _ in Instant._fields]
+        for span in spans(self.mechanism, input_deg):
+            local = local_deg(span, input_deg)
+            if not len(local):
+                continue
+            for i, value in enumerate(self.moving(span.engagement, local)):
+                total = out[i]
+                if value is None or total is None:
+                    out[i] = None
+                else:
+                    total[span.moves] = value
+        return Instant(*out)
+
+    def moving(self, engagement: Engagement, input_deg: Array) -> Instant:
+        """Arrays at input angles of an engagement, from its own mid-motion."""
+        given, at = self.given, contact(engagement, input_deg)
+        torque = at.acceleration.c[0] * given.inertia_Nm + given.resists_Nm
+        drives = np.copysign(1.0, torque)
+        slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
+        pays = np.copysign(1.0, drives * gain(given, at, drives, slides).c[0])
+        with np.errstate(all="ignore"):
+            return bounded(instant(given, at, drives, slides, pays))
+
+    def extremes(self, *quantities: Quantity) -> list[Extremes]:
+        """Greatest and least value of each quantity over all motions; dwells left out."""
+        best = [[-math.inf, 0.0, -math.inf, 0.0] for _ in quantities]
+        for engagement in self.mechanism.engagements:
+            found = maxima(engagement, self.given, self._both_ways(quantities), -math.inf)
+            for i, pair in enumerate(zip(found[::2], found[1::2], strict=True)):
+                for side, one in enumerate(pair):
+                    if one.max > best[i][2 * side]:
+                        at_deg = self.mechanism.shown_deg(engagement.mid_deg + one.at_deg)
+                        best[i][2 * side : 2 * side + 2] = one.max, at_deg
+        return [Extremes(a, at, -b, bt) for a, at, b, bt in best]
+
+    def _both_ways(
+        self, quantities: Sequence[Quantity]
+    ) -> Callable[[Contact, Coefficient, Coefficient, Coefficient], list[Row]]:
+        """Rows whose maxima are the greatest value of each quantity, and minus its least."""
+
+        def rows(
+            at: Contact, drives: Coefficient, slides: Coefficient, pays: Coefficient
+        ) -> list[Row]:
+            found = instant(self.given, at, drives, slides, pays)
+            out = []
+            for quantity in quantities:
+                row = quantity(found)
+                out += [row, Row(-row.value, row.room, -row.way)]
+            return out
+
+        return rows
+
+    def integrals(self, *of: Integrand) -> list[float]:
+        """The integral of each function over a period by the input angle in radians.
+
+        Of a torque it is a work in joules; divided by ``period``, a mean over the cycle. Infinite
+        where the function is too near to a place without a bound.
+        """
+        total = [0.0] * len(of)
+        for engagement in self.mechanism.engagements:
+            pieces = whole(engagement, self.given)
+            signs = np.array([piece[2:] for piece in pieces]).T
+
+            def rows(
+                x: Array, span: Whole, engagement: Engagement = engagement, signs: Array = signs
+            ) -> list[Coefficient]:
+                here = values(instant(self.given, contact(engagement, x), *signs[:, span]))
+                return [f(here) for f in of]
+
+            found = integrals(rows, [(p.start, p.end) for p in pieces])
+            total = [a + b * DEGREE for a, b in zip(total, found, strict=True)]
+        return total
+
+    @cached_property
+    def stretches(self) -> list[tuple[Engagement, Stretch]]:
+        """The motions cut where torque, sliding or the input's torque change sign, or break."""
+        return [
+            (engagement, stretch)
+            for engagement in self.mechanism.engagements
+            for stretch in whole(engagement, self.given)
+        ]

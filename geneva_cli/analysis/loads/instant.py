@@ -1,0 +1,112 @@
+"""What happens at an input angle while the wheel moves, with signs and in units.
+
+From the forces of ``forces``: everything that a table of the cycle shows and its summary sums up.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import Contact
+from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding
+from geneva_cli.numerics.jet import Coefficient, Jet
+
+
+class Instant(NamedTuple):
+    """Each a jet by the input angle in radians, or the jets' values: numbers or arrays.
+
+    The wheel turns in the positive direction while it indexes, and a torque on it is positive
+    where it drives the wheel on. A pin force is positive on the wall that drives the wheel, and
+    negative on the one that holds it back. A speed of sliding is positive outwards, from the
+    wheel's axis. The input's torque and power are positive where the input drives, and negative
+    where the wheel drives it.
+    """
+
+    omega_rad_s: Coefficient
+    alpha_rad_s2: Coefficient
+    wheel_torque_Nm: Coefficient  # I alpha + what resists
+    pin_force_N: Coefficient
+    stress_squared: Coefficient | None  # of the contact, MPa²; None without a face width
+    sliding_m_s: Coefficient  # of the roller, fixed to its pin, along the wall
+    input_torque_Nm: Coefficient
+    power_W: Coefficient  # input torque times input speed
+    friction_W: Coefficient  # that the contact turns to heat
+    wheel_bearing_N: Coefficient  # size of the force on the wheel, and so of its shaft's reaction
+    drives: Coefficient  # sign of the wheel's torque
+    slides: Coefficient  # sign of the sliding
+    grip: Coefficient  # where it is not above 0, friction alone holds the wheel: forces are endless
+    held: Coefficient | None  # the same for what friction alone makes endless; None without
+    edge: Coefficient | None  # the same for the stress alone: the wall is sharper than the roller
+
+    @property
+    def stress(self) -> Row:
+        """The square of the contact stress, likewise."""
+        assert self.stress_squared is not None  # there is a face width
+        return Row(self.stress_squared, self.edge)
+
+    @property
+    def pin_force(self) -> Row:
+        """The pin force as a quantity that may have no bound, for ``Cycle.extremes``."""
+        return Row(self.pin_force_N, self.grip, self.drives)
+
+    def shaft(self, quantity: Coefficient) -> Row:
+        """Something that goes with the input's torque, which friction may leave without a bound."""
+        return Row(quantity, self.held)
+
+
+def instant(
+    given: Setting, at: Contact, drives: Coefficient, slides: Coefficient, pays: Coefficient
+) -> Instant:
+    """What happens where wheel torque, sliding and input torque have these signs."""
+    found = forces(given, at, drives, slides)
+    w = given.speed_rad_s
+    rubs = sliding(at, drives, given.radius) * (given.L * w)
+    # The efficiency counts where the input drives; what the wheel gives back is not lessened by
+    # losses that are not known to be there: a brake must hold all of it.
+    shaft = found.shaft * (0.5 * (1.0 + pays) / given.efficiency + 0.5 * (1.0 - pays))
+    rub = given.friction * at.touches.c[0]
+    return Instant(
+        at.velocity * w,
+        at.acceleration * (w * w),
+        found.torque,
+        found.force * drives,
+        found.square,
+        rubs * at.touches,
+        shaft,
+        shaft * w,
+        found.force * rubs * (rub * slides),
+        found.force * (1.0 + rub * rub) ** 0.5,
+        drives,
+        slides,
+        found.grip,
+        found.grip if given.friction else None,
+        found.edge,
+    )
+
+
+def value(quantity: Coefficient) -> Coefficient:
+    """The value of a jet, or what is a value already."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def values(found: Instant) -> Instant:
+    """The values of an instant's jets."""
+    return Instant(*map(value, found))
+
+
+def bounded(found: Instant) -> Instant:
+    """Values with infinity where nothing bounds a force, and 0 where none is needed there."""
+    here = values(found)
+    held = here.grip > 0.0
+    bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
+    out = here._asdict()
+    out["pin_force_N"] = np.where(held, here.pin_force_N, bound * here.drives)
+    out["wheel_bearing_N"] = np.where(held, here.wheel_bearing_N, bound)
+    if here.held is not None:
+        for name in ("input_torque_Nm", "power_W", "friction_W"):
+            out[name] = np.where(held, out[name], bound)
+    if here.edge is not None and here.stress_squared is not None:
+        out["stress_squared"] = np.where(held & (here.edge > 0.0), here.stress_squared, bound)
+    return Instant(**out)

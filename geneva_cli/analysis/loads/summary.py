@@ -1,0 +1,178 @@
+"""The loads as they are printed: the cycle row by row, and its summary."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
+from geneva_cli.analysis.loads.forces import Row
+from geneva_cli.analysis.loads.instant import Instant
+from geneva_cli.analysis.loads.life import life
+from geneva_cli.analysis.loads.sizing import sizing
+from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
+from geneva_cli.numerics.jet import Coefficient
+from geneva_cli.table import Table, pieces, record_table
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+PLACES = ("time_s", "input_deg", "wheel_deg")
+# The quantities, in the order of their columns, and what each is at an instant.
+NEEDS_WIDTH = "contact_stress_MPa"
+NOUGHT = 1e-30  # a mean whose square is so small a share of the mean square is rounding
+MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # what is known without a load
+QUANTITIES: dict[str, Quantity] = {
+    "omega_rad_s": lambda i: Row(i.omega_rad_s),
+    "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
+    "wheel_torque_Nm": lambda i: Row(i.wheel_torque_Nm),
+    "pin_force_N": lambda i: i.pin_force,
+    NEEDS_WIDTH: lambda i: i.stress,
+    "sliding_m_s": lambda i: Row(i.sliding_m_s),
+    "input_torque_Nm": lambda i: i.shaft(i.input_torque_Nm),
+    "power_W": lambda i: i.shaft(i.power_W),
+    "wheel_bearing_N": lambda i: Row(i.wheel_bearing_N, i.grip),
+}
+
+
+class Summary(NamedTuple):
+    """Greatest and least over the motions, mean and root of the mean square over a period.
+
+    None where nothing bounds the value, or what it needs is not known.
+    """
+
+    max: float | None = None
+    max_at_deg: float | None = None
+    min: float | None = None
+    min_at_deg: float | None = None
+    mean: float | None = None
+    rms: float | None = None
+
+
+def _squared(values: Coefficient, name: str) -> Coefficient:
+    return values if name == NEEDS_WIDTH else values * values
+
+
+def known(cycle: Cycle) -> list[str]:
+    """The quantities of which there is a value."""
+    wide = cycle.given.hertz is not None
+    return [
+        name
+        for name in QUANTITIES
+        if name in MOVES or (cycle.is_loaded and (wide or name != NEEDS_WIDTH))
+    ]
+
+
+def summaries(cycle: Cycle) -> dict[str, Summary]:
+    """The summary of each quantity, by its name."""
+    names = known(cycle)
+    found = cycle.extremes(*[QUANTITIES[name] for name in names])
+
+    def mean(name: str) -> Any:
+        return lambda i: _plain(i, name)
+
+    def square(name: str) -> Any:
+        return lambda i: _squared(QUANTITIES[name](i).value, name)
+
+    sums = cycle.integrals(*map(mean, names), *map(square, names))
+    means = [total / cycle.period for total in sums]
+    every = zip(names, found, means, means[len(names) :], strict=False)
+    out = {name: _summary(name, ends, one, two) for name, ends, one, two in every}
+    return {name: out.get(name, Summary()) for name in QUANTITIES}
+
+
+def _plain(i: Instant, name: str) -> Coefficient:
+    value: Coefficient = QUANTITIES[name](i).value
+    return np.sqrt(abs(value)) if name == NEEDS_WIDTH else value
+
+
+def _summary(name: str, ends: Extremes, mean: float, square: float) -> Summary:
+    most, least = ends.max, ends.min
+    if name == NEEDS_WIDTH:
+        most, least = (math.sqrt(max(x, 0.0)) for x in (most, least))
+    endless = math.isinf(most) or math.isinf(least)
+    return Summary(
+        None if math.isinf(most) else most,
+        ends.max_at_deg,
+        None if math.isinf(least) else least,
+        ends.min_at_deg,
+        None if endless or math.isinf(mean) else mean if mean * mean > NOUGHT * square else 0.0,
+        None if endless or math.isinf(square) else math.sqrt(square),
+    )
+
+
+def reversals_deg(cycle: Cycle) -> list[float]:
+    """Input angles at which the wheel's torque changes sign: the roller changes walls."""
+    out = []
+    for (one, before), (two, after) in zip(cycle.stretches, cycle.stretches[1:], strict=False):
+        if one is two and before.drives != after.drives:
+            out.append(cycle.mechanism.shown_deg(one.mid_deg + before.end))
+    return out
+
+
+def loads_table(cycle: Cycle, warnings: Sequence[str]) -> Table:
+    """The summary, with what must be bought and how long it lasts, and what else is to be said."""
+    spec = cycle.mechanism.spec
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    for name, one in summaries(cycle).items():
+        values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
+    values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
+    needed: list[str] = []
+    for group, answer in (("sizing", sizing), ("life", life)):
+        found, needs = answer(cycle)
+        values |= {f"{group}.{key}": value for key, value in found.items()}
+        needed += needs
+    values["warnings"] = (*warnings, *needed)
+    return record_table(values)
+
+
+def missing(cycle: Cycle) -> list[str]:
+    """What keys would give the quantities that are None."""
+    if not cycle.is_loaded:
+        return [
+            "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in "
+            "[load], or a [[mass]]"
+        ]
+    if cycle.given.hertz is None:
+        return [f"{NEEDS_WIDTH}: needs face_width_mm in [size]"]
+    return []
+
+
+def cycle_table(cycle: Cycle, samples: int) -> Table:
+    """``samples`` rows, evenly in the input angle over one period from the first entry.
+
+    A value without a bound, or not known, is None.
+    """
+    check_samples(samples)
+    names = (*PLACES, *QUANTITIES)
+
+    def rows(begin: int, end: int) -> list[Any]:
+        return _rows(cycle, samples, begin, end)
+
+    if samples > HELD:
+        return Table(names, pieces(samples, len(names), rows))
+    return Table(names, rows(0, samples))
+
+
+def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
+    input_deg = inputs(cycle.mechanism, samples, begin, end)
+    states = cycle.states(input_deg)
+    names = known(cycle)
+    columns: list[Any] = [
+        times_s(cycle.mechanism, input_deg),
+        input_deg,
+        np.degrees(derivatives(cycle.mechanism, input_deg, (0,))[0]),
+    ]
+    for name in QUANTITIES:
+        columns.append(_cells(_plain(states, name)) if name in names else [None] * len(input_deg))
+    return columns
+
+
+def _cells(values: Array) -> Any:
+    """A column of a table: None where there is no bound."""
+    if np.isfinite(values).all():
+        return values
+    return [x if math.isfinite(x) else None for x in values.tolist()]

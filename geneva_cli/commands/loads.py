@@ -1,0 +1,43 @@
+"""``geneva loads``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, warn
+
+ROWS = 361
+
+
+def run(
+    spec: SpecPath,
+    samples: Annotated[
+        int | None,
+        typer.Option(metavar="N", help=f"The cycle in so many rows (csv: {ROWS}) instead."),
+    ] = None,
+    given: Given = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """What the motion costs: torque, forces, stress, power and bearings over a cycle.
+
+    A summary of each: greatest and least over the motions with their input angles, mean and root
+    of the mean square over the whole period, dwells included. As csv, or with --samples, the cycle
+    row by row, evenly in the input angle from the first entry; json is always the summary.
+
+    The pin force is positive on the wall that drives the wheel, negative on the one that holds it
+    back; the input's torque and power are negative where the wheel drives the input. In a dwell
+    the lock holds the wheel and all is 0.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import format_of, show
+
+    design = load(spec, given or ())
+    name = format or format_of(output)
+    by_rows = name == "csv" or (samples is not None and name != "json")
+    table = design.load_cycle(samples or ROWS) if by_rows else design.loads_table
+    show(table, output, format, design.spec.files)
+    warn(design)
+    say(design.spec.path, design.load_warnings)
