@@ -1,16 +1,29 @@
-"""Extrema of a smooth function on an interval: scan, bracket, refine to the last bit."""
+"""Roots, extrema and boundaries in one variable: scan, bracket, refine to the last bit.
+
+``roots_many`` has the same for the functions of many designs.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
+from geneva_cli.numerics.arrays import all_true, choose
 from geneva_cli.numerics.budget import ask
+
+if TYPE_CHECKING:
+    from decimal import Decimal
 
 # x -> value, first derivative, second derivative
 Curve: TypeAlias = Callable[[float], tuple[float, float, float]]
 _Sample: TypeAlias = tuple[float, float, float]
 
+Real = TypeVar("Real", float, "Decimal")
+
+STEPS = 200  # towards a root, at most; halving comes to the last of 50 digits in 170
+GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+FLAT = 1e-8
 SCAN = 16  # intervals of the first scan
 DEEPEST = 50  # halvings of one of them: a feature 2**-50 of the interval wide is still seen
 PREDICTED = 1e-2  # share of the range by which a cubic may miss the middle of its interval
@@ -30,7 +43,7 @@ def root(
     """
     f_a = slope(a)[0] if before is None else before
     x, step = 0.5 * (a + b), b - a
-    for _ in range(200):
+    for _ in range(STEPS):
         f, d = slope(x)
         if f == 0.0:
             return x
@@ -46,6 +59,72 @@ def root(
             return new
         x = new
     return x
+
+
+def boundary(holds: Callable[[Real], Any], good: Real, bad: Real) -> Real:
+    """The last number from ``good`` towards ``bad`` for which something holds, by halving.
+
+    ``good`` and ``bad`` are floats, arrays of designs, or Decimals of a context that is set.
+
+    >>> boundary(lambda x: x * x <= 2.0, 1.0, 2.0)
+    1.414213562373095
+    """
+    for _ in range(STEPS):
+        middle = (good + bad) / 2
+        if all_true((middle == good) | (middle == bad) | (middle != middle)):
+            break
+        yes = holds(middle)
+        good, bad = choose(yes, middle, good), choose(yes, bad, middle)
+    return good
+
+
+class Falsi:
+    """Regula falsi with Illinois' halving, between a place that keeps a limit and one that breaks
+    it. ``left`` >= 0 is what is left of the limit at ``good``, and ``short`` < 0 at ``bad``.
+
+    The caller asks for the next place, and tells what is left there. Where one of the two is
+    without bound, the bracket is halved.
+    """
+
+    def __init__(self, good: float, left: float, bad: float, short: float) -> None:
+        self.good, self.left, self.bad, self.short = good, left, bad, short
+        self._held = 0  # how often one end has moved and the other stayed
+
+    def middle(self, margin: float = 0.0) -> float:
+        """The next place, no nearer to either end than a share of the bracket."""
+        known = math.isfinite(self.left) and math.isfinite(self.short)
+        share = self.left / (self.left - self.short) if known else 0.5
+        return self.good + (self.bad - self.good) * min(max(share, margin), 1.0 - margin)
+
+    def told(self, x: float, left: float) -> None:
+        """What is left of the limit at a place between."""
+        if left >= 0.0:
+            self.good, self.left, self._held = x, left, max(self._held, 0) + 1
+            self.short *= 0.5 if self._held > 1 else 1.0
+        else:
+            self.bad, self.short, self._held = x, left, min(self._held, 0) - 1
+            self.left *= 0.5 if self._held < -1 else 1.0
+
+
+def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
+    """Place and value of the one minimum of a function without slopes in [a, b]: golden section.
+
+    To a share of 1e-8 of the interval: a minimum is flat, and its value then exact to the last
+    digits.
+    """
+    width = b - a
+    left, right = b - GOLDEN * (b - a), a + GOLDEN * (b - a)
+    at_left, at_right = f(left), f(right)
+    while b - a > FLAT * width:
+        if at_left < at_right:
+            b, right, at_right = right, left, at_left
+            left = b - GOLDEN * (b - a)
+            at_left = f(left)
+        else:
+            a, left, at_left = left, right, at_right
+            right = a + GOLDEN * (b - a)
+            at_right = f(right)
+    return (left, at_left) if at_left < at_right else (right, at_right)
 
 
 def extrema(f: Curve, a: float, b: float) -> list[float]:

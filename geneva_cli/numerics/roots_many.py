@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.budget import ask
-from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN, TIE
+from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN, STEPS, TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -29,7 +29,6 @@ BLOCK = 512  # designs scanned at a time: 17 places of each are 70 kB a number o
 GROUP = 16 * BLOCK  # designs refined together
 CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a Newton step, the last bit
 ROUNDING = 1e-13  # share of a value that no sampling makes any surer
-STEPS = 200
 _UNIT = np.arange(SCAN + 1) / SCAN
 
 

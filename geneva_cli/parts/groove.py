@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
 from geneva_cli.machine.slot_and_motion import SolvedPath
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
 LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
-HALVINGS = 50
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
@@ -115,12 +115,14 @@ def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     i = int(np.argmax(np.abs(slope) / R))
     low, high = grid[max(i - 1, 0)], grid[min(i + 1, LOOKS)]
     sense = math.copysign(1.0, slope[i])
-    for _ in range(HALVINGS):  # beside a corner of the groove the greatest is at it
-        middle = 0.5 * (low + high)
-        here = _distances(groove, np.array([middle]))
-        r, dr, ddr = (float(c[0]) for c in here)
-        low, high = (middle, high) if sense * (r * ddr - dr * dr) > 0.0 else (low, middle)
-    return math.degrees(math.atan(abs(dr) / r)), float(middle)
+
+    def rises(x: float) -> bool:
+        r, dr, ddr = _distances(groove, np.array([x]))
+        return bool(sense * (r * ddr - dr * dr)[0] > 0.0)
+
+    at_deg = boundary(rises, float(low), float(high))  # a corner of the groove, or a smooth top
+    r, dr, _ = _distances(groove, np.array([at_deg]))
+    return math.degrees(math.atan(abs(dr[0]) / r[0])), at_deg
 
 
 def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:

@@ -10,6 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED, Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -139,10 +140,8 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
             a, b = float(grid[i]), float(grid[i + 1])
             if a < 0.0 < b:
                 continue
-            for _ in range(50):
-                x = 0.5 * (a + b)
-                a, b = (x, b) if excess(x, side) * sign[i] > 0.0 else (a, x)
-            found.append(0.5 * (a + b))
+            runs = sign[i]  # as the flank does before it stops
+            found.append(boundary(lambda x: bool(excess(x, side) * runs > 0.0), a, b))  # noqa: B023
     return sorted(found)
 
 

@@ -15,6 +15,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.budget import OutOfTime, until
+from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.checks import checks, each, one
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.remedies import Value, Way, value_now, ways
@@ -162,30 +163,22 @@ class Adviser:
     ) -> float:
         """The value nearest to one that fails, as nearly as there is time for.
 
-        By regula falsi (Illinois) in what is left of the limit, and by halving where that is
-        without bound, as of a value that makes no machine.
+        Where what is left of the limit is without bound, as of a value that makes no machine, the
+        search halves.
         """
-        (x, left), (y, short) = good, bad
-        start, enough = y, NEARLY * abs(short) if math.isfinite(short) else 0.0
-        held = 0
+        start, short = bad
+        found, enough = Falsi(*good, *bad), NEARLY * abs(short) if math.isfinite(short) else 0.0
         for _ in range(LOOKS):
-            if left <= enough or abs(x - y) <= NEARLY * abs(x - start):
+            x = found.good
+            if found.left <= enough or abs(x - found.bad) <= NEARLY * abs(x - start):
                 break
             # Time stays to try what is found, and of gaps, should it not hold, what is known.
             spare = (2.0 if failing.name in GAPS else 1.0) * self._whole(way)
             if time.process_time() + self.longest + spare > self.deadline:
                 break
-            known = math.isfinite(left) and math.isfinite(short)
-            share = left / (left - short) if known else 0.5
-            middle = x + (y - x) * min(max(share, 0.02), 0.98)
-            found = self._left(way, middle, failing)
-            if found >= 0.0:
-                x, left, held = middle, found, max(held, 0) + 1
-                short *= 0.5 if held > 1 else 1.0
-            else:
-                y, short, held = middle, found, min(held, 0) - 1
-                left *= 0.5 if held < -1 else 1.0
-        return float(x)
+            middle = found.middle(0.02)
+            found.told(middle, self._left(way, middle, failing))
+        return float(found.good)
 
     def _whole(self, way: Way) -> float:
         """Seconds that a trial of all checks takes."""

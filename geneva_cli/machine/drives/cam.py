@@ -18,6 +18,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, choose, larger
+from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -75,12 +76,8 @@ def _half_way(law: Law) -> float:
     even = law(0.5, 0).c[0] == 0.5
     if all_true(even):
         return 0.5
-    low, high = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
-    for _ in range(60):
-        u = 0.5 * (low + high)
-        before = law(u, 0).c[0] < 0.5
-        low, high = choose(before, u, low), choose(before, high, u)
-    half: float = 0.5 * (low + high)
+    first, last = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
+    half: float = boundary(lambda u: law(u, 0).c[0] < 0.5, first, last)
     return half
 
 

@@ -21,8 +21,9 @@ from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, ascending, choose, larger, library, smaller
+from geneva_cli.numerics.arrays import ascending, larger, library, smaller
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
@@ -89,14 +90,7 @@ class GearSector(PinPath):
                     ("drive", "sector_deg"),
                 ),
             )
-        low, high = ends
-        for _ in range(200):
-            b: float = 0.5 * (low + high)
-            below = excess(b) < 0.0
-            if all_true((b == low) | (b == high) | (b != b)):
-                break
-            low, high = choose(below, b, low), choose(below, high, b)
-        return b
+        return boundary(lambda b: excess(b) >= 0.0, *reversed(ends))
 
     def _handover(self, b: float) -> tuple[float, float, float]:
         """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""

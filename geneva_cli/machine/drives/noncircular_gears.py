@@ -23,6 +23,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.spline import ZERO, Doubt, Exact, Pieces, doubt, periodic, shifted
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
@@ -154,11 +155,9 @@ def _input(crank: Exact, wanted: Decimal) -> Decimal:
     turns = (wanted / TURN).to_integral_value(ROUND_FLOOR)
     wanted -= turns * TURN
     i = max(bisect_right([c[0] for c in crank.c], wanted) - 1, 0)
-    low, high = ZERO, crank.x[i + 1] - crank.x[i]
-    for _ in range(170):
-        t = (low + high) / 2
-        low, high = (t, high) if shifted(crank.c[i], t)[0] < wanted else (low, t)
-    return crank.x[i] + low + turns * TURN
+    whole = crank.x[i + 1] - crank.x[i]
+    since = boundary(lambda t: shifted(crank.c[i], t)[0] < wanted, ZERO, whole)
+    return crank.x[i] + since + turns * TURN
 
 
 def _since(crank: Exact, phi: Decimal) -> Exact:

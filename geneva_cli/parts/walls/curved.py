@@ -19,6 +19,7 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Segment, about, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.walls.joint import Place, joint, point, runs
@@ -133,14 +134,12 @@ class _Rim:
                     yield Place(wall, i, way), self.crossing(wall, wall.t[before], wall.t[i])
 
     def crossing(self, wall: Wall, outside: float, inside: float) -> float:
-        """The parameter at which a wall crosses the rim, by halving."""
-        for _ in range(60):
-            t = 0.5 * (outside + inside)
-            if self.depth(np.array(point(wall, t))) > 0.0:
-                inside = t
-            else:
-                outside = t
-        return inside
+        """The parameter at which a wall crosses the rim."""
+
+        def within(t: float) -> bool:
+            return bool(self.depth(np.array(point(wall, t))) > 0.0)
+
+        return boundary(within, float(inside), float(outside))
 
 
 def _run(rim: _Rim, place: Place) -> tuple[Place, float | None]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import Pitch, retraces
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes, rest
 from geneva_cli.parts.slot_profile import nodes, pitch_at
@@ -168,10 +169,7 @@ def _unfolded(
 
     while first < len(t) - 1 and out(float(t[order[first]])) <= 0.0:
         first += 1
-    a, b = float(t[order[first - 1]]), float(t[order[first]])
-    for _ in range(60):
-        middle = 0.5 * (a + b)
-        a, b = (a, middle) if out(middle) > 0.0 else (middle, b)
+    b = boundary(lambda x: bool(out(x) > 0.0), float(t[order[first]]), float(t[order[first - 1]]))
     kept = np.sort(t[order[first:]])
     return np.append(kept, b) if b < 0.0 else np.insert(kept, 0, b)
 

@@ -17,6 +17,7 @@ from typing import TypeAlias
 from geneva_cli.machine.wheels.classic import gap, half_motion_deg
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
+from geneva_cli.numerics.roots import Falsi, least
 from geneva_cli.study.synthesis.closed import MOST
 
 # parameter, sin f, cos f -> f1 and f2, the second derivative of f by the input angle
@@ -24,8 +25,6 @@ Ratio: TypeAlias = Callable[[float, float, float], tuple[float, float]]
 Peak: TypeAlias = Callable[[float], float]
 
 SCAN = 64  # intervals over half the motion
-SHARE = (math.sqrt(5.0) - 1.0) / 2.0
-NARROW = 1e-8  # of an interval: a maximum is flat, so its value is then exact to the last digits
 WALK = (*(0.05 * i for i in range(20)), 0.98, 0.99, 0.999, MOST)  # outwards from the plain crank
 CLOSE = 1e-13  # of the parameter
 
@@ -68,27 +67,10 @@ def peak_of(wheel: Gearing, ratio: Ratio) -> Peak:
         for i in range(1, SCAN):
             if values[i] >= values[i - 1] and values[i] >= values[i + 1]:
                 low, high = places[i - 1], places[i + 1]
-                best = max(best, -_least(lambda f: -size(x, f), low, high)[1])
+                best = max(best, -least(lambda f: -size(x, f), low, high)[1])
         return best
 
     return peak
-
-
-def _least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
-    """Place and value of the one minimum between a and b, by golden section."""
-    width = b - a
-    left, right = b - SHARE * (b - a), a + SHARE * (b - a)
-    at_left, at_right = f(left), f(right)
-    while b - a > NARROW * width:
-        if at_left < at_right:
-            b, right, at_right = right, left, at_left
-            left = b - SHARE * (b - a)
-            at_left = f(left)
-        else:
-            a, left, at_left = left, right, at_right
-            right = a + SHARE * (b - a)
-            at_right = f(right)
-    return (left, at_left) if at_left < at_right else (right, at_right)
 
 
 def least_parameter(peak: Peak, limit: float) -> tuple[float | None, float]:
@@ -99,8 +81,8 @@ def least_parameter(peak: Peak, limit: float) -> tuple[float | None, float]:
     """
     found, lowest = None, math.inf
     for side in (1.0, -1.0):
-        x, least = _walk(lambda t, side=side: peak(side * t), limit)  # type: ignore[misc]
-        lowest = min(lowest, least)
+        x, low = _walk(lambda t, side=side: peak(side * t), limit)  # type: ignore[misc]
+        lowest = min(lowest, low)
         if x is not None and (found is None or x < abs(found)):
             found = side * x
     return found, lowest
@@ -114,26 +96,17 @@ def _walk(peak: Peak, limit: float) -> tuple[float | None, float]:
             return _crossing(peak, limit, WALK[i - 1], WALK[i]), values[i]
         if values[i] > values[i - 1]:
             back = max(i - 2, 0)
-            x, least = _least(peak, WALK[back], WALK[i])
-            return (_crossing(peak, limit, WALK[back], x) if least <= limit else None), least
+            x, low = least(peak, WALK[back], WALK[i])
+            return (_crossing(peak, limit, WALK[back], x) if low <= limit else None), low
     return None, values[-1]
 
 
 def _crossing(peak: Peak, limit: float, above: float, below: float) -> float:
-    """Where the peak comes down to the limit, from below: regula falsi, with Illinois' halving."""
-    f_a, f_b = peak(above) - limit, peak(below) - limit
-    kept = 0
-    while abs(below - above) > CLOSE and f_b < 0.0:
-        x = below - f_b * (below - above) / (f_b - f_a)
-        if not min(above, below) < x < max(above, below):
+    """Where the peak comes down to the limit, from below."""
+    found = Falsi(below, limit - peak(below), above, limit - peak(above))
+    while abs(found.bad - found.good) > CLOSE and found.left > 0.0:
+        x = found.middle()
+        if x in (found.good, found.bad):
             break
-        f = peak(x) - limit
-        if f <= 0.0:
-            below, f_b = x, f
-            f_a = 0.5 * f_a if kept == 1 else f_a
-            kept = 1
-        else:
-            above, f_a = x, f
-            f_b = 0.5 * f_b if kept == -1 else f_b
-            kept = -1
-    return below
+        found.told(x, limit - peak(x))
+    return found.good

@@ -9,6 +9,7 @@ only a whole turn of the parts can tell is left to ``geneva check``.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -126,15 +127,10 @@ def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[floa
 
     What stands in the way of a roller does so of a larger one too.
     """
-    why = obstacle(radii[-1])
-    if not why:
+    if not obstacle(radii[-1]):
         return radii[-1], ""
-    low, high = -1, len(radii) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        said = obstacle(radii[middle])
-        low, high, why = (low, middle, said) if said else (middle, high, why)
-    return (radii[low], "") if low >= 0 else (None, why)
+    count = bisect_left(radii, True, key=lambda r: bool(obstacle(r)))  # that nothing stops
+    return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
 def _obstacle(where: Plane, r: float, between: float) -> str:

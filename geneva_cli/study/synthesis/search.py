@@ -183,12 +183,7 @@ def _lasting(wish: Wish, wheel: Gearing) -> Iterator[Spec]:
         if motion(m) == natural:
             yield _plain(wish, wheel, m)
         elif m == 1:
-            A = closed.side_crank(natural, motion(m))
-            if A is not None:
-                yield _side_crank(wish, wheel, A)
-            gears = closed.elliptical_gears(natural, motion(m))
-            if gears is not None:
-                yield _gears(wish, wheel, *gears)
+            yield from _driven(wish, wheel, natural, motion(1))
     if not wheel.FLAT:
         yield from _inclined(wish, wheel)
         return
@@ -199,6 +194,16 @@ def _lasting(wish: Wish, wheel: Gearing) -> Iterator[Spec]:
 
         yield from map(curved, _rollers(wish, natural))
         yield from _more_rollers(wish, natural, curved)
+
+
+def _driven(wish: Wish, wheel: Gearing, natural: float, motion: float) -> Iterator[Spec]:
+    """The drives in front of the crank that make a motion angle."""
+    A = closed.side_crank(natural, motion)
+    if A is not None:
+        yield _side_crank(wish, wheel, A)
+    gears = closed.elliptical_gears(natural, motion)
+    if gears is not None:
+        yield _gears(wish, wheel, *gears)
 
 
 def _fits(motion: float, natural: float) -> bool:
@@ -234,27 +239,44 @@ def _below(
         return
     limit = wish.acceleration_max * (1.0 - MARGIN)
     if 1 in every:
-        for ratio, make in ((limits.side_crank, _side_crank), (limits.elliptical_gears, _eased)):
-            x, least = limits.least_parameter(limits.peak_of(wheel, ratio), limit)
-            reached.append(least)
-            if x is not None:
-                yield make(wish, wheel, x)
+        yield from _driven_below(wish, wheel, limit, reached)
     for law in wish.laws:
-        step = 2.0 * math.pi / wheel.z
-        motion = closed.law_motion_deg(step, costs[law].acceleration, limit)
-        inside, fast = wheel.SIGN < 0.0, costs[law].velocity * step
-        if inside and fast >= 0.5 * math.radians(motion) and motion < natural:
-            motion = natural  # the limit's own motion is too quick for any R/L inside
+        yield from _curved_below(wish, wheel, limit, costs[law], law, reached)
 
-        def curved(m: int, motion: float = motion, law: str = law) -> Spec:
-            return _curved(wish, wheel, m, natural, motion, law)
 
-        for m in every:
-            whole = 2.0 * math.pi / m
-            if not inside or fast < 0.5 * whole:
-                reached.append(costs[law].acceleration * step / whole**2)
-            yield curved(m)
-        yield from _more_rollers(wish, natural, curved)
+def _driven_below(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
+    """The drives in front of the crank that bring a peak acceleration down, if they do."""
+    for ratio, make in ((limits.side_crank, _side_crank), (limits.elliptical_gears, _eased)):
+        x, least = limits.least_parameter(limits.peak_of(wheel, ratio), limit)
+        reached.append(least)
+        if x is not None:
+            yield make(wish, wheel, x)
+
+
+def _curved_below(
+    wish: Wish,
+    wheel: Gearing,
+    limit: float,
+    cost: Characteristic,
+    law: str,
+    reached: list[float],
+) -> Iterator[Spec]:
+    """Curved slots over a motion so long that the law's peak acceleration is the limit."""
+    natural, step = _natural(wheel), 2.0 * math.pi / wheel.z
+    motion = closed.law_motion_deg(step, cost.acceleration, limit)
+    inside, fast = wheel.SIGN < 0.0, cost.velocity * step
+    if inside and fast >= 0.5 * math.radians(motion) and motion < natural:
+        motion = natural  # the limit's own motion is too quick for any R/L inside
+
+    def curved(m: int) -> Spec:
+        return _curved(wish, wheel, m, natural, motion, law)
+
+    for m in _rollers(wish, natural):
+        whole = 2.0 * math.pi / m
+        if not inside or fast < 0.5 * whole:
+            reached.append(cost.acceleration * step / whole**2)
+        yield curved(m)
+    yield from _more_rollers(wish, natural, curved)
 
 
 def _plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
