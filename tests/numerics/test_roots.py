@@ -1,11 +1,13 @@
 """Roots to the last bit, and no stationary point stepped over."""
 
 import math
+from decimal import Context, Decimal, localcontext
 
+import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import extrema, root
+from geneva_cli.numerics.roots import Falsi, boundary, extrema, least, root
 
 
 def calls(f):
@@ -118,3 +120,43 @@ def test_stationary_points_on_scan_points_are_found_once():
 def test_monotone_and_constant():
     assert extrema(lambda x: (x, 1.0, 0.0), 0.0, 1.0) == []
     assert extrema(lambda x: (math.exp(x), math.exp(x), math.exp(x)), -3.0, 3.0) == []
+
+
+def test_boundary():
+    """To the last number that holds, of whatever kind: neighbours, and the same of arrays."""
+    x = boundary(lambda x: x * x <= 2.0, 1.0, 2.0)
+    assert x * x <= 2.0 < math.nextafter(x, 2.0) ** 2
+    x = boundary(lambda x: x * x > 2.0, 2.0, 1.0)
+    assert math.nextafter(x, 1.0) ** 2 <= 2.0 < x * x
+    assert boundary(lambda x: True, 1.0, 2.0) == math.nextafter(2.0, 1.0)
+    assert boundary(lambda x: False, 1.0, 2.0) == 1.0
+    limits = np.array([[2.0], [3.0], [math.nan]])
+    many = boundary(lambda x: x * x <= limits, np.ones((3, 1)), limits)
+    assert many[:2, 0].tolist() == [
+        boundary(lambda x: x * x <= 2.0, 1.0, 2.0),
+        boundary(lambda x: x * x <= 3.0, 1.0, 3.0),
+    ]
+    with localcontext(Context(prec=50)):
+        root = boundary(lambda x: x * x <= 2, Decimal(1), Decimal(2))
+        assert 0 <= Decimal(2).sqrt() - root < Decimal("1e-48")
+
+
+def test_least():
+    at, low = least(lambda x: (x - 0.3) ** 2 + 1.0, -2.0, 5.0)
+    assert at == pytest.approx(0.3, abs=7e-8)  # a hundred-millionth of the interval
+    assert low == 1.0
+
+
+@pytest.mark.parametrize("short", [-1.0, -math.inf])
+def test_falsi(short):
+    """Where what is left is known, some steps; where it is without bound, by halving."""
+    found = Falsi(1.0, 1.0, 2.0, short)
+    steps = 0
+    while (x := found.middle()) not in (found.good, found.bad):
+        steps += 1
+        left = 2.0 - x * x
+        found.told(x, left if left >= 0.0 or math.isfinite(short) else -math.inf)
+    assert found.good == near(math.sqrt(2.0), 2.3e-16)
+    assert found.good**2 <= 2.0
+    assert steps < (12 if math.isfinite(short) else 60)
+    assert Falsi(1.0, 1e-300, 2.0, -1.0).middle(0.02) == 1.02

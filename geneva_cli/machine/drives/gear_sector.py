@@ -73,24 +73,23 @@ class GearSector(PinPath):
             u, _, turn = self._handover(b)
             return b - turn + 0.5 * u * D - wanted
 
-        if isinstance(self.gear_ratio, str):
-            ends = (1e-9, wanted)  # the step grows with b
-        else:
-            # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
-            # turns the wheel.
-            u = self.gear_ratio
-            ends = (math.pi / 2.0 - 1e-6, library(u).asin(u / (1.0 + u)))
-            least, most = (2.0 * (D / 2.0 - excess(b) / u) for b in reversed(ends))
-            refuse(
-                (least > D) | (most < D),
-                lambda: GenevaError(
-                    f"sector_deg = {self.sector_deg:g}: a slot that comes up to {u:g} times the "
-                    f"crank's speed leaves no such step of {360.0 / z:.6g} deg; it must be at "
-                    f"least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
-                    ("drive", "sector_deg"),
-                ),
-            )
-        return boundary(lambda b: excess(b) >= 0.0, *reversed(ends))
+        if isinstance(self.gear_ratio, str):  # the step grows with b
+            return boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
+        # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
+        # turns the wheel.
+        u = self.gear_ratio
+        ends = (math.pi / 2.0 - 1e-6, library(u).asin(u / (1.0 + u)))
+        least, most = (2.0 * (D / 2.0 - excess(b) / u) for b in reversed(ends))
+        refuse(
+            (least > D) | (most < D),
+            lambda: GenevaError(
+                f"sector_deg = {self.sector_deg:g}: a slot that comes up to {u:g} times the "
+                f"crank's speed leaves no such step of {360.0 / z:.6g} deg; it must be at "
+                f"least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
+                ("drive", "sector_deg"),
+            ),
+        )
+        return boundary(lambda b: excess(b) < 0.0, *ends)
 
     def _handover(self, b: float) -> tuple[float, float, float]:
         """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""
