@@ -1,10 +1,11 @@
-"""The characteristic values of the motion laws: C_v, C_a, C_j and C_p."""
+"""The characteristic values of the motion laws: C_v, C_a, C_j and C_p, and a cam form's factors."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
+from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
@@ -13,7 +14,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Table, rows_table
 
-NAMES = ("law", "C_v", "C_a", "C_j", "C_p", "about")
+NAMES = ("law", "C_v", "C_a", "C_j", "C_p", *CamFactors._fields, "about")
 
 
 class Characteristic(NamedTuple):
@@ -23,6 +24,11 @@ class Characteristic(NamedTuple):
     acceleration: float
     jerk: float
     power: float
+
+    @property
+    def factors(self) -> CamFactors:
+        """Am, Vm and Qm: a law's own step and time are 1."""
+        return CamFactors(self.acceleration, self.velocity, self.power / self.acceleration)
 
 
 def characteristic(law: Law) -> Characteristic:
@@ -42,8 +48,9 @@ def laws_table(shape: float) -> Table:
         kind = registry.law(name)
         keys = fields(kind)
         if any(key.default is REQUIRED for key in keys):  # a user's own, which has no values yet
-            rows.append((name, None, None, None, None, kind.ABOUT))
+            rows.append((name, *[None] * (len(NAMES) - 2), kind.ABOUT))
             continue
         given = {key.attribute: shape for key in keys if key.key == "lambda"}
-        rows.append((name, *characteristic(kind(**given)), kind.ABOUT))
+        found = characteristic(kind(**given))
+        rows.append((name, *found, *found.factors, kind.ABOUT))
     return rows_table(NAMES, rows)

@@ -30,10 +30,10 @@ class LawMotion(Motion):
     def breaks_deg(self) -> tuple[float, ...]:
         """Entry, the law's own breaks and its middle, the crossing of the centres, and exit."""
         whole = self.exit_deg - self.entry_deg
-        places = (0.5, *self.law.BREAKS)
+        places = (0.5, *self.law.breaks)
         inner = [0.0, *[self.entry_deg + u * whole for u in places]]
         if self.symmetric:
-            inner = [0.0, *[(u - 0.5) * whole for u in self.law.BREAKS]]
+            inner = [0.0, *[(u - 0.5) * whole for u in self.law.breaks]]
         return (self.entry_deg, *ascending(inner), self.exit_deg)
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:

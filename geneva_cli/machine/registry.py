@@ -37,10 +37,12 @@ LAWS = {
     "modified-sine": "laws.standard:ModifiedSine",
     "3-4-5": "laws.standard:Polynomial345",
     "4-5-6-7": "laws.standard:Polynomial4567",
+    "mcv50": "laws.standard:ModifiedConstantVelocity",
     "sine-group": "laws.standard:SineGroup",
+    "scca": "laws.scca:SineConstantCosine",
     "table": "laws.table:TableLaw",
 }
-# those that are laws without more being said: not a user's own
+# those that are laws without more being said: no user's own
 STANDARD_LAWS = tuple(name for name, path in LAWS.items() if path.startswith("laws.standard:"))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.timing import Timing, timing
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.wheels import classic
@@ -20,6 +21,7 @@ NAMES = (
     "acceleration_entry",
     "jerk_entry",
     "rollers_max",
+    *CamFactors._fields,
 )
 SIGNS = {"external": 1.0, "internal": -1.0}  # the wheels with closed forms
 ROWS_MAX = 10_000
@@ -70,23 +72,26 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
     acceleration, at_deg = (
         (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
     )
+    velocity, index = classic.velocity_peak(l, gap), 360.0 / z
+    power = classic.power_peak(l, gap)[0]
     return (
         z,
         gearing,
         rollers,
-        *timing(motion, 360.0 / rollers - motion, 360.0 / z, n_rpm),
-        classic.velocity_peak(l, gap),
+        *timing(motion, 360.0 / rollers - motion, index, n_rpm),
+        velocity,
         acceleration,
         at_deg,
         entry,
         3.0 * entry * entry,
         classic.rollers_max(motion),
+        *cam_factors(velocity, acceleration, power, motion, index),
     )
 
 
 def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
     """A row by the machinery of motions."""
-    from geneva_cli.analysis.peaks import acceleration_peak, ends, velocity_peak
+    from geneva_cli.analysis.peaks import acceleration_peak, ends, peak, velocity_peak
     from geneva_cli.analysis.timing import timings
     from geneva_cli.machine import registry
     from geneva_cli.machine.drives.crank import Crank
@@ -98,18 +103,21 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     mechanism = build(Spec(registry.gearing(gearing)(z), drive))
     engagement = mechanism.engagements[0]
     acceleration = acceleration_peak(engagement)
-    jumps = ends(engagement)
+    velocity = velocity_peak(engagement).max
+    jumps, times = ends(engagement), timings(mechanism)[0]
+    power = peak(engagement.motion, "power").max
     return (
         z,
         gearing,
         rollers,
-        *timings(mechanism)[0],
-        velocity_peak(engagement).max,
+        *times,
+        velocity,
         acceleration.max,
         abs(acceleration.at_deg),
         jumps.acceleration_entry,
         jumps.jerk_entry,
         mechanism.rollers_max,
+        *cam_factors(velocity, acceleration.max, power, times.motion_deg, times.index_deg),
     )
 
 

@@ -41,6 +41,11 @@ def cautions(mechanism: Mechanism) -> list[str]:
             f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
             "both ends"
         )
+    if abs(law.first(0.5, 2).c[2] + law.second(0.5, 2).c[2]) > 1e-9:
+        out.append(
+            f'the law "{law.NAME}" goes from speeding up to slowing down in a jump: a soft shock '
+            "at mid-motion"
+        )
     if engagement.slot.curved:
         out.extend(_loose(mechanism))
     out.extend(_undercut(mechanism))

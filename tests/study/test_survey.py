@@ -1,17 +1,22 @@
 """The table of wheels: closed forms against the general machinery, and the names it prints."""
 
+import math
+
 import pytest
 from witness import Geneva, near, to_degrees
 
 from geneva_cli.analysis.peaks import ends, peak
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.wheels import classic
+from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.survey import NAMES, parse_z, survey
 
 # As the interface fixes them; scripts depend on the order.
 FIELDS = """
     z gearing rollers motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s
     velocity_max acceleration_max acceleration_max_deg acceleration_entry jerk_entry rollers_max
+    Am Vm Qm
 """
 Z = range(3, 61)
 SAME = 4e-15  # relative: two ways to one number, each within eight units in the last place
@@ -56,6 +61,7 @@ def test_rows_against_50_digits(gearing, A):
         got, w = row(str(z), gearing, 60.0, 1, A), Geneva(z, gearing, A)
         velocity, _ = w.peak("velocity")
         acceleration, at_deg = w.peak("acceleration")
+        power, motion, step = w.peak("power")[0], 2 * w.half_motion, 2 * w.b
         entry = w.at(-w.half_motion)
         exact = {
             "motion_deg": 2 * to_degrees(w.half_motion),
@@ -65,6 +71,9 @@ def test_rows_against_50_digits(gearing, A):
             "acceleration_max": acceleration,
             "acceleration_entry": abs(entry[2]),
             "jerk_entry": abs(entry[3]),
+            "Am": acceleration * motion**2 / step,
+            "Vm": velocity * motion / step,
+            "Qm": power * motion / (step * acceleration),
         }
         for name, value in exact.items():
             # with A the jerk at entry is a difference of two terms: 1e-14 of either
@@ -72,6 +81,38 @@ def test_rows_against_50_digits(gearing, A):
             assert got[name] == near(float(value), bar), (z, name)
         assert got["acceleration_max_deg"] == pytest.approx(-float(at_deg), abs=1e-8)
         assert got["k"] == near(float(exact["motion_deg"] / exact["dwell_deg"]), SAME)
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+def test_the_peak_of_power_in_closed_form(machine, gearing):
+    sign = {"external": 1.0, "internal": -1.0}[gearing]
+    for z in Z:
+        got = classic.power_peak(sin_cos_pi(1, z)[0], classic.gap(sign, 1, z))
+        found = peak(machine(z, gearing).engagements[0].motion, "power")
+        assert got[0] == near(found.max, SAME), z
+        assert got[1] == pytest.approx(-found.at_deg, abs=1e-7), z  # a root where power is flat
+
+
+def test_factors_as_index_drive_makers_would_print_them():
+    """theory-loads.md 2: external wheels as cam curves."""
+    shown = {
+        4: (8.493265948123835, 2.414213562373095, 1.8522842694596023),
+        6: (5.65335, 2.00000, 1.46755),
+        8: (4.94629, 1.85974, 1.31319),
+    }
+    for z, factors in shown.items():
+        got = row(str(z), "external", 60.0, 1, 0.0)
+        for name, value in zip(("Am", "Vm", "Qm"), factors, strict=True):
+            digits = SAME if z == 4 else 5e-6 / value  # to the decimals printed
+            assert got[name] == near(value, digits), (z, name)
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+def test_a_wheel_of_very_many_slots_is_a_harmonic_curve(gearing):
+    got, pi = row("1000000", gearing, 60.0, 1, 0.0), math.pi
+    limits = (("Am", pi * pi / 2), ("Vm", pi / 2), ("Qm", pi / 4))
+    for name, value in limits:
+        assert got[name] == near(value, 1e-5), name  # l = 3e-6 is left of it
 
 
 def test_side_crank_of_nearly_0_is_the_classic_row():

@@ -26,12 +26,15 @@ class Law(Table):
     TABLE: ClassVar[str] = "motion"
     NAME: ClassVar[str]
     ABOUT: ClassVar[str]
-    # where a derivative up to the fourth jumps, inside 0..1
-    BREAKS: ClassVar[tuple[float, ...]] = ()
     # why a law may turn the wheel back
     TURNS_BACK: ClassVar[str] = "the law's points must not fall"
     # analytic between the breaks; a spline is not
     ANALYTIC: ClassVar[bool] = True
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where a derivative up to the fourth jumps, inside 0..1, in order."""
+        return ()
 
     @property
     def symmetric(self) -> bool:

@@ -1,4 +1,4 @@
-"""The common set of motion laws of VDI 2143, and the sine group of Krasniqi."""
+"""The common set of motion laws of VDI 2143, MCV50, and the sine group of Krasniqi."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.machine.laws.law import Law, from_velocity
+from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sin_cos
+from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
 from geneva_cli.spec.rules import Range
 
 
@@ -76,43 +77,15 @@ class ModifiedTrapezoid(Law):
 
     NAME: ClassVar[str] = "modified-trapezoid"
     ABOUT: ClassVar[str] = "constant acceleration joined by sines; the lowest peak without a jump"
-    BREAKS: ClassVar[tuple[float, ...]] = (0.125, 0.375, 0.625, 0.875)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """At eighths, where sines and constants meet."""
+        return breaks(0.25, 0.25, 0.0)
 
     def first(self, u: Coefficient, order: int) -> Jet:
         """Quarter sine to u = 1/8, constant acceleration to 3/8, quarter sine to the middle."""
-        peak = 8.0 * math.pi / (2.0 + math.pi)
-        rate = 4.0 * math.pi
-        v_1 = peak / rate  # velocity at u = 1/8
-        s_1 = v_1 * (0.125 - 1.0 / rate)
-        v_2 = v_1 + peak / 4.0  # at u = 3/8
-        s_2 = s_1 + v_1 / 4.0 + peak / 32.0
-
-        def start(u: Coefficient) -> Coefficient:
-            return v_1 * (u - library(u).sin(rate * u) / rate)
-
-        def start_velocity(u: Jet) -> Jet:
-            s = _sine(u * (rate / 2.0))
-            return s * s * (2.0 * v_1)
-
-        def flat(u: Coefficient) -> Coefficient:
-            t = u - 0.125
-            return s_1 + t * (v_1 + t * peak / 2.0)
-
-        def middle(u: Coefficient) -> Coefficient:
-            t = u - 0.375
-            return s_2 + v_2 * t + v_1 / rate * 2.0 * library(u).sin(rate / 2.0 * t) ** 2
-
-        return piecewise(
-            u,
-            (0.125, 0.375),
-            (
-                lambda x: from_velocity(x, order, start, start_velocity),
-                lambda x: from_velocity(x, order, flat, lambda u: (u - 0.125) * peak + v_1),
-                lambda x: from_velocity(
-                    x, order, middle, lambda u: _sine((u - 0.375) * rate) * v_1 + v_2
-                ),
-            ),
-        )
+        return first_half(u, order, 0.25, 0.25)
 
 
 @dataclass(frozen=True)
@@ -127,35 +100,32 @@ class ModifiedSine(Law):
 
     NAME: ClassVar[str] = "modified-sine"
     ABOUT: ClassVar[str] = "sines of two periods; a low peak of velocity and of torque"
-    BREAKS: ClassVar[tuple[float, ...]] = (0.125, 0.875)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the sines meet."""
+        return breaks(0.25, 0.75, 0.0)
 
     def first(self, u: Coefficient, order: int) -> Jet:
         """The quick sine to u = 1/8, the slow one to the middle."""
-        scale = 1.0 / (4.0 + math.pi)
+        return first_half(u, order, 0.25, 0.75)
 
-        def start(u: Coefficient) -> Coefficient:
-            return (math.pi * u - library(u).sin(4.0 * math.pi * u) / 4.0) * scale
 
-        def start_velocity(u: Jet) -> Jet:
-            s = _sine(u * (2.0 * math.pi))
-            return s * s * (2.0 * math.pi * scale)
+@dataclass(frozen=True)
+class ModifiedConstantVelocity(Law):
+    """MCV50: the modified sine's acceleration in half the time, constant velocity between."""
 
-        def middle(u: Coefficient) -> Coefficient:
-            phase = math.pi / 3.0 * (1.0 + 4.0 * u)
-            return (2.0 + math.pi * u - 2.25 * library(u).sin(phase)) * scale
+    NAME: ClassVar[str] = "mcv50"
+    ABOUT: ClassVar[str] = "modified sine, at constant velocity for half the time between"
 
-        def middle_velocity(u: Jet) -> Jet:
-            phase = (u * 4.0 + 1.0) * (math.pi / 3.0)
-            return (1.0 - sin_cos(phase)[1] * 3.0) * (math.pi * scale)
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the sines meet, and both ends of the constant velocity."""
+        return breaks(0.25, 0.75, 0.5)
 
-        return piecewise(
-            u,
-            (0.125,),
-            (
-                lambda x: from_velocity(x, order, start, start_velocity),
-                lambda x: from_velocity(x, order, middle, middle_velocity),
-            ),
-        )
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The quick sine to u = 1/16, the slow one to 1/4, constant velocity to the middle."""
+        return first_half(u, order, 0.25, 0.75, 0.5)
 
 
 @dataclass(frozen=True)

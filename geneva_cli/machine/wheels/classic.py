@@ -10,6 +10,9 @@ from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import library
 
 
+STEPS = 8  # of Newton, from any l of three slots or more to the last digit
+
+
 def half_motion_deg(sign: float, p: int, q: int) -> float:
     """Crank angle from entry to the line of centres: 90° - b outside, 90° + b inside."""
     return 90.0 * (q - 2 * int(sign) * p) / q
@@ -64,4 +67,25 @@ def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
     s = 2.0 * gap * gap / (big + m.sqrt(big * big - 8.0 * l * gap * gap))
     d = gap * gap + 2.0 * l * s
     size = l * gap * (1.0 + l) * m.sqrt(s * (2.0 - s)) / (d * d)
+    return size, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s)))
+
+
+def power_peak(l: float, gap: float) -> tuple[float, float]:
+    """Peak of velocity times acceleration and its angle from mid-motion, degrees.
+
+    With k = 1 - gap (l outside, -l inside) its slope vanishes where c = cos a is the root of
+    2 k c³ + 2 (1 - k²) c² - k (5 + k²) c + 5 k² - 1 between entry (c = k), where that is
+    -(1 - k²)², and mid-motion (c = 1), where it is (1 - k)³. Between the root and the tangent of
+    its course at k = 0, c = sqrt(1/2) + k, the cubic rises and is convex: Newton's steps go down.
+    """
+    k = 1.0 - gap
+    square, slope, rest = 2.0 * (1.0 - k * k), k * (5.0 + k * k), 5.0 * k * k - 1.0
+    c = math.sqrt(0.5) + k
+    for _ in range(STEPS):
+        value = ((2.0 * k * c + square) * c - slope) * c + rest
+        c = c - value / ((6.0 * k * c + 2.0 * square) * c - slope)
+    m = library(l, gap)
+    s = 1.0 - c  # the peak is flat: a rounding of c counts by its square
+    d = gap * gap + 2.0 * k * s
+    size = l * l * gap * (1.0 + k) * (gap - s) * m.sqrt(s * (2.0 - s)) / d**3
     return size, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s)))

@@ -1,0 +1,36 @@
+"""What a form that asks for a cam curve needs of a motion: the factors Am, Vm and Qm."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+
+class CamFactors(NamedTuple):
+    """Peaks of a motion that is scaled to a step of 1 in a time of 1.
+
+    Am of acceleration, Vm of velocity, and Qm, by which Am times the greatest inertia torque makes
+    the greatest torque on the input: that of velocity times acceleration, over Am.
+    """
+
+    Am: float
+    Vm: float
+    Qm: float
+
+
+def cam_factors(
+    velocity: float, acceleration: float, power: float, motion_deg: float, step_deg: float
+) -> CamFactors:
+    """The factors from a motion's invariant peaks, its input angle and the wheel's step.
+
+    An external Geneva of four slots, whose motion angle and step are both a right angle:
+
+    >>> cam_factors(2.414213562373095, 5.406981034551926, 10.015265915566939, 90.0, 90.0).Am
+    8.4932659...
+    """
+    motion, step = math.radians(motion_deg), math.radians(step_deg)
+    return CamFactors(
+        acceleration * motion * motion / step,
+        velocity * motion / step,
+        power * motion / (step * acceleration),
+    )

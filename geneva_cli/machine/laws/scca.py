@@ -1,0 +1,63 @@
+"""The law ``scca``: sine, constant, cosine, in shares of the time that the user gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.laws.law import Law
+from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
+from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.spec.rules import Range
+
+LEAST = 1e-3  # the least share: of a shorter rise the jerk is a jump in all but name
+ROUNDED = 2e-6  # by which b + c + d may miss 1: thirds are written with six digits
+
+
+@dataclass(frozen=True)
+class SineConstantCosine(Law):
+    """SCCA(b, c, d): harmonic (0, 0, 1), cycloidal (1/2, 0, 1/2), modified sine (1/4, 0, 3/4),
+    modified trapezoid (1/4, 1/2, 1/4), constant acceleration (0, 1, 0) and what lies between.
+
+    >>> SineConstantCosine(b=0.25, c=0.5, d=0.25)(0.125, 2).derivatives()[2]  # 8 pi / (2 + pi)
+    4.88812...
+    """
+
+    NAME: ClassVar[str] = "scca"
+    ABOUT: ClassVar[str] = "your own: shares b of sine, c of constant, d of cosine acceleration"
+    b: Annotated[float, Range(0.0, 1.0), "scca: share of the sine, in which acceleration rises"]
+    c: Annotated[float, Range(0.0, 1.0), "scca: share of constant acceleration; b + c + d = 1"]
+    d: Annotated[float, Range(0.0, 1.0), "scca: share of the cosine, in which acceleration falls"]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        whole = self.b + self.c + self.d
+        if abs(whole - 1.0) > ROUNDED:
+            raise GenevaError(
+                f"b + c + d = {whole:.9g} must be 1: shares of the time, such as b = 0.25, "
+                "c = 0.5, d = 0.25 of a modified trapezoid",
+                (self.TABLE, "d"),
+            )
+        for key, share in self.as_dict().items():
+            if 0.0 < share < LEAST:
+                raise GenevaError(
+                    f"{key} = {share:g} must be 0, for none, or at least {LEAST:g}",
+                    (self.TABLE, key),
+                )
+
+    @property
+    def _shares(self) -> tuple[float, float]:
+        """The shares b and d of exactly the whole; without c, b is what d leaves to the bit."""
+        whole = self.b + self.c + self.d
+        d = self.d / whole
+        return (self.b / whole if self.c else 1.0 - d), d
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the pieces meet."""
+        return breaks(*self._shares, 0.0)
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The half in which the wheel gains speed."""
+        return first_half(u, order, *self._shares)
