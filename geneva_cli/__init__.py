@@ -25,8 +25,12 @@ if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs n
     from geneva_cli.machine.drives.noncircular_gears import NoncircularGears as NoncircularGears
     from geneva_cli.machine.drives.side_crank import SideCrank as SideCrank
     from geneva_cli.machine.drives.slider_crank import SliderCrank as SliderCrank
+    from geneva_cli.machine.laws.scca import SineConstantCosine as SineConstantCosine
     from geneva_cli.machine.laws.standard import Cycloidal as Cycloidal
     from geneva_cli.machine.laws.standard import Harmonic as Harmonic
+    from geneva_cli.machine.laws.standard import (
+        ModifiedConstantVelocity as ModifiedConstantVelocity,
+    )
     from geneva_cli.machine.laws.standard import ModifiedSine as ModifiedSine
     from geneva_cli.machine.laws.standard import ModifiedTrapezoid as ModifiedTrapezoid
     from geneva_cli.machine.laws.standard import Polynomial345 as Polynomial345

@@ -113,7 +113,13 @@ class ModifiedSine(Law):
 
 @dataclass(frozen=True)
 class ModifiedConstantVelocity(Law):
-    """MCV50: the modified sine's acceleration in half the time, constant velocity between."""
+    """MCV50: the modified sine's acceleration in half the time, constant velocity between.
+
+    The lowest top speed of the laws here, and the greatest jerk.
+
+    >>> [round(c, 5) for c in ModifiedConstantVelocity()(0.5, 2).derivatives()]
+    [0.5, 1.27526, 0.0]
+    """
 
     NAME: ClassVar[str] = "mcv50"
     ABOUT: ClassVar[str] = "modified sine, at constant velocity for half the time between"
