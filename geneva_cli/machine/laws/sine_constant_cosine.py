@@ -98,4 +98,6 @@ def first_half(u: Coefficient, order: int, b: float, d: float, v: float = 0.0) -
 
     lasting = ((sine, start), (constant, flat), (cosine, end), (0.5 * v, middle))
     pieces = [(until, piece) for until, (t, piece) in zip((*ends, 0.5), lasting, strict=True) if t]
+    if len(pieces) == 1:
+        return pieces[0][1](u)
     return piecewise(u, [until for until, _ in pieces[:-1]], [piece for _, piece in pieces])

@@ -9,7 +9,6 @@ from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import library
 
-
 STEPS = 8  # of Newton, from any l of three slots or more to the last digit
 
 
@@ -80,7 +79,7 @@ def power_peak(l: float, gap: float) -> tuple[float, float]:
     """
     k = 1.0 - gap
     square, slope, rest = 2.0 * (1.0 - k * k), k * (5.0 + k * k), 5.0 * k * k - 1.0
-    c = math.sqrt(0.5) + k
+    c = 0.5**0.5 + k
     for _ in range(STEPS):
         value = ((2.0 * k * c + square) * c - slope) * c + rest
         c = c - value / ((6.0 * k * c + 2.0 * square) * c - slope)
