@@ -58,10 +58,13 @@ class Greatest(NamedTuple):
     x: Array
 
 
-def roots_many(slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array) -> Array:
+def roots_many(
+    slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array, close: float = 0.0
+) -> Array:
     """Where each function changes sign in [a, b], as ``roots.root``: shape (n,), to the last bit.
 
     ``slope(x, which)`` gives value and derivative of the functions ``which`` at x, both (m,).
+    After a Newton step of ``close`` times the bracket a root is taken as found.
 
     >>> A = np.array([2.0, 9.0])
     >>> roots_many(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
@@ -70,7 +73,7 @@ def roots_many(slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b
     with np.errstate(all="ignore"):
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0
-        return _newton(slope, a, b, 0.5 * (a + b), rising, 0.0)[0]
+        return _newton(slope, a, b, 0.5 * (a + b), rising, close)[0]
 
 
 def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:

@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
-from geneva_cli.analysis.loads.peaks import Stretch, maxima, whole
+from geneva_cli.analysis.loads.peaks import Stretch, cusps, maxima, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 
 Integrand: TypeAlias = Callable[[Instant], Coefficient]  # of values, at many angles
 Quantity: TypeAlias = Callable[[Instant], Row]  # of jets
+
+# Of a cubic's integral over the step before them: Adams and Bashforth, for the way to a cusp.
+_AHEAD, _SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
 
 
 class Extremes(NamedTuple):
@@ -132,7 +135,7 @@ class Cycle:
         """
         total = [0.0] * len(of)
         for engagement in self.mechanism.engagements:
-            pieces = whole(engagement, self.given)
+            pieces = stretches(engagement, self.given)
             signs = np.array([piece[2:] for piece in pieces]).T
 
             def rows(
@@ -142,6 +145,10 @@ class Cycle:
                 return [f(here) for f in of]
 
             found = integrals(rows, [(p.start, p.end) for p in pieces])
+            for number, near in cusps(engagement, pieces):
+                beside = rows(near * _AHEAD, np.full(len(_AHEAD), number))
+                gap = [abs(near) * float(np.dot(_SHARES, row)) for row in beside]
+                found = [a + b for a, b in zip(found, gap, strict=True)]
             total = [a + b * DEGREE for a, b in zip(total, found, strict=True)]
         return total
 

@@ -8,7 +8,7 @@ these places each is scanned until nothing is stepped over, and its maxima are r
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -22,6 +22,7 @@ from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.numerics.roots import root
+from geneva_cli.numerics.roots_many import roots_many
 from geneva_cli.numerics.scan import Scan, hopeful, scan
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.scan import Mask, Whole
 
 ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
+STEP = 1e-9  # share of a bracket: after so short a Newton step, what is left is rounding
 TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier is meant
 
 
@@ -69,6 +71,13 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
         cut = _cut_at_zeros(engagement, cut, torque, "drives")
     cut = _cut_at_zeros(engagement, cut, rubs, "slides")
     return tuple(_cut_at_zeros(engagement, cut, shaft, "pays"))
+
+
+def cusps(engagement: Engagement, pieces: Sequence[Stretch]) -> list[tuple[int, float]]:
+    """The stretches that keep away from a cusp at mid-motion, and where they end beside it."""
+    before, after = NEAR * engagement.entry_deg, NEAR * engagement.exit_deg
+    ends = [(i, end) for i, piece in enumerate(pieces) for end in piece[:2]]
+    return [(i, end) for i, end in ends if end in (before, after)]
 
 
 def whole(engagement: Engagement, given: Setting) -> list[Stretch]:
@@ -123,18 +132,20 @@ def _cut_at_zeros(
         return _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
-    changes = found.changes(0)
+    after = found.changes(0)
+    after = after[_inner(found)[after]]
+    number = found.span[after]
+
+    def zero(way: Array, which: Whole) -> tuple[Array, Array]:
+        x, span = found.x[after[which]] + way, number[which]
+        value, slope = _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
+        return value[0], slope[0]
+
+    cuts = _zeros(zero, found, after)
     out = []
-    for number, piece in enumerate(pieces):
-        places = [piece.start]
-        for i in changes[found.span[changes] == number]:
-
-            def here(x: float, piece: Stretch = piece) -> Jet:
-                return of(contact(engagement, x, 1), piece.drives, piece.slides)
-
-            places.append(_zero(here, float(found.x[i]), float(found.x[i + 1])))
-        places.append(piece.end)
-        for a, b in zip(places, places[1:], strict=False):
+    for i, piece in enumerate(pieces):
+        places = [piece.start, *cuts[number == i].tolist(), piece.end]
+        for a, b in pairwise(places):
             if a < b:
                 at = contact(engagement, 0.5 * (a + b))
                 middle = of(at, piece.drives, piece.slides).c[0]
@@ -143,14 +154,26 @@ def _cut_at_zeros(
     return out
 
 
-def _zero(of: Callable[[float], Jet], low: float, high: float) -> float:
-    """Where a jet is zero, to a last place of the bracket: near 0 doubles are finer than angles."""
+def _inner(found: Scan) -> Mask:
+    """Of each sample whether what is found after it is not the stretch's end itself.
 
-    def line(way: float) -> tuple[float, float]:
-        c = of(low + way).c
-        return c[0], c[1] * DEGREE
+    Samples crowd towards both ends: between the last two a zero or a top is the end's own.
+    """
+    same = found.joined
+    inner: Mask = np.concatenate((same, [False]))
+    inner[1:] &= same
+    inner[:-2] &= same[1:]
+    inner[0] = inner[-2] = False
+    return inner
 
-    return low + root(line, 0.0, high - low)
+
+def _zeros(of: Callable[[Array, Whole], tuple[Array, Array]], found: Scan, after: Whole) -> Array:
+    """Zeros between samples and the next, to a last place of the bracket: near 0 doubles are finer
+    than angles, so ``of`` takes the way from the first sample on.
+    """
+    width = found.x[after + 1] - found.x[after]
+    ways: Array = found.x[after] + roots_many(of, 0.0 * width, width, STEP)
+    return ways
 
 
 def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
@@ -180,46 +203,65 @@ def maxima(
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
     ends = _at_mid_motion(engagement, given, pieces, rows, least)
+    tops = _tops(engagement, found, rows, signs)
     out = []
     for i in range(len(found.value)):
 
         def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row:
             return rows(contact(engagement, x, order), *piece[2:])[i]
 
-        out.append(_greatest(found, i, pieces, at, ends, engagement, least))
+        lost = np.isnan(found.value[i])
+        if lost.any():
+            out.append(Greatest(math.inf, _brink(found, lost, pieces, at)))
+        else:
+            places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
+            out.append(_greatest(places, engagement, least))
     return out
 
 
-def _greatest(
-    found: Scan,
-    row: int,
-    pieces: tuple[Stretch, ...],
-    at: Callable[[Coefficient, Stretch, int], Row],
-    middle: list[float],
-    engagement: Engagement,
-    least: float,
-) -> Greatest:
-    value = found.value[row]
-    lost = np.isnan(value)
-    if lost.any():
-        return Greatest(math.inf, _brink(found, lost, pieces, at))
-    if middle[row] == math.inf:
-        return Greatest(math.inf, 0.0)
-    places = [(0.0, middle[row])]
+def _ends(found: Scan, row: int) -> list[tuple[float, float]]:
+    """The first and last sample of each stretch."""
     cuts = np.flatnonzero(~found.joined)
-    places += [(float(found.x[i]), float(value[i])) for i in (0, *cuts, *(cuts + 1), -1)]
-    for i in hopeful(found, row):
-        piece = pieces[found.span[i]]
+    return [(float(found.x[i]), float(found.value[row][i])) for i in (0, *cuts, *(cuts + 1), -1)]
 
-        def slope(x: float, piece: Stretch = piece) -> Jet:
-            return at(x, piece, 2).value.derivative()
 
-        x = _zero(slope, float(found.x[i]), float(found.x[i + 1]))
-        places.append((x, at(x, piece, 0).value.c[0]))
-    most = max(v for _, v in places)
+def _tops(
+    engagement: Engagement, found: Scan, rows: Rows, signs: Array
+) -> list[list[tuple[float, float]]]:
+    """Places and values of the maxima of each row, all of them at once."""
+    inner = _inner(found)
+    hopes = [(row, i) for row in range(len(found.value)) for i in hopeful(found, row) if inner[i]]
+    out: list[list[tuple[float, float]]] = [[] for _ in found.value]
+    if not hopes:
+        return out
+    row, after = (np.array(side) for side in zip(*hopes, strict=True))
+
+    def jets(x: Array, which: Whole, order: int) -> list[Coefficient]:
+        """Taylor coefficients, each of the row that is asked for."""
+        asked = rows(contact(engagement, x, order), *signs[:, found.span[after[which]]])
+        pick = row[which], np.arange(len(x))
+        every = [
+            [np.broadcast_to(one.value.c[k], x.shape) for one in asked] for k in range(order + 1)
+        ]
+        return [np.array(each)[pick] for each in every]
+
+    def slope(way: Array, which: Whole) -> tuple[Array, Array]:
+        c = jets(found.x[after[which]] + way, which, 2)
+        return c[1], 2.0 * c[2] * DEGREE
+
+    x = _zeros(slope, found, after)
+    for i, place, value in zip(row, x.tolist(), jets(x, np.arange(len(x)), 0)[0], strict=True):
+        out[i].append((place, float(value)))
+    return out
+
+
+def _greatest(places: list[tuple[float, float]], engagement: Engagement, least: float) -> Greatest:
+    most = max(value for _, value in places)
     if not most > least:
         return Greatest(least, engagement.entry_deg)
-    first = min(x for x, v in places if v >= most - TIE * abs(most))
+    if math.isinf(most):
+        return Greatest(most, 0.0)
+    first = min(x for x, value in places if value >= most - TIE * abs(most))
     return Greatest(most, _at_break(first, engagement))
 
 
@@ -299,3 +341,13 @@ def _brink(
 
     with np.errstate(all="ignore"):
         return _zero(room, float(found.x[i]), float(found.x[i + 1]))
+
+
+def _zero(of: Callable[[float], Jet], low: float, high: float) -> float:
+    """Where a jet is zero, to a last place of the bracket."""
+
+    def line(way: float) -> tuple[float, float]:
+        c = of(low + way).c
+        return c[0], c[1] * DEGREE
+
+    return low + root(line, 0.0, high - low)

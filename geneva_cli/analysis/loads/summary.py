@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
+from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Integrand, Quantity
 from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.life import life
@@ -71,17 +71,26 @@ def summaries(cycle: Cycle) -> dict[str, Summary]:
     names = known(cycle)
     found = cycle.extremes(*[QUANTITIES[name] for name in names])
 
-    def mean(name: str) -> Any:
+    # What has no bound has no mean either: nearly always, and never one to rely on.
+    summed = [name for name, ends in zip(names, found, strict=True) if _is_bounded(ends)]
+
+    def mean(name: str) -> Integrand:
         return lambda i: _plain(i, name)
 
-    def square(name: str) -> Any:
+    def square(name: str) -> Integrand:
         return lambda i: _squared(QUANTITIES[name](i).value, name)
 
-    sums = cycle.integrals(*map(mean, names), *map(square, names))
+    sums = cycle.integrals(*map(mean, summed), *map(square, summed))
     means = [total / cycle.period for total in sums]
-    every = zip(names, found, means, means[len(names) :], strict=False)
-    out = {name: _summary(name, ends, one, two) for name, ends, one, two in every}
+    pairs = dict(zip(summed, zip(means, means[len(summed) :], strict=False), strict=True))
+    out = {
+        name: _summary(name, ends, pairs.get(name)) for name, ends in zip(names, found, strict=True)
+    }
     return {name: out.get(name, Summary()) for name in QUANTITIES}
+
+
+def _is_bounded(ends: Extremes) -> bool:
+    return math.isfinite(ends.max) and math.isfinite(ends.min)
 
 
 def _plain(i: Instant, name: str) -> Coefficient:
@@ -89,18 +98,20 @@ def _plain(i: Instant, name: str) -> Coefficient:
     return np.sqrt(abs(value)) if name == NEEDS_WIDTH else value
 
 
-def _summary(name: str, ends: Extremes, mean: float, square: float) -> Summary:
+def _summary(name: str, ends: Extremes, sums: tuple[float, float] | None) -> Summary:
     most, least = ends.max, ends.min
     if name == NEEDS_WIDTH:
         most, least = (math.sqrt(max(x, 0.0)) for x in (most, least))
-    endless = math.isinf(most) or math.isinf(least)
+    mean, square = sums or (None, None)
+    if mean is not None and square is not None and mean * mean <= NOUGHT * square:
+        mean = 0.0
     return Summary(
         None if math.isinf(most) else most,
         ends.max_at_deg,
         None if math.isinf(least) else least,
         ends.min_at_deg,
-        None if endless or math.isinf(mean) else mean if mean * mean > NOUGHT * square else 0.0,
-        None if endless or math.isinf(square) else math.sqrt(square),
+        mean,
+        None if square is None else math.sqrt(square),
     )
 
 
