@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
     from geneva_cli.verdict.report import Report
+    from geneva_cli.verdict.strength import Strength
 
 T = TypeVar("T")
 CURVES = {"arcs": "arcs", "spline": "cubics"}  # what curved walls are written as
@@ -256,8 +257,26 @@ class Design:
         (10.34475855916..., 43.0339138141...)
         """
         from geneva_cli.analysis.loads.summary import loads_table
+        from geneva_cli.verdict.strength import LIFE
 
-        return loads_table(self.cycle, [*self.warnings, *self.load_warnings])
+        life = self.strength.life  # what it needs is known once it has been looked for
+        # without a load all need one, and that is said already
+        needed = self.strength.missing(LIFE[:7]) if self.cycle.is_loaded else []
+        said = (*self.warnings, *self.load_warnings, *needed)
+        return loads_table(self.cycle, life, said)
+
+    @answer
+    def strength(self) -> Strength:
+        """Stresses of pin, horn, lock and shaft, and the roller's life; None where not known.
+
+        >>> wide = Size(face_width_mm=20)
+        >>> held = Design(External(6), size=wide, load=Load(inertia_kgm2=0.4, torque_Nm=15))
+        >>> round(held.strength.pin_stress_MPa, 1)
+        528.8
+        """
+        from geneva_cli.verdict.strength import strength
+
+        return strength(self.mechanism)
 
     @answer
     def load_warnings(self) -> list[str]:

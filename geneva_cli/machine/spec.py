@@ -32,7 +32,21 @@ from geneva_cli.spec.tables import (
     WheelMaterial,
 )
 
-LOADED = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")  # limits on loads
+# Limits on loads, and keys without which some limit nothing: the key, its table, what it is.
+LOADED = (
+    "pin_force_max_N",
+    "input_torque_max_Nm",
+    "contact_stress_max_MPa",
+    "pv_max_W_m2",
+    "roller_life_min_h",
+)
+_LINE = ("face_width_mm", "size", "the length of the line of contact")
+NEEDED = {
+    "contact_stress_max_MPa": _LINE,
+    "pv_max_W_m2": _LINE,
+    "lock_stress_max_MPa": _LINE,
+    "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
+}
 
 
 @dataclass(frozen=True)
@@ -132,15 +146,12 @@ class Spec:
         object.__setattr__(self, "mass", tuple(self.mass))
         if not all(isinstance(one, Mass) for one in self.mass):
             raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
-        if self.limits.contact_stress_max_MPa is not None and self.size.face_width_mm is None:
-            raise GenevaError(
-                "contact_stress_max_MPa needs the length of the line of contact: set face_width_mm "
-                "in [size]",
-                ("limits", "contact_stress_max_MPa"),
-            )
-
+        limits = self.limits.as_dict()
+        for limit, (key, of, what) in NEEDED.items():
+            if limits[limit] is not None and self.table(of)[key] is None:
+                raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
         for key in LOADED:
-            if getattr(self.limits, key) is not None:
+            if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key))
 
     def but(self, **changes: Any) -> Self:

@@ -78,6 +78,15 @@ class Size(Table):
         float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
     ] = None
     pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; r"] = None
+    pin_held: Annotated[
+        str,
+        OneOf(("cantilever", "supported", "fixed")),
+        "pin fast in one plate, loose in two, or fast in two",
+    ] = "cantilever"
+    pin_gap_mm: Annotated[float, NOT_NEGATIVE, "from a pin's plate to the line of contact"] = 0.0
+    lock_edge_mm: Annotated[
+        float | None, POSITIVE, "radius to which the ends of the wheel's recesses are rounded"
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -92,6 +101,9 @@ class Load(Table):
 
     inertia_kgm2: Annotated[float, NOT_NEGATIVE, "of everything the wheel turns"] = 0.0
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists motion"] = 0.0
+    dwell_torque_Nm: Annotated[
+        float | None, NOT_NEGATIVE, "torque that the lock holds in the dwell; torque_Nm"
+    ] = None
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "eta of the wheel"] = 1.0
     friction: Annotated[float, NOT_NEGATIVE, "roller against slot, coefficient"] = 0.0
 
@@ -216,6 +228,12 @@ class Shaft(Table):
         float | None, NOT_NEGATIVE, "roller's mid-plane to the nearer bearing"
     ] = None
     crank_span_mm: Annotated[float | None, POSITIVE, "between its two bearings"] = None
+    shear_stress_max_MPa: Annotated[
+        float | None, POSITIVE, "allowable; ASME B17c: 0.3 yield or 0.18 tensile strength, the less"
+    ] = None
+    bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock and fatigue"] = 1.5
+    torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock and fatigue"] = 1.0
+    shear_modulus_GPa: Annotated[float, POSITIVE, "shear modulus G"] = 80.8
 
 
 @dataclass(frozen=True)
@@ -238,6 +256,10 @@ class WheelMaterial(Material):
 
     TABLE: ClassVar[str] = "material.wheel"
 
+    wear_mm3_Nm: Annotated[
+        float | None, POSITIVE, "Archard: volume worn per force and way, against the roller"
+    ] = None
+
 
 @dataclass(frozen=True)
 class RollerMaterial(Material):
@@ -248,6 +270,10 @@ class RollerMaterial(Material):
     """
 
     TABLE: ClassVar[str] = "material.roller"
+
+    dynamic_capacity_N: Annotated[
+        float | None, POSITIVE, "dynamic capacity C of the roller as a bearing (ISO 281)"
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -291,6 +317,9 @@ class Limits(Table):
     input_torque_max_Nm: Annotated[float | None, POSITIVE, "on the input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "of the slot"] = None
     contact_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, line contact"] = None
+    pv_max_W_m2: Annotated[float | None, POSITIVE, "contact stress times sliding speed"] = None
+    roller_life_min_h: Annotated[float | None, POSITIVE, "L10 of the roller"] = None
+    lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, locking disc on wheel"] = None
 
 
 # The tables that every spec may have, whatever its machine, in the order of a file; each is a field

@@ -29,7 +29,16 @@ LOOKS = 14  # between a value that fails and one that passes
 NEARLY = 0.02  # of the way to a value that passes: near enough to the nearest, for a round value
 
 # Keys that change no part: the parts need not be turned again.
-APART = (("drive", "n_rpm"), ("size", "face_width_mm"), ("wheel", "held_by"))
+APART = (
+    ("drive", "n_rpm"),
+    ("size", "face_width_mm"),
+    ("size", "pin_held"),
+    ("size", "lock_edge_mm"),
+    ("wheel", "held_by"),
+    ("shaft", "wheel_diameter_mm"),
+    ("shaft", "wheel_overhang_mm"),
+    ("material.roller", "dynamic_capacity_N"),
+)
 GAPS = ("gap_mm", "idle_roller_mm")
 # A roller that does not find its slot, or meets the rim beside it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Integrand, Quantity
 from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.life import life
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.numerics.jet import Coefficient
@@ -124,18 +123,16 @@ def reversals_deg(cycle: Cycle) -> list[float]:
     return out
 
 
-def loads_table(cycle: Cycle, warnings: Sequence[str]) -> Table:
-    """The summary, with what must be bought and how long it lasts, and what else is to be said."""
+def loads_table(cycle: Cycle, life: Mapping[str, float | None], warnings: Sequence[str]) -> Table:
+    """The summary, with what must be bought, how long it lasts, and what else is to be said."""
     spec = cycle.mechanism.spec
     values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
     for name, one in summaries(cycle).items():
         values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
-    needed: list[str] = []
-    for group, answer in (("sizing", sizing), ("life", life)):
-        found, needs = answer(cycle)
+    bought, needed = sizing(cycle)
+    for group, found in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in found.items()}
-        needed += needs
     values["warnings"] = (*warnings, *needed)
     return record_table(values)
 

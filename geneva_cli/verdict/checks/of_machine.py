@@ -10,6 +10,7 @@ from geneva_cli.verdict.checks import (
     invariants,
     load_limits,
     pressure,
+    strength,
     undercut,
 )
 from geneva_cli.verdict.checks.check import OfMachine
@@ -35,4 +36,11 @@ LIMITS: dict[str, OfMachine] = {
     "input_torque_max_Nm": load_limits.greatest,
     "pressure_angle_deg": pressure.as_asked,
     "contact_stress_max_MPa": load_limits.greatest,
+    "pv_max_W_m2": strength.pv,
+    "roller_life_min_h": strength.roller_life,
+    "pin_stress_MPa": strength.pin,
+    "horn_stress_MPa": strength.horn,
+    "lock_horn_stress_MPa": strength.lock_horn,
+    "lock_stress_max_MPa": strength.lock,
+    "wheel_shaft_stress_MPa": strength.wheel_shaft,
 }

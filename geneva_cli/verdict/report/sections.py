@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.parts.proof import Proof
-from geneva_cli.verdict.report import inputs, loads, parts, sizes, slot, stations
+from geneva_cli.verdict.report import inputs, loads, parts, sizes, slot, stations, strength
 from geneva_cli.verdict.report.values import Values
 
 SECTIONS: tuple[Callable[[Proof], Values], ...] = (
@@ -15,4 +15,5 @@ SECTIONS: tuple[Callable[[Proof], Values], ...] = (
     slot.driven,
     sizes.sizes,
     parts.parts,
+    strength.strong,
 )

@@ -1,0 +1,175 @@
+"""The horn, the wall between a slot and the recess of the lock, as a tapered cantilever.
+
+Its sections are square to the slot at the mouth, from the slot's wall to the recess: beside a
+straight slot they are t(s) = h + R - sqrt(R² - s²) thick a distance s inwards of the mouth, h being
+the thickness at the mouth and R the recess's radius. The roller presses on the wall with N at s0;
+the section at s then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²). In the
+middle of a section shear adds 3/2 N/(b t), at its faces nothing. The stress is the greatest over
+all places of the roller and all sections, to half-way along the recess: past it another horn
+begins. The body that the horn stands on is taken as rigid, and no notch is counted.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.loads.loads import state
+from geneva_cli.machine.pitch_curve import pitch
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.jet import Array
+
+GRID = 121  # places and sections looked at first
+FINER = 13  # and around the best of them, time and again
+ROUNDS = 10
+NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction is rounding
+SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
+
+
+class Bent(NamedTuple):
+    """The greatest stress in a horn, where the roller is then, and the section that has it."""
+
+    stress_MPa: float
+    at_deg: float  # input angle from the engagement's mid-motion
+    inwards_mm: float  # of the section from the mouth
+    thickness_mm: float
+
+
+class Side(NamedTuple):
+    """One horn of a slot, in the wheel's frame: that which bears a torque forwards, or back."""
+
+    engagement: Engagement
+    L: float
+    half_width: float
+    recess: float
+    end: float  # -1: between the slot and where the crank's axis is before the motion; 1: after
+    centre: Array  # of the recess
+    inwards: Array  # along the slot at its mouth
+    across: Array  # square to that, from the recess's centre to the slot
+
+    @property
+    def mouth_deg(self) -> float:
+        """Input angle at which the roller is at its mouth."""
+        engagement = self.engagement
+        return engagement.entry_deg if self.end < 0.0 else engagement.exit_deg
+
+    def wall(self, input_deg: Array) -> tuple[Array, Array]:
+        """Points of the slot's wall and its normals towards the recess, (2, n) on the horn's axes.
+
+        The origin is the recess's centre.
+        """
+        at = pitch(self.engagement, input_deg)
+        turn = np.array([self.inwards, self.across])
+        place = turn @ (self.L * np.array([at.x, at.y]) - self.centre[:, None])
+        normal = turn @ np.array([-np.asarray(at.tangent_y), at.tangent_x])
+        normal = normal * np.where(normal[1] > 0.0, -1.0, 1.0)
+        return place + self.half_width * normal, normal
+
+    def thickness(self, wall: Array) -> Array:
+        """Of the sections through points of the wall; infinite where another horn begins."""
+        s = wall[0]
+        within = np.where(abs(s) < self.reach, s, 0.0)
+        return np.where(abs(s) < self.reach, wall[1] - np.sqrt(self.recess**2 - within**2), np.inf)
+
+    @property
+    def reach(self) -> float:
+        """How far inwards of the mouth the horn goes: half-way along its recess."""
+        middle = self.centre / math.hypot(*self.centre)
+        away, up = float(middle @ self.inwards), float(middle @ self.across)
+        away, up = (away, up) if away > 0.0 else (-away, -up)
+        return self.recess * (away if up > 0.0 else 1.0)
+
+    def places(self, count: int) -> Array:
+        """Input angles from the mouth inwards."""
+        return self.mouth_deg * np.linspace(1.0, NEAR, count)
+
+
+def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Side]:
+    """Both horns of each kind of slot."""
+    L, found = mechanism.center_distance_mm, []
+    for engagement in mechanism.engagements:
+        for end, mouth in ((-1.0, engagement.entry_deg), (1.0, engagement.exit_deg)):
+            rest = -end * engagement.half_step  # direction of the crank's axis, the wheel at rest
+            at = pitch(engagement, mouth)
+            inwards = -end * np.array([at.tangent_x, at.tangent_y])
+            centre = L * np.array([math.cos(rest), math.sin(rest)])
+            across = np.array([-inwards[1], inwards[0]])
+            way = L * np.array([at.x, at.y]) - centre
+            across *= math.copysign(1.0, float(across @ way))
+            found.append(
+                Side(engagement, L, half_width_mm, recess_mm, end, centre, inwards, across)
+            )
+    return found
+
+
+def horn(
+    mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
+) -> Bent | None:
+    """The greatest bending stress in a machine's horns; None without a lock, or without a load.
+
+    ``half_width_mm`` of the slot, ``recess_mm`` the radius of the wheel's recesses, ``width_mm``
+    the wheel's thickness.
+    """
+    if not recess_mm:
+        return None
+    best = None
+    for side in horns(mechanism, half_width_mm, recess_mm):
+        for entry in _halves(side):
+            found = _worst(mechanism, side, width_mm, entry)
+            if found and not (best and best.stress_MPa >= found.stress_MPa):
+                at_deg = mechanism.shown_deg(side.engagement.mid_deg + found.at_deg)
+                best = found._replace(at_deg=at_deg)
+    return best
+
+
+def _halves(side: Side) -> list[float]:
+    """The ends from which the roller runs along this horn's wall: of curved slots its own."""
+    engagement = side.engagement
+    if engagement.slot.curved:
+        return [side.mouth_deg]
+    return [engagement.entry_deg, engagement.exit_deg]
+
+
+def _worst(mechanism: Mechanism, side: Side, width: float, entry: float) -> Bent | None:
+    """Over the roller's places from one end to mid-motion, and the sections further in."""
+    box = [[entry, NEAR * entry], [side.mouth_deg, NEAR * side.mouth_deg]]
+    ends = [sorted(pair) for pair in box]
+    best, count = None, GRID
+    for _ in range(ROUNDS):
+        x, u = (np.linspace(a, b, count) for a, b in box)
+        stress = _stress(mechanism, side, width, x, u)
+        i, j = np.unravel_index(int(np.argmax(stress)), stress.shape)
+        if not stress[i, j] > 0.0 or not math.isfinite(stress[i, j]):
+            return None
+        wall = side.wall(u[[j]])[0]
+        if best is None or stress[i, j] > best.stress_MPa:
+            thick, inwards = float(side.thickness(wall)[0]), float(wall[0, 0])
+            best = Bent(float(stress[i, j]), float(x[i]), inwards, thick)
+        for pair, (low, high), at in zip(box, ends, (x[i], u[j]), strict=True):
+            step = abs(pair[1] - pair[0]) / (count - 1)
+            pair[:] = [max(at - step, low), min(at + step, high)]
+        count = FINER
+    return best
+
+
+def _stress(mechanism: Mechanism, side: Side, width: float, x: Array, u: Array) -> Array:
+    """The stress, a row for each place of the roller and a column for each section, MPa."""
+    loads = state(mechanism, side.engagement, x)
+    bears = np.asarray(loads.torque_Nm) * side.end < 0.0
+    force = np.where(bears, loads.pin_force_N, 0.0)[:, None]
+    contact, way = side.wall(x)
+    wall, _ = side.wall(u)
+    thick = side.thickness(wall)
+    # from the contact to the middle of the section, (2, places, sections)
+    arm = np.stack([wall[0], wall[1] - 0.5 * thick])[:, None, :] - contact[:, :, None]
+    further = arm[0] > 0.0
+    with np.errstate(all="ignore"):
+        moment = abs(arm[0] * way[1][:, None] - arm[1] * way[0][:, None])
+        push = abs(way[0])[:, None]  # along the horn, of a curved wall
+        found = force / width * (6.0 * moment / thick**2 + push / thick)
+    return np.where(further & np.isfinite(found), found, 0.0)

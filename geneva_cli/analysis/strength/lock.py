@@ -1,0 +1,188 @@
+"""The lock under a torque in the dwell: force, contact, and how far the wheel gives.
+
+The wheel turns through its play until the end of a recess rests on the locking disc. The force goes
+through the disc's axis, at an angle phi to the line of centres, so that a torque M takes
+F = M / (L sin phi). An internal wheel's recess reaches round the disc: there the arcs themselves
+touch, at 90 degrees. Three things make up the deflection:
+
+- the play, exact: the turn at which the distance of the recess's end from the crank's axis, or that
+  of the recess's centre, has used up the clearance;
+- the approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a
+  body as thick as the horn): F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1)
+  + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width;
+- the bending of the horn (see ``horn``) where the force is at its end. Plane stress gives 6 to
+  30 % more, as the body that the horn stands on gives too.
+
+On a sharp end no contact stress is finite: the recess's end needs a radius. Without clearance the
+arcs lie on each other as they do once they have worn in. The pressure then goes with the sine of
+the angle from the line of centres, as the wear of a wheel that turns a little does: the greatest is
+2 M sin phi/(b R L (phi - sin phi cos phi)).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.loads.forces import contact_modulus_GPa
+from geneva_cli.analysis.strength.horn import SHEAR, horns
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.strength.horn import Side
+    from geneva_cli.machine.mechanism import Mechanism
+
+SECTIONS = 4001  # of a horn, summed by trapezoids: to a millionth
+
+
+class Round(NamedTuple):
+    """Where disc and recess touch: angles in radians, lengths in millimetres."""
+
+    phi: float  # of the force, from the line of centres
+    play: float  # of the wheel, either way
+    at_end: bool  # of the recess, on its edge
+    radius: float  # R_e of the contact: 0 of a sharp edge, infinite without clearance
+
+
+class Held(NamedTuple):
+    """A lock under a torque; None where something is not known."""
+
+    torque_Nm: float
+    force_N: float
+    contact_stress_MPa: float | None  # Hertz; None of a sharp edge, and without clearance
+    pressure_MPa: float  # worn in
+    horn_stress_MPa: float  # bending
+    play_deg: float
+    approach_deg: float | None
+    bending_deg: float
+
+    @property
+    def deflection_deg(self) -> float | None:
+        """All three together; None where the approach is not known."""
+        if self.approach_deg is None:
+            return None
+        return self.play_deg + self.approach_deg + self.bending_deg
+
+
+def touching(
+    sign: float, L: float, lock: float, recess: float, rim: float, edge: float = 0.0
+) -> Round:
+    """Where a disc of radius ``lock`` stops a wheel, ``sign`` being -1 for an internal one.
+
+    ``edge`` is the radius of the recess's ends: its centre lies the recess's radius and its own
+    from the crank's axis, and as much within the rim.
+
+    >>> found = touching(1.0, 100.0, 40.0, 40.5, 86.8)
+    >>> round(math.degrees(found.phi), 3), round(math.degrees(found.play), 4)
+    (60.112, 0.3306)
+    >>> touching(-1.0, 100.0, 30.0, 30.5, 86.8).at_end
+    False
+    """
+    far = rim - sign * edge
+
+    def cosine(reach: float) -> float:  # at the crank's axis, of the triangle to the edge's centre
+        return sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
+
+    if cosine(recess + edge) <= 0.0:
+        clearance = recess - lock
+        radius = lock * recess / clearance if clearance else math.inf
+        return Round(0.5 * math.pi, 2.0 * math.asin(clearance / (2.0 * L)), False, radius)
+
+    def seen(reach: float) -> float:  # at the wheel's axis
+        return math.acos((L * L + far * far - reach * reach) / (2.0 * L * far))
+
+    play = seen(recess + edge) - seen(lock + edge)
+    radius = 1.0 / (1.0 / lock + 1.0 / edge) if edge else 0.0
+    radius = radius if recess > lock else math.inf
+    return Round(math.acos(cosine(lock + edge)), play, True, radius)
+
+
+def held_torque_Nm(mechanism: Mechanism) -> float:
+    """What the lock holds in the dwell."""
+    load = mechanism.spec.load
+    return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
+
+
+def lock(
+    mechanism: Mechanism, half_width_mm: float, lock_mm: float, recess_mm: float, rim_mm: float
+) -> Held | None:
+    """The lock of a machine whose parts have these radii; of its horns the one that gives most.
+
+    None without a lock, a torque to hold, or a ``face_width_mm``.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    torque, width = held_torque_Nm(mechanism), spec.size.face_width_mm
+    if not (lock_mm and torque and width):
+        return None
+    edge = spec.size.lock_edge_mm or 0.0
+    found = touching(spec.wheel.SIGN, L, lock_mm, recess_mm, rim_mm, edge)
+    sine = math.sin(found.phi)
+    force = 1e3 * torque / (L * sine)
+    worn = found.phi - sine * math.cos(found.phi)
+    pressure = 2e3 * torque * sine / (width * lock_mm * L * worn)
+    bent, stress, thick = (
+        _bending(mechanism, half_width_mm, recess_mm, found.phi)
+        if found.at_end
+        else (0.0, 0.0, recess_mm)
+    )
+    lever = L * sine
+    contact, approach = _contact(mechanism, force / width, found.radius, lock_mm, thick)
+    return Held(
+        torque,
+        force,
+        contact,
+        pressure,
+        stress * force / width,
+        math.degrees(found.play),
+        None if approach is None else math.degrees(approach / lever),
+        math.degrees(bent * force / width / lever),
+    )
+
+
+def _contact(
+    mechanism: Mechanism, line: float, radius: float, lock: float, thick: float
+) -> tuple[float | None, float | None]:
+    """Hertz's stress, MPa, and the approach, mm, for a force on 1 mm; None of a sharp edge."""
+    if not radius:
+        return None, None
+    modulus = contact_modulus_GPa(mechanism.spec) * 1e3
+    stress = None if math.isinf(radius) else math.sqrt(line * modulus / (math.pi * radius))
+    half = min(math.sqrt(4.0 * line * radius / (math.pi * modulus)), lock)
+    wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
+    nu, mu = disc.poisson_ratio, wheel.poisson_ratio
+    round_ = (1.0 - nu * nu) / disc.youngs_modulus_GPa * (2.0 * math.log(4.0 * lock / half) - 1.0)
+    flat = (2.0 * math.log(2.0 * thick / half) - mu / (1.0 - mu)) / wheel.youngs_modulus_GPa
+    return stress, line / (1e3 * math.pi) * (round_ + (1.0 - mu * mu) * flat)
+
+
+def _bending(
+    mechanism: Mechanism, half_width: float, recess: float, phi: float
+) -> tuple[float, float, float]:
+    """Of the weakest horn, for 1 N on 1 mm: mm that its end gives, stress in MPa, and thickness."""
+    material = mechanism.spec.material_wheel
+    E = 1e3 * material.youngs_modulus_GPa
+    G = E / (2.0 * (1.0 + material.poisson_ratio))
+    every = []
+    for side in horns(mechanism, half_width, recess):
+        s, thick, middle, ahead = _sections(side)
+        tilt = phi - ahead  # of the force against the sections; it goes through the disc's axis
+        moment = s * math.cos(tilt) + middle * math.sin(tilt)
+        further = s >= -recess * math.sin(tilt)
+        moment, across = np.where(further, moment, 0.0), np.where(further, math.cos(tilt), 0.0)
+        give = 12.0 * moment**2 / (E * thick**3) + SHEAR * across**2 / (G * thick)
+        stress = 6.0 * abs(moment) / thick**2 + abs(math.sin(tilt)) / thick
+        sum_ = float(np.sum(0.5 * (give[1:] + give[:-1]) * np.diff(s)))
+        every.append((sum_, float(stress.max()), float(thick.min())))
+    return max(every)
+
+
+def _sections(side: Side) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Places, thicknesses and middles of a horn's sections, and the direction across the slot."""
+    wall, _ = side.wall(side.places(SECTIONS))
+    thick = side.thickness(wall)
+    real = np.isfinite(thick)
+    s, thick = wall[0][real], thick[real]
+    towards = -side.centre / math.hypot(*side.centre)  # the wheel's axis
+    ahead = math.acos(min(1.0, abs(float(towards @ side.across))))
+    return s, thick, wall[1][real] - 0.5 * thick, ahead

@@ -1,0 +1,86 @@
+"""The roller's pin, in bending and shear under the greatest force on it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.jet import Number
+
+
+class Pin(NamedTuple):
+    """A round pin's stresses under one newton, and its diameter; megapascals per newton."""
+
+    diameter_mm: Number
+    bending: Number
+    shear: Number
+
+    @property
+    def equivalent(self) -> Number:
+        """The greatest von Mises stress of the section.
+
+        Over it, u being the height over the neutral axis by the radius, bending goes with u and
+        shear with 1 - u²: sigma² u² + 3 tau² (1 - u²)² is convex in u², and so is greatest at the
+        outer fibre or at the neutral axis.
+        """
+        import numpy as np
+
+        return cast("Number", np.maximum(self.bending, math.sqrt(3.0) * self.shear))
+
+
+def moment_mm(held: str, width: Number, gap: Number) -> Number:
+    """The greatest bending moment under one newton, N mm, spread evenly over the line of contact.
+
+    ``width`` is the line's length b and ``gap`` g what is free between it and a plate, mm.
+
+    - ``cantilever``, fast in one plate: g + b/2, at the plate;
+    - ``supported``, turning in two plates: b/8 + g/2, in the middle;
+    - ``fixed``, fast in two plates s = b + 2 g apart: (3 s² - b²)/(24 s), at the plates.
+
+    >>> moment_mm("cantilever", 24.0, 0.0), moment_mm("supported", 24.0, 0.0)
+    (12.0, 3.0)
+    >>> moment_mm("fixed", 24.0, 0.0)
+    2.0
+    """
+    return MOMENTS[held](width, gap)
+
+
+def _fixed(b: Number, g: Number) -> Number:
+    s = b + 2.0 * g
+    return (3.0 * s * s - b * b) / (24.0 * s)
+
+
+MOMENTS: dict[str, Callable[[Number, Number], Number]] = {
+    "cantilever": lambda b, g: g + b / 2.0,
+    "supported": lambda b, g: b / 8.0 + g / 2.0,
+    "fixed": _fixed,
+}
+PLATES = {"cantilever": 1.0, "supported": 2.0, "fixed": 2.0}  # that share the force
+
+
+def pin(mechanism: Mechanism) -> Pin | None:
+    """The pin of a machine's rollers; None without the length of the line of contact.
+
+    Bending 32 M/(pi d³) at the plate or in the middle, shear 4/3 V/(pi d²/4) in the neutral axis.
+    With ``pin_mm = 0`` a roller is its own pin.
+    """
+    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    if size.face_width_mm is None:
+        return None
+    d = r if size.pin_mm is None else size.pin_mm or 2.0 * r
+    moment = moment_mm(size.pin_held, size.face_width_mm, size.pin_gap_mm)
+    shear = 16.0 / (3.0 * math.pi * d * d) / PLATES[size.pin_held]
+    return Pin(d, 32.0 * moment / (math.pi * d**3), shear)
+
+
+def least_diameter_mm(of: Pin, force_N: Number, allowed_MPa: Number) -> Number:
+    """The diameter at which the equivalent stress is the allowed one."""
+    import numpy as np
+
+    bent = np.cbrt(of.bending * force_N / allowed_MPa)
+    sheared = np.sqrt(math.sqrt(3.0) * of.shear * force_N / allowed_MPa)
+    return cast("Number", of.diameter_mm * np.maximum(bent, sheared))

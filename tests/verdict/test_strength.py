@@ -1,0 +1,194 @@
+"""Strength and life of whole designs: each check can fail and be mended, and what lacks is said."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+import repo
+from typer.testing import CliRunner
+from words import Drive, Motion, Spec, Wheel, load
+
+from geneva_cli.app import app
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
+from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.strength import Strength, margin
+
+DESIGNS = repo.DESIGNS
+
+# The first machine that a new user tries: eight stations, 40 a minute, 1.2 kg m², 20 N m.
+WHOLE = Spec(
+    Wheel(8),
+    Drive(n_rpm=40.0),
+    size=Size(250.0, 12.0, face_width_mm=18.0, lock_clearance_mm=0.02, lock_edge_mm=0.5),
+    load=Load(1.2, 20.0, friction=0.05),
+    material_roller=RollerMaterial(stress_max_MPa=60.0, dynamic_capacity_N=8000.0),
+    material_wheel=WheelMaterial(stress_max_MPa=12.0, wear_mm3_Nm=1e-7),
+    shaft=Shaft(
+        wheel_overhang_mm=40.0,
+        wheel_diameter_mm=20.0,
+        wheel_span_mm=80.0,
+        shear_stress_max_MPa=40.0,
+    ),
+    limits=Limits(pv_max_W_m2=1e8, roller_life_min_h=2e4, lock_stress_max_MPa=800.0),
+)
+ROWS = {
+    "pv_max_W_m2": ("limits.pv_max_W_m2", 4e7),
+    "roller_life_min_h": ("limits.roller_life_min_h", 1e9),
+    "pin_stress_MPa": ("material.roller.stress_max_MPa", 6.0),
+    "horn_stress_MPa": ("material.wheel.stress_max_MPa", 3.0),
+    "lock_horn_stress_MPa": ("material.wheel.stress_max_MPa", 2.0),
+    "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", 400.0),
+    "wheel_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 15.0),
+}
+
+
+def rows(spec):
+    return {c.name: c for c in checks(build(spec), parts=False)}
+
+
+def test_a_row_where_something_is_allowed():
+    found = rows(WHOLE)
+    assert set(ROWS) <= set(found)
+    assert all(found[name].passes for name in ROWS)
+    plain = rows(Spec(Wheel(8), size=Size(face_width_mm=18.0), load=WHOLE.load))
+    assert not set(ROWS) & set(plain)
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_each_can_fail_and_one_key_mends_it(name):
+    """The advice is a key's value with which the row passes."""
+    key, limit = ROWS[name]
+    spec = WHOLE.with_(key, limit)
+    failing = {c.name: c for c in judged(build(spec), parts=False)}[name]
+    assert failing.passes is False
+    told, _, value = failing.nearest.partition(" = ")
+    tables = {
+        "wheel_diameter_mm": "shaft",
+        "dynamic_capacity_N": "material.roller",
+        "n_rpm": "drive",
+    }
+    mended = spec.with_(f"{tables.get(told, 'size')}.{told}", float(value))
+    assert rows(mended)[name].passes
+
+
+@pytest.mark.parametrize(
+    ("without", "name", "said"),
+    [
+        ("size.face_width_mm", "pin_stress_MPa", "face_width_mm in [size]"),
+        ("size.face_width_mm", "horn_stress_MPa", "face_width_mm in [size]"),
+        ("shaft.wheel_diameter_mm", "wheel_shaft_stress_MPa", "wheel_diameter_mm in [shaft]"),
+        ("shaft.wheel_overhang_mm", "wheel_shaft_stress_MPa", "wheel_overhang_mm in [shaft]"),
+        ("size.lock_edge_mm", "lock_stress_max_MPa", "lock_edge_mm in [size]"),
+    ],
+)
+def test_what_is_not_known_is_said_with_its_key(without, name, said):
+    spec = WHOLE.but(limits=Limits(lock_stress_max_MPa=800.0))
+    if without == "size.face_width_mm":
+        spec = WHOLE.but(limits=Limits())
+    check = rows(spec.with_(without, None))[name]
+    assert check.value is None
+    assert check.passes is None
+    assert check.nearest == f"not known: it needs {said}"
+
+
+@pytest.mark.parametrize(
+    ("limits", "said"),
+    [
+        ({"pv_max_W_m2": 1e6}, r"pv_max_W_m2 needs the length .* set face_width_mm in \[size\]"),
+        ({"lock_stress_max_MPa": 9.0}, r"lock_stress_max_MPa needs the length of the line"),
+        ({"roller_life_min_h": 9.0}, r"set dynamic_capacity_N in \[material.roller\]"),
+    ],
+)
+def test_a_limit_that_limits_nothing_is_refused(limits, said):
+    with pytest.raises(GenevaError, match=said) as error:
+        Spec(Wheel(6), load=Load(torque_Nm=1.0), limits=Limits(**limits))
+    assert error.value.key == ("limits", next(iter(limits)))
+    wide = Size(face_width_mm=10.0)
+    capacity = RollerMaterial(dynamic_capacity_N=1e3)
+    if "lock_stress_max_MPa" not in limits:
+        with pytest.raises(GenevaError, match="needs a load"):
+            Spec(Wheel(6), size=wide, material_roller=capacity, limits=Limits(**limits))
+
+
+def test_without_a_load_only_the_slot_s_travel_is_known():
+    of = Strength(build(Spec(Wheel(6), size=Size(face_width_mm=10.0))))
+    known = {name for name, value in of.life.items() if value is not None}
+    assert known == {"slot_travel_m"}
+    assert "pin_stress_MPa" in of.needs
+
+
+def test_a_force_without_bound_is_not_a_number():
+    curved = Motion("sine-group", ratio=0.5)  # not matched: no lever at mid-motion
+    wide = Size(face_width_mm=20.0)
+    of = Strength(build(Spec(Wheel(6), motion=curved, size=wide, load=Load(torque_Nm=5.0))))
+    assert of.pin_stress_MPa is None
+    assert of.needs["pin_stress_MPa"].startswith("a force with a bound")
+    assert all(v is None or math.isfinite(v) for v in of.life.values())
+
+
+def test_pv_is_the_greatest_product():
+    """Against 20,001 places of the cycle: as near to the peak as these lie."""
+    import numpy as np
+
+    of = Strength(build(WHOLE))
+    at = of.cycle.states(np.linspace(-67.5, 67.5, 20001))
+    most = float(np.max(np.sqrt(at.stress_squared) * abs(at.sliding_m_s)))
+    assert of.pv_max_W_m2 == pytest.approx(1e6 * most, rel=1e-6)
+    assert of.pv_max_W_m2 >= 1e6 * most * (1.0 - 1e-14)
+
+
+def test_the_wheel_shaft_by_the_code():
+    """16/(pi d³) sqrt((1.5 M)² + T²) over 20,001 places of the cycle."""
+    import numpy as np
+
+    of = Strength(build(WHOLE))
+    at = of.cycle.states(np.linspace(-67.5, 67.5, 20001))
+    both = np.hypot(1.5 * 0.040 * at.wheel_bearing_N, at.wheel_torque_Nm).max()
+    assert of.wheel_shaft.moment_Nm == pytest.approx(both, rel=1e-6)
+    stress = 16e3 * both / (math.pi * 20.0**3)
+    assert of.wheel_shaft.stress_MPa == pytest.approx(stress, rel=1e-6)
+    thin = WHOLE.with_("shaft.wheel_diameter_mm", of.wheel_shaft.least_diameter_mm)
+    assert Strength(build(thin)).wheel_shaft.stress_MPa == pytest.approx(40.0, rel=1e-14)
+    # T l/(G I_p) of 120 mm of steel, G = 80.8 GPa
+    most = abs(at.wheel_torque_Nm).max()
+    twist = most * 0.120 / (80.8e9 * math.pi * 0.020**4 / 32.0)
+    assert of.wheel_shaft.twist_deg == pytest.approx(math.degrees(twist), rel=1e-6)
+
+
+def test_margins():
+    assert margin(80.0, 120.0) == 0.5
+    assert margin(None, 120.0) is None
+    assert margin(80.0, None) is None
+
+
+@pytest.mark.parametrize("path", sorted(DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
+def test_every_machine_of_the_family(path):
+    """With a load and a face width: numbers, and a None only with its reason or where none is."""
+    mechanism = load(str(path))
+    spec = mechanism.spec.but(load=Load(0.001, 5.0, friction=0.05))
+    of = Strength(build(spec.with_("size.face_width_mm", 10.0)))
+    for name in ("slot_travel_m", "friction_work_J", "equivalent_force_N", "pin_stress_MPa"):
+        assert of.life[name] > 0.0, name
+    assert of.life["roller_turns_per_motion"] > 0.0
+    locked = of.sizes is not None and of.sizes.lock
+    assert bool(of.life["horn_stress_MPa"]) == bool(locked)
+    assert bool(of.lock) == bool(locked)
+
+
+def test_different_materials(tmp_path: Path):
+    """A steel pin in acrylic: each by its own allowable."""
+    path = tmp_path / "acrylic.toml"
+    path.write_text(
+        "[wheel]\nz = 6\n[size]\nface_width_mm = 6\n[load]\ntorque_Nm = 1\n"
+        "[material.wheel]\nyoungs_modulus_GPa = 3.2\npoisson_ratio = 0.37\nstress_max_MPa = 3\n"
+        "[material.roller]\nstress_max_MPa = 150\n"
+    )
+    found = CliRunner().invoke(app, ["check", str(path), "--format", "json"])
+    limits = {row["check"]: row["limit"] for row in json.loads(found.stdout)["rows"]}
+    assert limits["pin_stress_MPa"] == 150.0
+    assert limits["horn_stress_MPa"] == limits["lock_horn_stress_MPa"] == 3.0
+    assert found.exit_code == 0
