@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from contextvars import ContextVar
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from contextvars import ContextVar
 
 DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
 
@@ -26,7 +28,7 @@ class GenevaError(Exception):
         self.key = key
 
 
-_MARKS: ContextVar[list[Any] | None] = ContextVar("_MARKS", default=None)
+_MARKS: list[ContextVar[list[Any]]] = []  # one at most, and none before anyone marks
 
 
 def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
@@ -39,7 +41,7 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
         if where:
             raise error()
         return
-    marks = _MARKS.get()
+    marks = _MARKS[0].get(None) if _MARKS else None
     if marks is None:
         raise GenevaError("an array of designs is built by geneva_cli.machine.many")
     marks.append(where)
@@ -48,12 +50,16 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
 @contextmanager
 def marking() -> Iterator[list[Any]]:
     """Where ``refuse`` marks designs of an array: the list of what it was told meanwhile."""
+    from contextvars import ContextVar  # not at the start of every run
+
+    if not _MARKS:
+        _MARKS.append(ContextVar("marks"))
     marks: list[Any] = []
-    token = _MARKS.set(marks)
+    token = _MARKS[0].set(marks)
     try:
         yield marks
     finally:
-        _MARKS.reset(token)
+        _MARKS[0].reset(token)
 
 
 def clean(text: str) -> str:

@@ -89,7 +89,8 @@ class GearSector(PinPath):
                 ("drive", "sector_deg"),
             ),
         )
-        return boundary(lambda b: excess(b) < 0.0, *ends)
+        half: float = boundary(lambda b: excess(b) < 0.0, *ends)
+        return half
 
     def _handover(self, b: float) -> tuple[float, float, float]:
         """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""

@@ -7,13 +7,13 @@ coulisse's. A = a/r. With the input at phi the coulisse points along the vector
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.transmission import About
 from geneva_cli.machine.engagement import Known
 from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak
+from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak, acceleration_peaks
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
@@ -43,7 +43,10 @@ class PeakOf(NamedTuple):
         """The peak of a quantity, if it is this one."""
         if quantity != "acceleration":
             return None
-        return Known(*acceleration_peak(self.z, self.sign, self.A))
+        if isinstance(self.A, float) and isinstance(self.z, int):
+            return Known(*acceleration_peak(self.z, self.sign, self.A))
+        size, at_deg = acceleration_peaks(self.z, self.sign < 0.0, self.A)
+        return Known(*cast("tuple[float, float]", (size, at_deg)))
 
 
 def known(A: Coefficient, wheel: Gearing, place: Place) -> PeakOf | None:

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 
 from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import all_true, library
 from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
 from geneva_cli.spec.rules import Range
 
@@ -201,7 +201,7 @@ class SineGroup(Law):
     @property
     def symmetric(self) -> bool:
         """Only without a tilt."""
-        return self.lambda_ == 0.0
+        return all_true(self.lambda_ == 0.0)
 
     def first(self, u: Coefficient, order: int) -> Jet:
         """The share s in closed form, from its velocity."""

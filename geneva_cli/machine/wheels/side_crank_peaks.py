@@ -180,7 +180,7 @@ def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     """Peak |acceleration| of many designs, and where.
 
     ``z`` (whole numbers from 3), ``internal`` (booleans) and ``A`` (above -1, below 1) are scalars
-    or arrays that broadcast to one dimension of n designs. Returns two arrays of n: the peak as an
+    or arrays that broadcast to n designs, (n,) or (n, 1). Returns two such arrays: the peak as an
     invariant, that is in units of the input speed squared (rad/rad²), and the signed input angle of
     its first occurrence in degrees from mid-motion.
 
@@ -190,6 +190,8 @@ def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     import numpy as np
 
     z, internal, A = np.broadcast_arrays(np.atleast_1d(z), internal, np.asarray(A, dtype=float))
+    shape = z.shape
+    z, internal, A = z.ravel(), internal.ravel(), A.ravel()
     _refuse(
         bool(((z >= 3) & (z <= Z_MAX) & (z == np.floor(z))).all()),
         internal.dtype == bool,
@@ -200,7 +202,7 @@ def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
         part = slice(start, start + BLOCK)
         size[part], at[part] = _block(_wheels(z[part], internal[part], A[part]))
     at /= -DEGREE
-    return size, at
+    return size.reshape(shape), at.reshape(shape)
 
 
 def _refuse(z: bool, gearing: bool, A: bool) -> None:

@@ -1,0 +1,59 @@
+"""Peaks of many designs: against the search for one, and against 50 digits."""
+
+import numpy as np
+import pytest
+from design_arrays import MACHINES, alone, drawn, machine
+from machine_witness import motions
+from witness import QUANTITIES as EXACT
+
+from geneva_cli.analysis.peaks import worst
+from geneva_cli.analysis.peaks_many import QUANTITIES, peaks_of_many, worst_of_many
+from geneva_cli.machine.many import many
+
+# Both are within some 1e-15 of the true peak of the machine as it was built; near its limit a
+# gear sector's slot follows from its keys with some 1e-14 of its own.
+NEAR = 1e-13
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_as_one_by_one(name):
+    """The search for one shares the motion with that for many, and no step of the search."""
+    spec, rules = MACHINES[name]
+    varied = drawn(rules, 24, 11)
+    found = many(spec, varied)
+    peaks = worst_of_many(found.machine)
+    for row, i in enumerate(found.which):
+        one = worst(alone(spec, varied, i))
+        for quantity in QUANTITIES:
+            expected, here = one._asdict()[quantity], peaks[quantity]
+            assert here.max[row] == pytest.approx(expected.max, rel=NEAR), (quantity, i)
+            # a summit is flat: its place is known to the root of a rounding
+            assert here.at_deg[row] == pytest.approx(expected.at_deg, abs=1e-4), (quantity, i)
+
+
+@pytest.mark.parametrize("name", ["inside", "offset", "spherical", "epicyclic", "modified-sine"])
+def test_against_50_digits(name):
+    """The size is the quantity's at that place, and no place beside it or far away has more."""
+    spec, rules = MACHINES[name]
+    varied = drawn(rules, 12, 5)
+    found = many(spec, varied)
+    peaks = peaks_of_many(found.machine.engagements[0], ["velocity", "acceleration"])
+    for row, i in enumerate(found.which[:2]):
+        engagement = alone(spec, varied, int(i)).engagements[0]
+        exact = motions(alone(spec, varied, int(i)).spec)[0]
+        for quantity, peak in peaks.items():
+            at_deg, size = peak.at_deg[row], peak.max[row]
+
+            def true(deg, quantity=quantity, exact=exact):
+                return abs(float(EXACT[quantity](exact.derivatives(deg))[0]))
+
+            assert size == pytest.approx(true(at_deg), rel=1e-14), (quantity, i)
+            places = np.linspace(engagement.entry_deg, engagement.exit_deg, 13)
+            assert max(true(x) for x in places) <= size * (1.0 + 1e-14)
+
+
+def test_of_designs_that_differ_in_nothing_the_motion_knows():
+    """The speed changes no invariant: one number stands for all."""
+    found = many(machine(6, "side-crank", A=0.6), {"drive.n_rpm": np.array([30.0, 60.0, 90.0])})
+    peaks = worst_of_many(found.machine, ["velocity"])["velocity"]
+    assert found.spread(peaks.max).tolist() == [0.625] * 3

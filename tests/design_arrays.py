@@ -1,0 +1,128 @@
+"""Machines whose numbers vary, for tests of arrays of designs: every drive, gearing and law."""
+
+import numpy as np
+from words import Motion, Spec, Wheel
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.many import changed
+from geneva_cli.machine.mechanism import build
+
+
+def machine(wheel, kind="crank", motion=None, gearing="external", own=(), **keys):
+    kept = {k: v for k, v in keys.items() if k in ("rollers", "roller_angles_deg")}
+    rest = {k: v for k, v in keys.items() if k not in kept}
+    drive = registry.drive(kind)(**kept, **rest)
+    return Spec(Wheel(wheel, gearing, **dict(own)), drive, motion=motion)
+
+
+SLOTS = ("wheel.z", 1, 16)  # whole numbers; the others are any
+# every kind of drive, gearing and law, and what varies: key, least, greatest; some of it refused
+MACHINES = {
+    "crank": (machine(6), [SLOTS]),
+    "internal": (machine(6, gearing="internal"), [SLOTS, ("size.roller_radius_mm", -1.0, 30.0)]),
+    "side-crank": (machine(6, "side-crank", A=0.5), [("drive.A", -0.95, 1.05), SLOTS]),
+    "inside": (
+        machine(6, "side-crank", gearing="internal", A=0.5),
+        [("drive.A", -0.95, 0.95), SLOTS],
+    ),
+    "two rollers": (
+        machine(6, "side-crank", A=0.5, rollers=2),
+        [("drive.A", -0.95, 0.95), SLOTS],
+    ),
+    "placed rollers": (
+        machine(6, "side-crank", A=0.5, roller_angles_deg=[0.0, 130.0]),
+        [("drive.A", -0.95, 0.95), SLOTS],
+    ),
+    "unequal steps": (
+        machine(6, "side-crank", own={"steps_deg": (50.0, 70.0)}, A=0.5),
+        [("drive.A", -0.95, 0.95)],
+    ),
+    "offset": (machine(6, own={"offset_mm": 1.0}), [("wheel.offset_mm", -80.0, 80.0), SLOTS]),
+    "offset, slowed": (
+        machine(6, "side-crank", own={"offset_mm": 10.0}, A=0.5),
+        [
+            ("wheel.offset_mm", -30.0, 30.0),
+            ("drive.A", -0.9, 0.9),
+            ("size.center_distance_mm", 20.0, 200.0),
+        ],
+    ),
+    "spherical": (
+        machine(6, gearing="spherical"),
+        [("wheel.axes_deg", -5.0, 185.0), SLOTS],
+    ),
+    "spherical, slowed": (
+        machine(6, "side-crank", gearing="spherical", A=0.5),
+        [("wheel.axes_deg", 5.0, 175.0), ("drive.A", -0.9, 0.9)],
+    ),
+    "elliptical gears": (
+        machine(6, "elliptical-gears", eccentricity=0.5),
+        [("drive.eccentricity", 0.0, 0.95), SLOTS],
+    ),
+    "elliptical gears, quick": (
+        machine(6, "elliptical-gears", eccentricity=0.5, phase="quick"),
+        [("drive.eccentricity", -0.1, 0.9)],
+    ),
+    "noncircular gears": (machine(6, "noncircular-gears", A=0.4), [("drive.A", -0.95, 0.95)]),
+    "geneva pair": (
+        machine(4, "geneva-pair", first_z=4),
+        [("wheel.z", 2, 8), ("drive.first_z", 2, 6)],
+    ),
+    "epicyclic": (
+        machine(4, "epicyclic", planet_ratio=0.01),
+        [("drive.planet_ratio", -0.1, 0.05), ("wheel.z", 3, 6)],
+    ),
+    "in a ring": (
+        machine(4, "epicyclic", planet_ratio="shockless", fixed="ring"),
+        [("wheel.z", 3, 6)],
+    ),
+    "cam": (
+        machine(6, "cam", Motion("cycloidal")),
+        [("motion.alpha0_deg", -200.0, 130.0), SLOTS],
+    ),
+    "cam inside": (
+        machine(6, "cam", Motion("sine-group", 0.1), gearing="internal"),
+        [("motion.lambda", -0.12, 0.12)],
+    ),
+    "gear sector": (
+        machine(3, "gear-sector", sector_deg=60.0),
+        [("drive.sector_deg", 0.0, 300.0), ("wheel.z", 3, 6)],
+    ),
+    "gear sector, any ratio": (
+        machine(3, "gear-sector", sector_deg=60.0, gear_ratio=0.8),
+        [("drive.sector_deg", 0.0, 130.0), ("drive.gear_ratio", 0.1, 3.0)],
+    ),
+    "tilted law": (
+        machine(6, "side-crank", Motion("sine-group", 0.1), A=0.3),
+        [("motion.lambda", -0.2, 0.2), ("drive.A", -0.9, 0.9)],
+    ),
+    "matched": (
+        machine(6, motion=Motion("cycloidal", ratio="matched"), gearing="internal"),
+        [("motion.alpha0_deg", -200.0, 230.0), SLOTS],
+    ),
+    **{
+        law: (
+            machine(6, motion=Motion(law)),
+            [("motion.alpha0_deg", -200.0, 130.0), ("motion.ratio", -0.1, 1.1), SLOTS],
+        )
+        for law in registry.STANDARD_LAWS
+    },
+}
+
+
+def drawn(rules, n, seed):
+    random = np.random.default_rng(seed)
+    return {
+        key: random.integers(low, high + 1, n)
+        if isinstance(low, int)
+        else random.uniform(low, high, n)
+        for key, low, high in rules
+    }
+
+
+def alone(spec, varied, i):
+    """The i-th design built for itself; None where it is refused."""
+    try:
+        return build(changed(spec, {key: values[i].item() for key, values in varied.items()}))
+    except GenevaError:
+        return None
