@@ -4,6 +4,11 @@ import pytest
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.machine.mechanism import build
+from geneva_cli.parts import outlines as outline
+from geneva_cli.parts import proof
+from geneva_cli.parts.turn import full_turn
+from geneva_cli.parts.walls import curved as curved_walls
+from geneva_cli.verdict import cautions
 
 
 @pytest.fixture(scope="session")
@@ -22,3 +27,55 @@ def machine():
 def engagement(machine):
     """A function to build a mechanism and take its first engagement."""
     return lambda *args, **keys: machine(*args, **keys).engagements[0]
+
+
+KEPT = 256  # of the last that were made: the designs of the folder, for some tolerances
+
+
+def kept(function, key):
+    """The function, computed once for each key; its arguments are kept, so that ids stay theirs."""
+    known = {}
+
+    def once(*arguments):
+        k = key(*arguments)
+        if k not in known:
+            known[k] = function(*arguments), arguments
+            if len(known) > KEPT:
+                del known[next(iter(known))]
+        return known[k][0]
+
+    return once
+
+
+def of_outlines(found):
+    return found.plane.given.spec, found.fine
+
+
+def of_mechanism(mechanism, tolerance=0.0):
+    return mechanism.spec, tolerance
+
+
+def of_slot(plane, sizes, engagement):
+    return id(plane), sizes, id(engagement)
+
+
+OUTLINES = kept(outline.outlines, of_mechanism)
+TURNED = kept(full_turn.full_turn, of_outlines)
+CHAIN = kept(curved_walls.chain, of_slot)
+CAUTIONS = kept(cautions.cautions, of_mechanism)
+
+
+@pytest.fixture(scope="module")
+def made_once():
+    """What costs seconds, walls, outlines, turn and cautions of a design: made once for such files.
+
+    The same spec has the same ones. Not for tests of how they are made, or of how long it takes.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (outline, proof):
+            patch.setattr(module, "outlines", OUTLINES)
+        for module in (full_turn, proof):
+            patch.setattr(module, "full_turn", TURNED)
+        patch.setattr(curved_walls, "chain", CHAIN)
+        patch.setattr(cautions, "cautions", CAUTIONS)
+        yield

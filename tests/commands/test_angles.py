@@ -16,6 +16,7 @@ from geneva_cli.table import Table
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.report import report
 
+pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
 LIMITED = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
 # Stations whose mid-motions lie past half a turn, and a motion that begins before it: a law that

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 
+pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
 COMMANDS = {
     "peaks": [],

@@ -1,8 +1,7 @@
 """Parts as they are written: every design's drawings read back, options, refusals, tables.
 
 Files are read by ``drawing_witness``, which has formulas of its own, and by ezdxf; shapely measures
-them. What costs seconds, a design's outlines and its full turn, is made once and kept, as several
-tests ask for it; in processes of their own, where the same bytes are looked for, nothing is.
+them. In processes of their own, where the same bytes are looked for, nothing is made once and kept.
 """
 
 import csv
@@ -29,13 +28,8 @@ from typer.testing import CliRunner
 from words import load
 
 from geneva_cli.app import app
-from geneva_cli.parts import outlines as outline
-from geneva_cli.parts import proof
-from geneva_cli.parts.turn import full_turn
-from geneva_cli.parts.walls import curved as curved_walls
 from geneva_cli.specfile.template import KINDS
 from geneva_cli.verdict import advice as adviser
-from geneva_cli.verdict import cautions
 
 ROOT = repo.ROOT
 DESIGNS = {path.stem: path for path in sorted((ROOT / "designs").glob("*.toml"))}
@@ -66,47 +60,12 @@ TOLERANCE = 0.001  # mm, the default of --tolerance
 SAGITTA = 1e-4  # mm, of the chords that shapely is given
 
 
+pytestmark = pytest.mark.usefixtures("made_once")
+
+
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-
-
-def kept(function, key):
-    """The function, computed once for each key; its arguments are kept, so that ids stay theirs."""
-    known = {}
-
-    def once(*arguments):
-        k = key(*arguments)
-        if k not in known:
-            known[k] = function(*arguments), arguments
-        return known[k][0]
-
-    return once
-
-
-@pytest.fixture(autouse=True, scope="module")
-def made_once():
-    """Outlines, full turns, walls and cautions: the same spec has the same ones."""
-
-    def of_outlines(found):
-        return found.plane.given.spec, found.fine
-
-    def of_mechanism(mechanism, tolerance=0.0):
-        return mechanism.spec, tolerance
-
-    def of_slot(plane, sizes, engagement):
-        return id(plane), sizes, id(engagement)
-
-    outlines = kept(outline.outlines, of_mechanism)
-    turned = kept(full_turn.full_turn, of_outlines)
-    with pytest.MonkeyPatch.context() as patch:
-        for module in (outline, proof):
-            patch.setattr(module, "outlines", outlines)
-        for module in (full_turn, proof):
-            patch.setattr(module, "full_turn", turned)
-        patch.setattr(curved_walls, "chain", kept(curved_walls.chain, of_slot))
-        patch.setattr(cautions, "cautions", kept(cautions.cautions, of_mechanism))
-        yield
 
 
 def profile(spec, part, output, *options):

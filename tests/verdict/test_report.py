@@ -15,6 +15,7 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report import sections
 from geneva_cli.verdict.report.values import Values
 
+pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = repo.DESIGNS
 JAMS = "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n"
 LIMITED = (
