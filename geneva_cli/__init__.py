@@ -37,6 +37,7 @@ if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs n
     from geneva_cli.machine.laws.standard import Polynomial4567 as Polynomial4567
     from geneva_cli.machine.laws.standard import SineGroup as SineGroup
     from geneva_cli.machine.laws.table import TableLaw as TableLaw
+    from geneva_cli.machine.laws.tuned import Tuned as Tuned
     from geneva_cli.machine.spec import Motion as Motion
     from geneva_cli.machine.spec import Spec as Spec
     from geneva_cli.machine.wheels.external import External as External

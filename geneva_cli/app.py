@@ -27,6 +27,7 @@ COMMANDS = {
     "motion": "Position, velocity, acceleration and jerk over a cycle.",
     "loads": "Torque, forces, stress and power over the cycle; what to buy, how long it lasts.",
     "profile": "The slot: pitch curve, both flanks, pressure angle and curvature.",
+    "vibration": "A load on an elastic shaft: what an index leaves swinging, speeds to avoid.",
     "report": "One page on a design, for a person.",
     "check": "Does the design work? Exit status 1 where a check fails.",
     "laws": "The motion laws and their characteristic values.",

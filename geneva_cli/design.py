@@ -300,6 +300,41 @@ class Design:
 
         return self._located(lambda: cycle_table(self.cycle, samples))
 
+    def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
+        """The load on an elastic shaft: a record of what an index leaves swinging.
+
+        By [shaft], or at a period ratio (motion time over natural period) and damping ratio given
+        here. Shares are of the wheel's step. Raises GenevaError where no stiffness is known.
+
+        >>> found = Design(External(3)).vibration(0.5, damping=0.02).to_dict()
+        >>> round(found["residual_share"], 12)
+        0.871288725706
+        """
+        from geneva_cli.analysis.vibration.answers import vibration_table
+        from geneva_cli.analysis.vibration.oscillator import oscillator
+
+        return self._located(
+            lambda: vibration_table(
+                self.mechanism, oscillator(self.mechanism, period_ratio, damping)
+            )
+        )
+
+    def spectrum(
+        self, samples: int = 401, period_ratio: float | None = None, damping: float | None = None
+    ) -> Table:
+        """The vibration that an index leaves, over speeds from half to twice the design's.
+
+        >>> table = Design(External(6)).spectrum(3, period_ratio=10.0).to_dict()
+        >>> [round(float(n), 9) for n in table["n_rpm"]]
+        [30.0, 60.0, 120.0]
+        """
+        from geneva_cli.analysis.vibration.answers import spectrum
+        from geneva_cli.analysis.vibration.oscillator import needed
+
+        return self._located(
+            lambda: spectrum(self.mechanism, needed(self.mechanism, period_ratio, damping), samples)
+        )
+
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
         """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.
 

@@ -40,6 +40,7 @@ LAWS = {
     "mcv50": "laws.standard:ModifiedConstantVelocity",
     "sine-group": "laws.standard:SineGroup",
     "scca": "laws.scca:SineConstantCosine",
+    "tuned": "laws.tuned:Tuned",
     "table": "laws.table:TableLaw",
 }
 # those that are laws without more being said: no user's own

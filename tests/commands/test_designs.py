@@ -20,6 +20,7 @@ COMMANDS = {
     "motion": ["--samples", "73"],
     "profile": ["--tolerance", "0.05"],
     "loads": [],
+    "vibration": ["--period-ratio", "4.2", "--samples", "9"],
     "report": [],
     "check": [],
 }

@@ -72,6 +72,8 @@ ROWS = [
     Row("check limits.toml", "tomli numpy"),
     Row("check spherical-z6.toml", "tomli"),
     Row("check press-curved.toml", "tomli numpy"),
+    Row("vibration press-straight.toml --period-ratio 10", "tomli numpy"),
+    Row("vibration press-straight.toml --period-ratio 10 --format csv", "tomli numpy"),
     Row("laws"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
     Row("synth --tau 1/3", "numpy"),

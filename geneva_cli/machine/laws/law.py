@@ -49,6 +49,24 @@ class Law(Table):
         """
         return True
 
+    @property
+    def knots(self) -> tuple[float, ...]:
+        """Where any derivative jumps, inside 0..1: between them the law is analytic.
+
+        >>> ModifiedSine().knots
+        (0.125, 0.875)
+        """
+        return self.breaks
+
+    @property
+    def tuned_to(self) -> float | None:
+        """The period ratio of a load that it leaves no vibration, where it is made for one.
+
+        >>> Cycloidal().tuned_to is None
+        True
+        """
+        return None
+
     def doubt(self) -> Doubt | None:
         """Of points: the decimals given, and what their rounding moves the third derivative by.
 

@@ -60,6 +60,11 @@ class TableLaw(Law):
         """Points need not be."""
         return False
 
+    @property
+    def knots(self) -> tuple[float, ...]:
+        """The points: a spline's fifth derivative jumps there."""
+        return tuple(u for u, _ in self.points.pairs[1:-1])
+
     def first(self, u: Coefficient, order: int) -> Jet:
         """The spline."""
         return Jet(self._halves[0](u, order))

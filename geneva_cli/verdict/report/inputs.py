@@ -11,6 +11,7 @@ ECHOED = {  # what the numbers below rest on, besides the machine's own shape
     "drive": ("n_rpm",),
     "size": ("slot_clearance_mm", "lock_clearance_mm", "face_width_mm"),
     "load": tuple(key.key for key in fields(Load)),
+    "shaft": ("stiffness_Nm_rad",),
     "material.wheel": tuple(key.key for key in fields(WheelMaterial)),
     "material.roller": tuple(key.key for key in fields(RollerMaterial)),
     "limits": tuple(key.key for key in fields(Limits)),

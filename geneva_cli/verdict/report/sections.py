@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.parts.proof import Proof
-from geneva_cli.verdict.report import inputs, loads, parts, sizes, slot, stations, strength
+from geneva_cli.verdict.report import (
+    inputs,
+    loads,
+    parts,
+    sizes,
+    slot,
+    stations,
+    strength,
+    vibration,
+)
 from geneva_cli.verdict.report.values import Values
 
 SECTIONS: tuple[Callable[[Proof], Values], ...] = (
@@ -13,6 +22,7 @@ SECTIONS: tuple[Callable[[Proof], Values], ...] = (
     stations.stations,
     loads.greatest,
     slot.driven,
+    vibration.vibration,
     sizes.sizes,
     parts.parts,
     strength.strong,

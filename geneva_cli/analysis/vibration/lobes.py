@@ -1,0 +1,74 @@
+"""Where, over the period ratio, a motion leaves most of a swing: the lobes of the residual.
+
+The residual's square is band-limited: over the period ratio it swings once in 1 at most. So samples
+close to each other find its maxima, and a polynomial between them places each to the last digits.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.vibration.shape import Shape
+from geneva_cli.analysis.vibration.swing import Swing, left
+from geneva_cli.numerics.budget import ask
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+PER_ONE = 16  # samples for each 1 of the period ratio
+FEWEST = 64
+DEGREE = 12  # of the polynomial between two samples about a maximum: exact to a double there
+NEWTON = 6
+_chebyshev = np.polynomial.chebyshev
+
+
+class Lobes(NamedTuple):
+    """Period ratios at which the residual has a local maximum, ascending, and its share there."""
+
+    ratio: Array
+    share: Array
+
+
+def shares(shape: Shape, ratio: Array, damping: float) -> Array:
+    """The residual amplitude over the step at period ratios."""
+    return np.abs(left(shape, Swing(ratio, np.full(ratio.shape, damping))))
+
+
+def lobes(shape: Shape, low: float, high: float, damping: float) -> Lobes:
+    """The local maxima of the residual between two period ratios."""
+    count = max(FEWEST, math.ceil(PER_ONE * (high - low)))
+    ratio = np.linspace(low, high, count + 1)
+    share = shares(shape, ratio, damping)
+    ask()
+    at = 1 + np.flatnonzero((share[1:-1] >= share[:-2]) & (share[1:-1] > share[2:]))
+    middle, reach = ratio[at], (high - low) / count
+    nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+    around = shares(shape, (middle[:, None] + reach * nodes).ravel(), damping)
+    square = around.reshape(len(at), len(nodes)) ** 2
+    # through the nodes of Chebyshev: his coefficients are sums over them
+    vander = _chebyshev.chebvander(nodes, DEGREE)
+    series = (square @ vander * (2.0 / (DEGREE + 1))).T
+    series[0] *= 0.5
+    slope = _chebyshev.chebder(series)
+    bend = _chebyshev.chebder(slope)
+    x = np.zeros(len(at))
+    for _ in range(NEWTON):
+        turn = _chebyshev.chebval(x, bend, tensor=False)
+        rate = _chebyshev.chebval(x, slope, tensor=False)
+        step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
+        x = np.clip(x - step, -1.0, 1.0)
+    places = middle + reach * x
+    return Lobes(places, shares(shape, places, damping))
+
+
+def highest_ratio(shape: Shape, share: float) -> float:
+    """A period ratio above which no motion of this shape leaves more than a share of the step.
+
+    The residual is at most the variation of a derivative over Omega to its order.
+    """
+    orders = np.arange(1, len(shape.variation) + 1)
+    omega = (shape.variation / share) ** (1.0 / orders)
+    return float(omega.min()) / (2.0 * math.pi)

@@ -1,0 +1,71 @@
+"""The load as an oscillator: by the spec's shaft and inertia, or by a period ratio given."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.analysis.loads.carried import inertia_kgm2
+from geneva_cli.analysis.timing import timings
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.spec.rules import Range
+
+RATIO = Range(1e-6, 1e5)  # period ratios that are computed
+DAMPING = Range(0.0, 1.0, "[)")
+STIFFNESS = ("shaft", "stiffness_Nm_rad")
+RATIO_SAID = f"{RATIO.low:g} to {RATIO.high:g}"
+NO_INERTIA = (
+    "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], or "
+    "give --period-ratio"
+)
+
+
+class Oscillator(NamedTuple):
+    """The load on its shaft: the period ratio of the first motion, and the damping ratio."""
+
+    ratio: float
+    damping: float
+
+
+def oscillator(
+    mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
+) -> Oscillator | None:
+    """The load as [shaft] has it, or as given beside it; None where no inertia is known.
+
+    Raises GenevaError without a stiffness, and for values out of range.
+    """
+    shaft = mechanism.spec.shaft
+    if damping is not None and damping not in DAMPING:
+        raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing swings")
+    zeta = shaft.damping_ratio if damping is None else damping
+    if period_ratio is not None:
+        if period_ratio not in RATIO:
+            raise GenevaError(f"--period-ratio {period_ratio:g}: must be {RATIO_SAID}")
+        return Oscillator(period_ratio, zeta)
+    if shaft.stiffness_Nm_rad is None:
+        raise GenevaError(
+            "no stiffness_Nm_rad in [shaft]: set the stiffness between wheel and load, or give "
+            "--period-ratio, the motion's time over the load's natural period",
+            STIFFNESS,
+        )
+    inertia = inertia_kgm2(mechanism.spec)
+    if not inertia:
+        return None
+    natural_hz = math.sqrt(shaft.stiffness_Nm_rad / inertia) / (2.0 * math.pi)
+    ratio = timings(mechanism)[0].motion_s * natural_hz
+    if ratio not in RATIO:
+        raise GenevaError(
+            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m2 makes a period "
+            f"ratio (motion time / natural period) of {ratio:.4g}; it must be {RATIO_SAID}",
+            STIFFNESS,
+        )
+    return Oscillator(ratio, zeta)
+
+
+def needed(mechanism: Mechanism, period_ratio: float | None, damping: float | None) -> Oscillator:
+    """The same where nothing can be said without an inertia: raises GenevaError."""
+    load = oscillator(mechanism, period_ratio, damping)
+    if load is None:
+        raise GenevaError(NO_INERTIA, STIFFNESS)
+    return load

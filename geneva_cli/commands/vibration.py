@@ -1,0 +1,42 @@
+"""``geneva vibration``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
+
+
+def run(
+    spec: SpecPath,
+    period_ratio: Annotated[
+        float | None,
+        typer.Option(metavar="X", help="Motion time over natural period; instead of [shaft]'s."),
+    ] = None,
+    damping: Annotated[
+        float | None, typer.Option(metavar="Z", help="Damping ratio; instead of [shaft]'s.")
+    ] = None,
+    samples: Annotated[int, typer.Option(metavar="N", help="Speeds of the csv's spectrum.")] = 401,
+    given: Given = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """The load on an elastic shaft: what each index leaves swinging, and the speeds to avoid.
+
+    As csv the spectrum: residual and steady state from half to twice the design's speed. The
+    speeds to avoid are those of at least 0.0001 of the step where the residual has a local
+    maximum; `avoid` says where they move with stiffness 20 % lower and higher.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import format_of, show
+
+    design = load(spec, given or ())
+    if (format or format_of(output)) == "csv":
+        table = design.spectrum(samples, period_ratio, damping)
+        show(table, output, format, design.spec.files)
+        return
+    found = design.vibration(period_ratio, damping)
+    show(found, output, format, design.spec.files)
+    say(design.spec.path, found.to_dict()["warnings"])
