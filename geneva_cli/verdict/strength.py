@@ -6,7 +6,6 @@ import math
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.analysis.strength import horn, lock, pin, roller, shafts
@@ -81,12 +80,18 @@ class Strength:
             return None  # as the check of the parts says
 
     @cached_property
+    def _tops(self) -> list[float]:
+        """The greatest pin force and, with a face width, pressure times speed squared."""
+        wide = [_pressure_times_speed] if self._wide[0] else []
+        force, *rest = self.cycle.extremes(lambda i: i.pin_force, *wide)
+        return [max(force.max, -force.min), *[one.max for one in rest]]
+
+    @cached_property
     def force_N(self) -> float | None:
         """The greatest force on the roller; None without a load, or where nothing bounds it."""
         if not self.spec.is_loaded:
             return None
-        found = loads.greatest(self.mechanism, "pin_force_N").max
-        return found if math.isfinite(found) else None
+        return self._tops[0] if math.isfinite(self._tops[0]) else None
 
     def _bounded(self, name: str) -> bool:
         if self.force_N is None:
@@ -171,11 +176,11 @@ class Strength:
         """The greatest contact stress times the speed at which the roller would slide there."""
         if self._lacks("pv_max_W_m2", self._wide, self._loaded):
             return None
-        (found,) = self.cycle.extremes(_pressure_times_speed)
-        if math.isinf(found.max):
+        most = self._tops[1]
+        if math.isinf(most):
             self.needs["pv_max_W_m2"] = "a stress with a bound: see the warnings"
             return None
-        return 1e6 * math.sqrt(found.max)
+        return 1e6 * math.sqrt(most)
 
     @cached_property
     def friction_work_J(self) -> float | None:

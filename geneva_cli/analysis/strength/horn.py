@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 GRID = 121  # places and sections looked at first
 FINER = 13  # and around the best of them, time and again
-ROUNDS = 10
+ROUNDS = 7
 NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
 
@@ -120,11 +120,16 @@ def horn(
     best = None
     for side in horns(mechanism, half_width_mm, recess_mm):
         for entry in _halves(side):
-            found = _worst(mechanism, side, width_mm, entry)
-            if found and not (best and best.stress_MPa >= found.stress_MPa):
-                at_deg = mechanism.shown_deg(side.engagement.mid_deg + found.at_deg)
-                best = found._replace(at_deg=at_deg)
-    return best
+            start = _Search(side, [entry, NEAR * entry], [side.mouth_deg, NEAR * side.mouth_deg])
+            found = _looked(mechanism, start, width_mm, GRID)
+            if found and not (best and best[0].stress_MPa >= found[0].stress_MPa):
+                best = found
+    if best is None:
+        return None
+    for _ in range(ROUNDS):  # the middle of what is left is the best so far
+        best = _looked(mechanism, best[1], width_mm, FINER) or best
+    bent, engagement = best[0], best[1].side.engagement
+    return bent._replace(at_deg=mechanism.shown_deg(engagement.mid_deg + bent.at_deg))
 
 
 def _halves(side: Side) -> list[float]:
@@ -135,26 +140,29 @@ def _halves(side: Side) -> list[float]:
     return [engagement.entry_deg, engagement.exit_deg]
 
 
-def _worst(mechanism: Mechanism, side: Side, width: float, entry: float) -> Bent | None:
-    """Over the roller's places from one end to mid-motion, and the sections further in."""
-    box = [[entry, NEAR * entry], [side.mouth_deg, NEAR * side.mouth_deg]]
-    ends = [sorted(pair) for pair in box]
-    best, count = None, GRID
-    for _ in range(ROUNDS):
-        x, u = (np.linspace(a, b, count) for a, b in box)
-        stress = _stress(mechanism, side, width, x, u)
-        i, j = np.unravel_index(int(np.argmax(stress)), stress.shape)
-        if not stress[i, j] > 0.0 or not math.isfinite(stress[i, j]):
-            return None
-        wall = side.wall(u[[j]])[0]
-        if best is None or stress[i, j] > best.stress_MPa:
-            thick, inwards = float(side.thickness(wall)[0]), float(wall[0, 0])
-            best = Bent(float(stress[i, j]), float(x[i]), inwards, thick)
-        for pair, (low, high), at in zip(box, ends, (x[i], u[j]), strict=True):
-            step = abs(pair[1] - pair[0]) / (count - 1)
-            pair[:] = [max(at - step, low), min(at + step, high)]
-        count = FINER
-    return best
+class _Search(NamedTuple):
+    """Between which input angles roller and section are looked for."""
+
+    side: Side
+    roller: list[float]
+    section: list[float]
+
+
+def _looked(
+    mechanism: Mechanism, within: _Search, width: float, count: int
+) -> tuple[Bent, _Search] | None:
+    """The greatest of ``count`` by ``count`` places, and the places around it to look between."""
+    side = within.side
+    x, u = (np.linspace(a, b, count) for a, b in within[1:])
+    stress = _stress(mechanism, side, width, x, u)
+    i, j = divmod(int(np.argmax(stress)), count)
+    if not stress[i, j] > 0.0:
+        return None
+    wall = side.wall(u[[j]])[0]
+    thick, inwards = float(side.thickness(wall)[0]), float(wall[0, 0])
+    near_x = [float(x[max(i - 1, 0)]), float(x[min(i + 1, count - 1)])]
+    near_u = [float(u[max(j - 1, 0)]), float(u[min(j + 1, count - 1)])]
+    return Bent(float(stress[i, j]), float(x[i]), inwards, thick), _Search(side, near_x, near_u)
 
 
 def _stress(mechanism: Mechanism, side: Side, width: float, x: Array, u: Array) -> Array:
