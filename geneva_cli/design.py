@@ -272,7 +272,7 @@ class Design:
         >>> wide = Size(face_width_mm=20)
         >>> held = Design(External(6), size=wide, load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(held.strength.pin_stress_MPa, 1)
-        528.8
+        528.9
         """
         from geneva_cli.verdict.strength import strength
 

@@ -75,7 +75,7 @@ def touching(
 
     >>> found = touching(1.0, 100.0, 40.0, 40.5, 86.8)
     >>> round(math.degrees(found.phi), 3), round(math.degrees(found.play), 4)
-    (60.112, 0.3306)
+    (59.455, 0.3325)
     >>> touching(-1.0, 100.0, 30.0, 30.5, 86.8).at_end
     False
     """
