@@ -229,6 +229,8 @@ class Strength:
             if name not in among:
                 continue
             by_key.setdefault(keys, []).append(name)
+        if LOAD in by_key:  # nearly all
+            by_key[LOAD] = ["forces", "stresses", "life"]
         return [
             f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
             for keys, names in by_key.items()

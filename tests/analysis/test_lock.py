@@ -116,6 +116,7 @@ def test_what_is_not_known_is_none():
     fits, _, _ = answer(SPEC.with_("size.lock_clearance_mm", 0.0))
     assert fits.contact_stress_MPa is None  # the arcs lie on each other
     assert fits.play_deg == 0.0
+    assert 0.0 < fits.approach_deg < answer(SPEC)[0].approach_deg
 
 
 def test_an_internal_wheel_s_arcs_touch():

@@ -9,7 +9,8 @@ touch, at 90 degrees. Three things make up the deflection:
   of the recess's centre, has used up the clearance;
 - the approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a
   body as thick as the horn): F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1)
-  + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width;
+  + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width; where that is more
+  than a quarter of the horn, both give as columns under the pressure that follows;
 - the bending of the horn (see ``horn``) where the force is at its end. Plane stress gives 6 to
   30 % more, as the body that the horn stands on gives too.
 
@@ -127,7 +128,7 @@ def lock(
         else (0.0, 0.0, recess_mm)
     )
     lever = L * sine
-    contact, approach = _contact(mechanism, force / width, found.radius, lock_mm, thick)
+    contact, approach = _contact(mechanism, force / width, found.radius, lock_mm, thick, pressure)
     return Held(
         torque,
         force,
@@ -141,19 +142,23 @@ def lock(
 
 
 def _contact(
-    mechanism: Mechanism, line: float, radius: float, lock: float, thick: float
+    mechanism: Mechanism, line: float, radius: float, lock: float, thick: float, pressure: float
 ) -> tuple[float | None, float | None]:
     """Hertz's stress, MPa, and the approach, mm, for a force on 1 mm; None of a sharp edge."""
     if not radius:
         return None, None
     modulus = contact_modulus_GPa(mechanism.spec) * 1e3
     stress = None if math.isinf(radius) else math.sqrt(line * modulus / (math.pi * radius))
-    half = min(math.sqrt(4.0 * line * radius / (math.pi * modulus)), lock)
+    half = math.sqrt(4.0 * line * radius / (math.pi * modulus))
     wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
     nu, mu = disc.poisson_ratio, wheel.poisson_ratio
-    round_ = (1.0 - nu * nu) / disc.youngs_modulus_GPa * (2.0 * math.log(4.0 * lock / half) - 1.0)
-    flat = (2.0 * math.log(2.0 * thick / half) - mu / (1.0 - mu)) / wheel.youngs_modulus_GPa
-    return stress, line / (1e3 * math.pi) * (round_ + (1.0 - mu * mu) * flat)
+    soft = (1.0 - nu * nu) / (1e3 * disc.youngs_modulus_GPa)
+    yields = (1.0 - mu * mu) / (1e3 * wheel.youngs_modulus_GPa)
+    if half > 0.25 * thick:
+        return stress, pressure * (soft * lock + yields * thick)
+    round_ = soft * (2.0 * math.log(4.0 * lock / half) - 1.0)
+    flat = yields * (2.0 * math.log(2.0 * thick / half) - mu / (1.0 - mu))
+    return stress, line / math.pi * (round_ + flat)
 
 
 def _bending(
