@@ -29,6 +29,7 @@ COMMANDS = {
     "profile": "The slot: pitch curve, both flanks, pressure angle and curvature.",
     "vibration": "A load on an elastic shaft: what an index leaves swinging, speeds to avoid.",
     "report": "One page on a design, for a person.",
+    "tolerance": "Place, play and entry from every dimension's plus or minus.",
     "check": "Does the design work? Exit status 1 where a check fails.",
     "laws": "The motion laws and their characteristic values.",
     "synth": "From a wish (tau, k, angle, time, acceleration) to machines for it.",

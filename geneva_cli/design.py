@@ -461,6 +461,22 @@ class Design:
 
         return self._located(lambda: verdict(proof))
 
+    def tolerance(
+        self, samples: int = 65536, seed: int = 0, radius_mm: float | None = None
+    ) -> Table:
+        """What the deviations of ``[tolerance]`` do, as ``geneva tolerance`` prints it: a record.
+
+        >>> from geneva_cli import Design, External, Tolerance
+        >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
+        >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
+        72.0
+        """
+        from geneva_cli.verdict.tolerance.tables import tolerance_table
+
+        return self._located(
+            lambda: tolerance_table(self.mechanism, self.proof, samples, seed, radius_mm)
+        )
+
     @answer
     def warnings(self) -> list[str]:
         """What a number alone would hide of the motion and the slots.

@@ -153,24 +153,27 @@ def impacts(engagement: Engagement, play: float, drag: float = 0.0) -> list[Impa
         >>> impacts(Design(External(3)).mechanism.engagements[0], 1e-4)
         [Impact(from_deg=0.0, at_deg=0.55220712276288..., speed=0.03107164009469...)]
     """
-    out = []
-    for start in changes(engagement, drag):
-        span = (engagement.exit_deg - start) * DEGREE
-        if span <= 0.0 or play <= 0.0:
-            continue
-        lead, at = abs(_gained(engagement, start, drag, span)[0]), 0.0
-        if lead < play:
-            continue
+    found = [impact(engagement, start, play, drag) for start in changes(engagement, drag)]
+    return [one for one in found if one]
 
-        def over(x: float, start: float = start) -> tuple[float, float]:
-            ahead, faster = _gained(engagement, start, drag, x)
-            way = math.copysign(1.0, ahead)
-            return way * ahead - play, way * faster
 
-        at = root(over, 0.0, span)
-        faster = abs(_gained(engagement, start, drag, at)[1])
-        out.append(Impact(start, start + at / DEGREE, faster))
-    return out
+def impact(engagement: Engagement, start: float, play: float, drag: float = 0.0) -> Impact | None:
+    """The one change of sides that begins at ``start``; None: not taken up before the motion ends.
+
+    The sign of what the wheel gains tells which way it goes.
+    """
+    span = (engagement.exit_deg - start) * DEGREE
+    whole = _gained(engagement, start, drag, span)[0]
+    if not 0.0 < play <= abs(whole):
+        return None
+
+    def over(x: float) -> tuple[float, float]:
+        ahead, faster = _gained(engagement, start, drag, x)
+        way = math.copysign(1.0, ahead)
+        return way * ahead - play, way * faster
+
+    at = root(over, 0.0, span)
+    return Impact(start, start + at / DEGREE, abs(_gained(engagement, start, drag, at)[1]))
 
 
 def changes(engagement: Engagement, drag: float) -> list[float]:

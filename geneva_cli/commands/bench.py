@@ -13,7 +13,7 @@ def run(
     subject: Annotated[
         str,
         typer.Argument(
-            metavar="[SUBJECT]", help="peaks, many, motion, slot, start, export or all."
+            metavar="[SUBJECT]", help="peaks, many, motion, slot, tolerance, start, export or all."
         ),
     ] = "all",
     plots: Annotated[

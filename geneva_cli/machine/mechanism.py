@@ -10,6 +10,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.tolerance_rules import refuse_tolerances
 from geneva_cli.numerics.arrays import choose, larger, library
 
 ROUNDING_DEG = 1e-9  # input angles nearer to each other are one
@@ -94,4 +95,5 @@ def build(spec: Spec) -> Mechanism:
     compatible.refuse_clashes(spec)
     plan = spec.drive.plan(spec)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
+    refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

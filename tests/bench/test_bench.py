@@ -22,6 +22,7 @@ OURS = {
     "many": 4e-15,
     "motion": 8 * 2.0**-52,
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error
+    "tolerance": 1e-3,  # of 20 000 machines; of a million some 1e-6
     "start": 0.0,
     "export": 0.0,
 }

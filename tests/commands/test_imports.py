@@ -69,6 +69,8 @@ ROWS = [
     Row("report press-straight.toml", "tomli numpy"),
     Row("report spherical-z6.toml", "tomli numpy"),  # its loads
     Row("report press-curved.toml", "tomli numpy"),
+    # SciPy: its Sobol sequence, which brings json
+    Row("tolerance tolerances.toml --samples 9", "tomli numpy scipy json"),
     Row("check limits.toml", "tomli numpy"),
     Row("check spherical-z6.toml", "tomli"),
     Row("check press-curved.toml", "tomli numpy"),

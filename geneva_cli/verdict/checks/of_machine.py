@@ -10,6 +10,7 @@ from geneva_cli.verdict.checks import (
     invariants,
     load_limits,
     pressure,
+    shocks,
     strength,
     undercut,
 )
@@ -24,6 +25,8 @@ MOTION: dict[str, OfMachine] = {
     "groove_pressure_deg": groove.greatest,
     "pressure_angle_deg": pressure.of_curved_slots,
     "undercut_mm": undercut.deepest,
+    "entry_shock_N": shocks.of_entry,
+    "reversal_shock_N": shocks.of_reversal,
 }
 
 # What the spec asks for.

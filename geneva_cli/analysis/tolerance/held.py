@@ -1,0 +1,92 @@
+"""How far the wheel may be turned off its place in the dwell, in its lock, for any deviations.
+
+A recess of radius rho is cut into the wheel about a point at the centre distance L; the locking
+disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel is stopped
+
+- by the corner of a recess, at p from the wheel's axis, that comes down on the disc:
+  d = chi(L, rho) - chi(L + dL, k), chi being the corner's angle from the line of centres,
+  cos chi = (L² + p² - rho²) / (2 L p);
+- by an end of the disc, where the recess reaches farther round than it, that runs up to the recess;
+- or, with the disc too near to the recess's bottom, on the recess itself, where the two centres
+  are rho - k apart.
+
+In the middle of a dwell, where the lock holds best and the disc stands evenly.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.tolerance.dimensions import Deviations
+from geneva_cli.numerics.arrays import choose
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sqrt
+
+ROUNDING = 1e-13  # of an angle, or of the centre distance
+
+
+class Place(NamedTuple):
+    """How far the wheel may be turned, radians; 0 where disc and recess do not go together."""
+
+    angle: Jet
+    jams: Coefficient
+
+
+class Lock(NamedTuple):
+    """One corner of a recess and one locking arc of the disc, millimetres and radians."""
+
+    L: float
+    sign: float  # +1 where the disc reaches towards the wheel's axis, -1 away from it
+    lock: float
+    recess: float
+    corner: float  # distance of the recess's corner from the wheel's axis
+    half: float  # of the disc's locking arc
+
+    @property
+    def reach(self) -> float:
+        """Half of the recess, as an angle about the crank's axis."""
+        a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
+        return math.acos(max(-1.0, min(1.0, self.sign * a)))
+
+    def __call__(self, by: Deviations) -> Place:
+        """The wheel's play to one side."""
+        L, away = self.L, by.center_distance_mm + self.L
+        lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
+        spare = recess - lock
+        if self.reach <= self.half:
+            still = L - 0.0 * away
+            angle = _at(still, self.corner, recess) - _at(away, self.corner, lock)
+        else:
+            x = away - lock * (self.sign * math.cos(self.half))
+            y = lock * math.sin(self.half)
+            far = sqrt(x * x + y * y)
+            angle = _at(far, L, recess) - atan2(y, x)
+        nearer = by.center_distance_mm.c[0] * -self.sign  # to the recess's bottom
+        left = spare.c[0] - np.maximum(nearer, 0.0)
+        jams = (left < -ROUNDING * L) | (angle.c[0] < -ROUNDING)
+        on_it = nearer > np.maximum(spare.c[0], 0.0) * math.cos(min(self.reach, self.half))
+        angle = _chosen(on_it & ~jams, self._on_recess(by, spare), angle)
+        return Place(_chosen(jams, angle * 0.0, angle), jams)
+
+    def _on_recess(self, by: Deviations, spare: Jet) -> Jet:
+        """Where disc and recess touch between their ends: 4 L (L + dL) sin²(d/2) = c² - dL²."""
+        off = by.center_distance_mm
+        square = (spare * spare - off * off) / ((off + self.L) * (4.0 * self.L))
+        sine = sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))
+        out = atan2(sine, sqrt(1.0 - sine * sine)) * 2.0
+        return _chosen(square.c[0] > 0.0, out, out * 0.0)
+
+
+def _at(one: Jet, other: float, opposite: Jet) -> Jet:
+    """The angle between two sides of a triangle, from all three."""
+    a = one * one + (other * other) - opposite * opposite
+    area = one * one * (4.0 * other * other) - a * a
+    positive = area.c[0] > 0.0
+    return atan2(sqrt(_chosen(positive, area, area * 0.0 + 1e-300)), a)
+
+
+def _chosen(condition: Coefficient, yes: Jet, no: Jet) -> Jet:
+    condition = bool(condition) if np.ndim(condition) == 0 else condition
+    return Jet([choose(condition, a, b) for a, b in zip(yes.c, no.c, strict=True)])

@@ -1,0 +1,60 @@
+"""Worst case, root of squares and Monte Carlo of one angle of the wheel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.numerics.jet import Coefficient, Jet
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+MOST = 0.997  # of the machines are within p997
+
+
+class Spread(NamedTuple):
+    """How far the wheel is off its place, degrees, towards one side.
+
+    ``mean`` and ``std`` are of that angle with its sign, ``p997`` is the size that 99.7 % of the
+    machines keep. ``parts`` has for each dimension its own plus or minus of it.
+    """
+
+    worst: float
+    rss: float
+    mean: float
+    std: float
+    p997: float
+    parts: tuple[float, ...]
+
+    @property
+    def shares(self) -> tuple[float, ...]:
+        """Each dimension's share of the squares; 0 where nothing deviates."""
+        total = math.fsum(part * part for part in self.parts)
+        return tuple(part * part / total if total else 0.0 for part in self.parts)
+
+
+def spread(
+    angle: Callable[[Deviations], Jet], sizes: list[float], worst: float, drawn: Array
+) -> Spread:
+    """The spread of an angle in radians; ``drawn`` has it for machines drawn at random."""
+    at_rest = _one(angle(deviations([0.0] * len(sizes))).c[0])
+    parts = [_one(angle(slope_of(i)).c[1]) * size if size else 0.0 for i, size in enumerate(sizes)]
+    rss = abs(at_rest) + math.sqrt(math.fsum(part * part for part in parts))
+    k = min(math.ceil(MOST * len(drawn)), len(drawn)) - 1
+    return Spread(
+        math.degrees(worst),
+        math.degrees(rss),
+        math.degrees(drawn.mean()),
+        math.degrees(drawn.std()),
+        math.degrees(np.partition(abs(drawn), k)[k]),
+        tuple(math.degrees(abs(part)) for part in parts),
+    )
+
+
+def _one(value: Coefficient) -> float:
+    return float(np.asarray(value).reshape(-1)[0])

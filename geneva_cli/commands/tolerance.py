@@ -1,0 +1,35 @@
+"""``geneva tolerance``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, warn
+
+
+def run(
+    spec: SpecPath,
+    samples: Annotated[int, typer.Option(metavar="N", help="Machines that are drawn.")] = 65536,
+    seed: Annotated[int, typer.Option(metavar="K", help="The same seed, the same machines.")] = 0,
+    radius: Annotated[
+        float | None, typer.Option(metavar="MM", help="Where micrometres are told.")
+    ] = None,
+    given: Given = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """The wheel's place in the dwell, its play in motion and its entry, from [tolerance].
+
+    Worst case, root of squares and Monte Carlo, in degrees and arc seconds; which dimension
+    contributes how much; and the clearances with which every machine still turns.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import show
+
+    design = load(spec, given or ())
+    table = design.tolerance(samples, seed, radius)
+    show(table, output, format, design.spec.files)
+    warn(design)
+    say(design.spec.path, table.to_dict()["warnings"])

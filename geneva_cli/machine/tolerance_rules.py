@@ -1,0 +1,48 @@
+"""Tolerances with which there is no machine at all: refused where it is built."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine.spec import Spec
+
+TABLE = "tolerance"
+LOCK = ("lock_radius_mm", "recess_radius_mm")
+
+
+def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError, naming the key, for a tolerance as large as its dimension, or of none."""
+    given = spec.tolerance.as_dict()
+    if not spec.drive.LOCKS or spec.size.lock_radius_mm == 0.0:
+        for key in LOCK:
+            if given[key]:
+                raise GenevaError(
+                    f"{key} = {given[key]:g}: this machine has no locking disc; remove it",
+                    (TABLE, key),
+                )
+    steps = spec.wheel.steps
+    arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
+    step = min(steps) if steps else 360.0 / spec.wheel.z
+    roller = 2.0 * spec.roller_radius_mm(L)
+    slot = roller + 2.0 * spec.size.slot_clearance_mm
+    disc = spec.size.lock_radius_mm or arm
+    for key, below, what in (
+        ("center_distance_mm", L, "the centre distance"),
+        ("crank_radius_mm", arm, "the crank's radius"),
+        ("roller_diameter_mm", roller, "the roller's diameter"),
+        ("slot_width_mm", slot, "the slot's width"),
+        ("slot_angle_deg", 0.5 * step, "half the wheel's step"),
+        ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
+        ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
+    ):
+        refuse(given[key] >= below, partial(_too_large, key, given[key], below, what))
+
+
+def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
+    return GenevaError(
+        f"{key} = +-{value:g} is as large as what it is a tolerance of; it must be below "
+        f"{below:.6g}, {what}",
+        (TABLE, key),
+    )

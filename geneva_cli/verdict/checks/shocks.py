@@ -1,0 +1,109 @@
+"""Does the roller strike its slot harder than it may, at the worst of the tolerances?"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.roots import boundary
+from geneva_cli.spec.tables import Tolerance
+from geneva_cli.verdict.checks.check import Check, held
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.blows import Blow
+
+
+def of_entry(name: str, mechanism: Mechanism) -> Check | None:
+    """The blow of a roller that does not come in along its slot, R/L being wrong."""
+    given = mechanism.spec.tolerance
+    if not (given.crank_radius_mm or given.center_distance_mm):
+        return None
+    from geneva_cli.analysis.blows import entry_blow
+
+    blow = entry_blow(mechanism)
+    if blow is None:
+        return None
+    check = _judged(name, mechanism, blow)
+    if check.passes is not False:
+        return check
+    return check._replace(nearest=_share(mechanism, check.limit or 0.0))
+
+
+def of_reversal(name: str, mechanism: Mechanism) -> Check | None:
+    """The blow of a roller that leaves one wall of its slot for the other."""
+    if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
+        return None
+    from geneva_cli.analysis.blows import reversal_blow
+
+    blow = reversal_blow(mechanism)
+    if blow is None:
+        return None
+    check = _judged(name, mechanism, blow)
+    more = drag_words(mechanism)
+    if check.passes is None:
+        return check._replace(nearest=f"{check.nearest}; {more}")
+    return check._replace(nearest=more) if check.passes is False else check
+
+
+def drag_words(mechanism: Mechanism) -> str:
+    """What ends the change of sides."""
+    from geneva_cli.analysis.shock import lasting_drag_Nm
+
+    drag = _up(lasting_drag_Nm(mechanism))
+    return f"add a drag of {drag:g} N m and the change of sides is gone"
+
+
+def _judged(name: str, mechanism: Mechanism, blow: Blow) -> Check:
+    """The blow's force, held to the pin's where that is limited."""
+    limit = mechanism.spec.limits.pin_force_max_N
+    if blow.force_N is not None and limit is not None:
+        return held(name, blow.force_N, "at most", limit, blow.at_deg)
+    spec, lacks = mechanism.spec, []
+    if not spec.is_loaded:
+        lacks.append("inertia_kgm2 in [load]")
+    if spec.size.face_width_mm is None:
+        lacks.append("face_width_mm in [size]")
+    if limit is None:
+        lacks.append("pin_force_max_N in [limits]")
+    why = f"the wheel jumps by {blow.jump:.4g} of the input's speed; to judge it set "
+    return Check(
+        name, blow.force_N, "at most", limit, None, why + ", ".join(lacks), at_deg=blow.at_deg
+    )
+
+
+def _share(mechanism: Mechanism, limit: float) -> str:
+    """By how much the tolerances on R and L must be tighter: the force goes by their root."""
+    from geneva_cli.analysis.blows import entry_blow
+
+    def holds(share: float) -> bool:
+        blow = entry_blow(mechanism, share)
+        return blow is None or (blow.force_N or 0.0) <= limit
+
+    low = boundary(holds, 0.0, 1.0)
+    given = mechanism.spec.tolerance
+    names = [
+        f"{key} = {_down(low * value):g}"
+        for key, value in (
+            ("crank_radius_mm", given.crank_radius_mm),
+            ("center_distance_mm", given.center_distance_mm),
+        )
+        if value
+    ]
+    return " and ".join(names) + " in [tolerance]"
+
+
+def _down(value: float) -> float:
+    """Two digits, rounded down."""
+    if value <= 0.0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{step * math.floor(value / step * (1.0 + 1e-9)):.6g}")
+
+
+def _up(value: float) -> float:
+    """Three digits, rounded up."""
+    if value <= 0.0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return float(f"{step * math.ceil(value / step * (1.0 - 1e-9)):.6g}")

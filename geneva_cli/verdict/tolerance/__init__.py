@@ -1,0 +1,1 @@
+"""What the dimensions' deviations do to the wheel's place, play and entry."""

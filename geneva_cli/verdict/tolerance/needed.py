@@ -1,0 +1,132 @@
+"""The clearances with which every machine within the tolerances still turns.
+
+The tightest machine has the largest roller in the narrowest slot, and the largest disc in the
+smallest recess. Where the roller comes in, the wheel rests in its lock: what the crank's radius,
+the centre distance and the slot's angle are off there lies across the slot. The wheel gives way to
+it by the least play of its lock; the rest must be clearance. What the centre distance is off takes
+of the lock's clearance. These sums are exact where the roller enters along the slot. What is left
+of the clearances must be 0 or more; then the parts of that machine, and of the loosest, are turned
+through a whole turn of the crank.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.analysis.blows import arm_mm
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.checks.of_parts import turning
+
+WORDS = "largest roller and locking disc, narrowest slot and recess"
+LOOSE = "smallest roller and locking disc, widest slot and recess"
+
+
+class Needed(NamedTuple):
+    """What the clearances must be, mm per side; and whether the parts turn within all tolerances.
+
+    ``lock_mm`` is None without a locking disc. ``turns`` is None where parts cannot be turned;
+    ``why`` says what fails, or why it cannot be told.
+    """
+
+    slot_mm: float
+    lock_mm: float | None
+    turns: bool | None
+    why: str
+
+
+def needed(mechanism: Mechanism, proof: Proof, sizes: dict[str, float], yields: float) -> Needed:
+    """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
+
+    ``sizes`` are the tolerances in millimetres and radians, those that apply; ``yields`` is the
+    least play of the lock, radians.
+    """
+    spec = mechanism.spec
+    fit = 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"])
+    slot = fit + max(_across(mechanism, e, sizes, yields) for e in mechanism.engagements)
+    ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
+    if not spec.is_flat:
+        return Needed(slot, None, None, "the parts are not drawn or turned against each other")
+    try:
+        found = proof.found
+    except GenevaError as error:
+        return Needed(slot, None, None, str(error))
+    lock = ring + sizes["center_distance_mm"] if found.crank else None
+    short = []
+    if spec.size.slot_clearance_mm < slot * (1.0 - 1e-12):
+        short.append(f"slot_clearance_mm must be at least {slot:.6g}")
+    if lock is not None and spec.size.lock_clearance_mm < lock * (1.0 - 1e-12):
+        short.append(f"lock_clearance_mm must be at least {lock:.6g}")
+    if short:
+        return Needed(slot, lock, False, " and ".join(short))
+    for sign, words in ((-1.0, WORDS), (1.0, LOOSE)):
+        failed = _fails(corner(spec, found, sizes, sign, slot, lock or 0.0))
+        if failed:
+            return Needed(slot, lock, failed[0], f"with the {words}: {failed[1]}")
+    return Needed(slot, lock, True, "")
+
+
+def _across(
+    mechanism: Mechanism, engagement: Engagement, sizes: dict[str, float], yields: float
+) -> float:
+    """How far the roller may be beside its slot where it enters and leaves, mm, or 0."""
+    L, arm = mechanism.center_distance_mm, arm_mm(mechanism, engagement)
+    share = sizes["crank_radius_mm"] / arm
+    most = 0.0
+    for at in (engagement.entry_deg, engagement.exit_deg):
+        x, y = engagement.path(at, 1)
+        # there the roller runs along the slot, whose normal this is
+        speed = math.hypot(x.c[1], y.c[1])
+        nx, ny = -y.c[1] / speed, x.c[1] / speed
+        of_arm = abs(nx * (x.c[0] - engagement.hub) + ny * y.c[0]) * L * share
+        of_distance = abs(nx) * sizes["center_distance_mm"]
+        lever = abs(ny * x.c[0] - nx * y.c[0]) * L
+        of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(yields))
+        most = max(most, of_arm + of_distance + of_angle)
+    return most
+
+
+def corner(
+    spec: Spec, found: Outlines, sizes: dict[str, float], sign: float, slot: float, lock: float
+) -> Spec:
+    """The spec of the tightest machine (-1) or of the loosest (+1), all other sizes as they are."""
+    size, given = found.sizes, spec.size
+    roller = size.roller - sign * 0.5 * sizes["roller_diameter_mm"]
+    clearance = max(given.slot_clearance_mm + sign * slot, 0.0)
+    end = size.slot_bottom + size.half_width - roller - clearance
+    changed = given.but(
+        roller_radius_mm=roller,
+        slot_clearance_mm=clearance,
+        slot_bottom_clearance_mm=max(end, 0.0),
+        lock_radius_mm=size.lock - sign * sizes["lock_radius_mm"],
+        lock_clearance_mm=max(given.lock_clearance_mm + sign * lock, 0.0),
+        wheel_radius_mm=size.rim,
+        relief_clearance_mm=size.relief,
+        relief=found.relief if found.crank else given.relief,
+        wheel_bore_mm=2.0 * size.wheel_bore,
+        wheel_hub_mm=2.0 * size.wheel_hub,
+        crank_bore_mm=2.0 * size.crank_bore,
+        crank_hub_mm=2.0 * size.crank_hub,
+        pin_mm=2.0 * size.pin,
+    )
+    if size.outer:
+        changed = changed.but(wheel_outer_radius_mm=size.outer)
+    return spec.but(size=changed)
+
+
+def _fails(spec: Spec) -> tuple[bool | None, str] | None:
+    """Which check of a whole turn fails; None where all pass."""
+    try:
+        proof = Proof(build(spec))
+        rows = list(turning(proof.found, proof.turn))
+    except GenevaError as error:
+        return None, f"not proved: {error}"
+    for row in rows:
+        if row.passes is False:
+            return False, f"{row.name} is {row.value:.4g}, must be {row.must_be} {row.limit:.4g}"
+    return None

@@ -1,0 +1,41 @@
+"""What locks a wheel: the corners of its recesses and the arcs of its disc, from the outlines."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.analysis.tolerance.held import Lock
+from geneva_cli.curves.shapes import Arc, Contour
+from geneva_cli.parts.outlines import Outlines
+
+SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to each other are one
+
+
+def locks(found: Outlines) -> list[Lock]:
+    """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
+    size, plane = found.sizes, found.plane
+    if not found.crank:
+        return []
+    near = SAME * plane.L
+    corners = {
+        round(math.hypot(*end) / near): math.hypot(*end)
+        for arc in _arcs(found.wheel)
+        if abs(math.hypot(*arc.centre) - plane.L) < near and abs(arc.radius - size.recess) < near
+        for end in (arc.start, arc.end)
+    }
+    halves = {
+        round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
+        for part in found.crank
+        for arc in _arcs(part)
+        if math.hypot(*arc.centre) < near and abs(arc.radius - size.lock) < near
+    }
+    return [
+        Lock(plane.L, plane.sign, size.lock, size.recess, corner, half)
+        for corner in corners.values()
+        for half in halves.values()
+        if half > SAME
+    ]
+
+
+def _arcs(contour: Contour) -> list[Arc]:
+    return [one for one in contour.segments if isinstance(one, Arc)]

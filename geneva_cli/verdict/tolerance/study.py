@@ -1,0 +1,136 @@
+"""The tolerances of one machine: its place in the dwell, its motion, its entry, its clearances."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.tolerance.dimensions import Deviations, Draws, corners, tolerances
+from geneva_cli.analysis.tolerance.drawn import draw
+from geneva_cli.analysis.tolerance.entered import entered
+from geneva_cli.analysis.tolerance.held import Lock
+from geneva_cli.analysis.tolerance.led import led
+from geneva_cli.analysis.tolerance.spread import Spread, spread
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.tolerance.needed import Needed, needed
+from geneva_cli.verdict.tolerance.recesses import locks
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+SAMPLES_MAX = 10_000_000
+
+
+class Entry(NamedTuple):
+    """The jump at entry, over the input's speed, by its size; a machine that misses counts as 0."""
+
+    worst: float
+    mean: float
+    std: float
+    missed: float  # share of the machines whose roller misses the slot's axis and meets the mouth
+
+
+class Study(NamedTuple):
+    """What the tolerances do; None where a machine has nothing of the kind, as ``warnings`` say."""
+
+    dwell: Spread | None
+    motion: Spread | None
+    motion_at_deg: float | None
+    entry: Entry | None
+    clearances: Needed
+    jams: float | None  # share of the machines that do not go together
+    warnings: tuple[str, ...]
+
+
+def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
+    """The study of a machine by its ``[tolerance]``.
+
+    Raises GenevaError where there is none, or for numbers of samples and seeds out of range.
+    """
+    _refuse(mechanism, samples, seed)
+    given = tolerances(mechanism.spec)
+    use, told = _applicable(mechanism, given)
+    sizes = list(use.values())
+    ends = corners(sizes)
+    discs = _locks(mechanism, proof, told)
+    held = max(discs, key=lambda one: _most(one(ends).angle.c[0]), default=None)
+    yields = min((float(np.min(one(ends).angle.c[0])) for one in discs), default=0.0)
+    leads = [(one, *one.greatest(ends)) for one in led(mechanism)]
+    lead = max(leads, key=lambda found: found[1], default=None)
+    comes = max(entered(mechanism), key=lambda one: _most(one(ends)[0]), default=None)
+    normal = mechanism.spec.tolerance.distribution == "normal"
+    machines = Draws(tuple(sizes), normal, seed)
+    at_worst = (lead[0], lead[2], lead[3]) if lead else None
+    drawn = draw(machines, samples, held, at_worst, comes)
+    dwell = motion = at_deg = entry = None
+    if held:
+        worst = _most(held(ends).angle.c[0]) + use["slot_angle_deg"]
+        dwell = spread(lambda by: held(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
+    else:
+        told.append(
+            "dwell_position is not known: no locking disc that is drawn holds the wheel at rest"
+        )
+    if lead:
+        one, worst, at, side = lead
+        motion = spread(lambda by: one(by, at, side) * side, sizes, worst, drawn.motion)
+        at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
+    else:
+        told.append("motion_play is not known: the slots are curved, and solved for a true path")
+    if comes:
+        jump = drawn.jump
+        entry = Entry(_most(comes(ends)[0]), float(jump.mean()), float(jump.std()), drawn.missed)
+    else:
+        told.append("entry_jump is not known: the law, not the path, sets how the roller enters")
+    clearances = needed(mechanism, proof, use, yields)
+    if clearances.turns is not True:
+        what = "not every machine turns" if clearances.turns is False else "not proved to turn"
+        told.append(f"{what}: {clearances.why}")
+    return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(told))
+
+
+def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
+    if not 1 <= samples <= SAMPLES_MAX:
+        raise GenevaError(f"--samples {cut(samples)}: it must be from 1 to {SAMPLES_MAX}")
+    if seed < 0:
+        raise GenevaError(f"--seed {cut(seed)}: it must be 0 or more")
+    if not any(tolerances(mechanism.spec).values()):
+        raise GenevaError(
+            "the spec gives no tolerances: set one or more of "
+            + ", ".join(Deviations._fields)
+            + " in [tolerance], each a plus or minus",
+            ("tolerance",),
+        )
+
+
+def _applicable(
+    mechanism: Mechanism, given: dict[str, float]
+) -> tuple[dict[str, float], list[str]]:
+    """The tolerances that move something in this machine, the others 0; and why they do not."""
+    use, told = dict(given), []
+    why = {}
+    if not mechanism.spec.drive.ONE_ARM:
+        why["crank_radius_mm"] = "no crank's arm carries the roller"
+    if not mechanism.spec.wheel.FLAT:
+        why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
+    for name, reason in why.items():
+        if use[name]:
+            use[name] = 0.0
+            told.append(f"{name} is left out: {reason}")
+    return use, told
+
+
+def _locks(mechanism: Mechanism, proof: Proof, told: list[str]) -> list[Lock]:
+    if not mechanism.spec.is_flat:
+        return []
+    try:
+        return locks(proof.found)
+    except GenevaError as error:
+        told.append(f"no parts: {error}")
+        return []
+
+
+def _most(values: Array) -> float:
+    return float(np.max(values))

@@ -1,0 +1,75 @@
+"""A study of tolerances as ``geneva tolerance`` prints it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geneva_cli.analysis.tolerance.dimensions import Deviations, tolerances
+from geneva_cli.analysis.tolerance.spread import Spread
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.proof import Proof
+from geneva_cli.table import Table, record_table, rows_table
+from geneva_cli.verdict.tolerance.study import Study, study
+
+ANGLES = ("worst", "rss", "mean", "std", "p997")
+ARCSEC = 3600.0  # in a degree
+
+
+def tolerance_table(
+    mechanism: Mechanism, proof: Proof, samples: int, seed: int, radius_mm: float | None = None
+) -> Table:
+    """The study as a record; ``radius_mm`` is where micrometres are told, none without it."""
+    if radius_mm is not None and not (0.0 < radius_mm < math.inf):
+        raise GenevaError(f"--radius {radius_mm:g}: it must be above 0 mm, and finite")
+    found = study(mechanism, proof, samples, seed)
+    spec, given, entry = mechanism.spec, mechanism.spec.size, found.entry
+    locked = found.clearances.lock_mm is not None
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
+    values["radius_mm"] = radius_mm
+    values |= _angles("dwell_position", found.dwell, radius_mm)
+    values |= _angles("motion_play", found.motion, radius_mm)
+    values["motion_play.at_deg"] = found.motion_at_deg
+    values["contributions"] = _contributions(mechanism, found)
+    values |= {
+        "entry_jump.mean": entry.mean if entry else None,
+        "entry_jump.std": entry.std if entry else None,
+        "entry_jump.worst": entry.worst if entry else None,
+        "entry_jump.missed_share": entry.missed if entry else None,
+        "clearances.slot_mm": given.slot_clearance_mm,
+        "clearances.slot_needed_mm": found.clearances.slot_mm,
+        "clearances.lock_mm": given.lock_clearance_mm if locked else None,
+        "clearances.lock_needed_mm": found.clearances.lock_mm,
+        "clearances.turns": found.clearances.turns,
+        "clearances.jam_share": found.jams,
+        "warnings": found.warnings,
+    }
+    return record_table(values, spec.title)
+
+
+def _angles(name: str, spread: Spread | None, radius_mm: float | None) -> dict[str, float | None]:
+    """The five numbers of a spread in degrees, arc seconds, and micrometres at a radius."""
+    degrees = [getattr(spread, angle) if spread else None for angle in ANGLES]
+    out: dict[str, float | None] = {}
+    micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
+    for unit, scale in (("deg", 1.0), ("arcsec", ARCSEC), ("um", micron)):
+        for angle, value in zip(ANGLES, degrees, strict=True):
+            known = value is not None and scale is not None
+            out[f"{name}.{angle}_{unit}"] = value * scale if known else None  # type: ignore[operator]
+    return out
+
+
+def _contributions(mechanism: Mechanism, found: Study) -> Table:
+    """A row a dimension that deviates: its share of the squares, and its own plus or minus."""
+    names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
+    rows = []
+    for i, name in enumerate(Deviations._fields):
+        if tolerances(mechanism.spec)[name]:
+            row: list[Any] = [name]
+            for spread in (found.dwell, found.motion):
+                row += [spread.shares[i], spread.parts[i]] if spread else [None, None]
+            rows.append(tuple(row))
+    rows.sort(key=lambda row: -(row[1] or 0.0))
+    return rows_table(names, rows)

@@ -1,0 +1,84 @@
+"""The checks of shocks: what they hold, what they say, and that what they say is so."""
+
+import math
+import re
+
+import pytest
+
+from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
+from geneva_cli.analysis import shock
+from geneva_cli.analysis.blows import entry_blow, reversal_blow
+from geneva_cli.analysis.shock_force import force_N
+from geneva_cli.verdict.checks import one
+
+LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
+WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)
+
+
+def design(force=None, **more):
+    given = {"size": LOOSE, "load": Load(inertia_kgm2=0.4, torque_Nm=2.0), "tolerance": WIDE}
+    return Design(External(6), limits=Limits(pin_force_max_N=force), **(given | more))
+
+
+def row(of, name):
+    return one(of.mechanism, name)
+
+
+def test_no_tolerance_no_row():
+    bare = design(tolerance=Tolerance(distribution="normal"))
+    assert row(bare, "entry_shock_N") is None
+    assert row(bare, "reversal_shock_N") is None
+    # a crank as long as it should be; and nothing that turns on
+    assert row(design(tolerance=Tolerance(slot_width_mm=0.01)), "entry_shock_N") is None
+    assert row(design(load=Load(torque_Nm=2.0)), "reversal_shock_N") is None
+
+
+def test_values_are_those_of_the_worst_machine():
+    of = design(1e6)
+    [engagement] = of.mechanism.engagements
+    contact = shock.contact(engagement, 0.02 / 50.0, -0.03 / 100.0)
+    check = row(of, "entry_shock_N")
+    assert check.value == force_N(of.mechanism, contact.jump)
+    assert check.at_deg == contact.at_deg
+    assert check.passes
+    drag = shock.drag_over(of.mechanism)
+    [start] = shock.changes(engagement, drag)
+    x, y = (z.c[0] for z in engagement.path(start, 0))
+    play = 2.0 * math.asin(0.03 / (100.0 * math.hypot(x, y)))
+    [impact] = shock.impacts(engagement, play, drag)
+    assert row(of, "reversal_shock_N").value == pytest.approx(
+        force_N(of.mechanism, impact.speed), rel=1e-12
+    )
+
+
+def test_what_would_pass_passes():
+    of = design(100.0)
+    check = row(of, "entry_shock_N")
+    assert check.passes is False
+    for key, value in re.findall(r"(\w+_mm) = ([\d.e-]+)", check.nearest):
+        of = of.with_(f"tolerance.{key}", float(value))
+    assert row(of, "entry_shock_N").passes
+    check = row(of, "reversal_shock_N")
+    assert check.passes is False
+    drag = float(re.match(r"add a drag of ([\d.]+) N m and", check.nearest)[1])
+    assert row(of.with_("load.torque_Nm", 2.0 + drag), "reversal_shock_N") is None
+    assert row(of.with_("load.torque_Nm", 2.0 + 0.97 * drag), "reversal_shock_N") is not None
+
+
+def test_what_is_missing_is_named():
+    check = row(design(size=Size(), load=Load()), "entry_shock_N")
+    assert (check.value, check.passes) == (None, None)
+    for key in ("inertia_kgm2", "face_width_mm", "pin_force_max_N"):
+        assert key in check.nearest
+    check = row(design(), "reversal_shock_N")
+    assert check.value > 0.0
+    assert check.passes is None
+    assert "set pin_force_max_N in [limits]; add a drag of" in check.nearest
+
+
+def test_the_dimensions_that_are_not_there():
+    """On a sphere the centre distance moves nothing; its crank's arm does."""
+    only = Design(Spherical(6), tolerance=Tolerance(center_distance_mm=0.1))
+    assert entry_blow(only.mechanism) is None
+    assert entry_blow(only.with_("tolerance.crank_radius_mm", 0.1).mechanism).jump < 0.0
+    assert reversal_blow(only.mechanism) is None

@@ -1,0 +1,447 @@
+"""Tolerances against closed solutions at 50 digits, corners tried one by one, and whole turns."""
+
+import json
+import math
+from itertools import product
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
+from geneva_cli.analysis.tolerance import drawn
+from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.analysis.tolerance.entered import entered
+from geneva_cli.analysis.tolerance.held import Lock
+from geneva_cli.analysis.tolerance.led import led
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.laws.standard import Cycloidal
+from geneva_cli.machine.spec import Motion
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.tolerance.recesses import locks
+from tests.repo import ROOT
+
+ALL = Tolerance(
+    center_distance_mm=0.02,
+    crank_radius_mm=0.03,
+    roller_diameter_mm=0.01,
+    slot_width_mm=0.02,
+    slot_angle_deg=0.02,
+    lock_radius_mm=0.015,
+    recess_radius_mm=0.01,
+)
+PLAYS = Size(slot_clearance_mm=0.05, lock_clearance_mm=0.06, lock_radius_mm=38.0)
+
+
+@pytest.fixture(autouse=True)
+def digits():
+    with mp.workdps(50):
+        yield
+
+
+def at(**values):
+    """Deviations by name, the others 0; millimetres and radians."""
+    return deviations([values.get(name, 0.0) for name in Deviations._fields])
+
+
+def told(design, samples=4096, **more):
+    return design.tolerance(samples, **more).to_dict()
+
+
+# The lock ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "name", ["press-straight", "internal-z6", "three-rollers-z4", "unequal-steps", "offset-slots"]
+)
+def test_play_of_the_lock_is_that_of_a_whole_turn(name):
+    """Found there from the outlines, in steps, without knowing what stops the wheel."""
+    design = load(str(ROOT / "designs" / f"{name}.toml")).with_("size.lock_clearance_mm", 0.05)
+    found = [lock(at()).angle.c[0] for lock in locks(design.parts)]
+    # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
+    assert math.degrees(max(found)) == pytest.approx(design.proof.turn.dwell.deg, rel=1e-5)
+
+
+def by_points(lock, dL, dk, dr):
+    """The play by brute force: a recess of very many points, turned until one is in the disc."""
+    c, k, r = lock.L + dL, lock.lock + dk, lock.recess + dr
+    reach = math.acos((lock.L**2 + r**2 - lock.corner**2) / (2 * lock.L * r))
+    u = np.linspace(-reach, reach, 200_001)
+    points = lock.L - r * np.exp(1j * u)
+
+    def free(angle):
+        from_axis = points * np.exp(1j * angle) - c
+        inside = np.abs(np.angle(-from_axis)) <= lock.half
+        return bool((np.abs(from_axis)[inside] >= k).all())
+
+    low, high = 0.0, 0.01
+    assert not free(high)
+    if not free(low):
+        return None
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if free(middle) else (low, middle)
+    return low
+
+
+@pytest.mark.parametrize("half", [120.0, 20.0], ids=["whole disc", "short arc"])
+@pytest.mark.parametrize(
+    "dL, dk, dr",
+    [(0, 0, 0), (0.01, 0, 0), (-0.01, 0, 0), (-0.045, 0, 0), (0, 0.03, -0.01), (-0.02, 0.01, 0.02)],
+)
+def test_play_of_deviating_locks_by_points(half, dL, dk, dr):
+    lock = Lock(100.0, 1.0, 38.0, 38.05, math.hypot(50.0 * math.sqrt(3.0), 5.0), math.radians(half))
+    place = lock(at(center_distance_mm=dL, lock_radius_mm=dk, recess_radius_mm=dr))
+    true = by_points(lock, dL, dk, dr)
+    assert not place.jams
+    # a point every 4e-4 mm of the recess; where an end of the disc stops it, that is its error
+    assert place.angle.c[0] == pytest.approx(true, abs=5e-6 if half < 60.0 else 1e-9)
+
+
+def test_a_disc_that_does_not_go_in_jams():
+    lock = Lock(100.0, 1.0, 38.0, 38.05, 86.7, 2.0)
+    for by in (
+        at(lock_radius_mm=0.06),
+        at(center_distance_mm=-0.0501),
+        at(recess_radius_mm=-0.03, lock_radius_mm=0.03),
+    ):
+        assert lock(by).jams
+        assert lock(by).angle.c[0] == 0.0
+    assert not lock(at(center_distance_mm=0.06)).jams  # away from it: only more play
+
+
+@pytest.mark.parametrize("half, sign", [(2.0, 1.0), (0.3, 1.0), (0.3, -1.0), (1.2, -1.0)])
+def test_slopes_of_the_lock(half, sign):
+    """The corner, or the disc's end, of the formulas in their words; differences at 50 digits."""
+    lock = Lock(100.0, sign, 38.0, 38.05, 86.7, half)
+    L, p = mp.mpf(lock.L), mp.mpf(lock.corner)
+
+    def angle(a, b, opposite):
+        return mp.acos((a * a + b * b - opposite**2) / (2 * a * b))
+
+    def play(dL, dk, dr):
+        c, k, r = L + dL, mp.mpf(lock.lock) + dk, mp.mpf(lock.recess) + dr
+        if lock.reach <= lock.half:
+            return angle(L, p, r) - angle(c, p, k)
+        end = c - sign * k * mp.expj(mp.mpf(half) * -sign)
+        return angle(abs(end), L, r) - mp.arg(end)
+
+    for i, name in ((0, "center_distance_mm"), (5, "lock_radius_mm"), (6, "recess_radius_mm")):
+        way = [float(name == other) for other in Deviations._fields]
+        true = mp.diff(lambda h, w=way: play(h * w[0], h * w[5], h * w[6]), 0)
+        # the angle is a small difference of large ones, and so is the slope by L
+        assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
+
+
+# The motion ----------------------------------------------------------------------------------
+
+
+def closed(design, phi, side, dev):
+    """The wheel's angle of a machine with deviations, from its crank's angle, at 50 digits."""
+    spec, m = design.spec, design.mechanism
+    L, sign = mp.mpf(m.center_distance_mm), spec.wheel.SIGN
+    dL, dR, dd, dw, da = (mp.mpf(dev.get(n, 0)) for n in Deviations._fields[:5])
+    b = mp.pi / spec.wheel.z
+    e = mp.mpf(vars(spec.wheel).get("offset_mm", 0.0))
+    R = L * mp.sin(b) * mp.sqrt(1 - (e / L / mp.cos(b)) ** 2)
+    c = (mp.mpf(spec.size.slot_clearance_mm) + (dw - dd) / 2) * side
+
+    def wheel(R, L, c):
+        x, y = L - sign * R * mp.cos(phi), R * mp.sin(phi)
+        return mp.atan2(y, x) + mp.asin((e + c) / mp.hypot(x, y))
+
+    return wheel(R + dR, L + dL, c) - wheel(R, L, mp.mpf(0)) + da
+
+
+MACHINES = [
+    Design(External(6), size=PLAYS, tolerance=ALL),
+    Design(External(3), size=Size(slot_clearance_mm=0.02), tolerance=ALL),
+    Design(Internal(5), size=Size(slot_clearance_mm=0.05), tolerance=ALL),
+    Design(External(8, offset_mm=-6.0), size=Size(slot_clearance_mm=0.05), tolerance=ALL),
+]
+
+
+@pytest.mark.parametrize("design", MACHINES)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_place_and_slopes_in_the_motion(design, side):
+    [one] = led(design.mechanism)
+    dev = {"center_distance_mm": 0.02, "crank_radius_mm": -0.01, "slot_width_mm": 0.015}
+    for share in (-0.97, -0.3, 0.0, 0.6):
+        deg = share * one.engagement.exit_deg if share > 0 else -share * one.engagement.entry_deg
+        phi = mp.radians(mp.mpf(deg))
+        got = one(at(**dev), deg, side).c[0]
+        assert abs(got - closed(design, phi, side, dev)) < 1e-15
+        for i, name in enumerate(Deviations._fields[:5]):
+            true = mp.diff(lambda h, n=name, p=phi: closed(design, p, side, {n: h}), 0)
+            assert abs(one(slope_of(i), deg, side).c[1] - true) < 2e-15 / min(1, abs(true) * 1e3)
+
+
+def test_the_sensitivities_of_the_theory():
+    """theory-loads.md, section 7: L sin phi / D2 and -R sin phi / D2, without clearance."""
+    [one] = led(Design(External(6)).mechanism)
+    L, R = mp.mpf(100), mp.mpf(50)
+    for deg in (-59.0, -20.0, 31.4):
+        phi = mp.radians(mp.mpf(deg))
+        D2 = L * L + R * R - 2 * L * R * mp.cos(phi)
+        assert abs(one(slope_of(1), deg, 1.0).c[1] - L * mp.sin(phi) / D2) < 1e-17
+        assert abs(one(slope_of(0), deg, 1.0).c[1] + R * mp.sin(phi) / D2) < 1e-17
+
+
+@pytest.mark.parametrize("design", MACHINES)
+def test_worst_case_by_corners(design):
+    """Each combination, at each of many angles, in the closed solution."""
+    names = Deviations._fields[:5]
+    sizes = [design.spec.tolerance.as_dict()[n] for n in names]
+    sizes[4] = math.radians(sizes[4])
+    [one] = led(design.mechanism)
+    with mp.workdps(20):
+        worst = max(
+            side * closed(design, mp.radians(deg), side, dict(zip(names, corner, strict=True)))
+            for deg in np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 41)
+            for side in (1, -1)
+            for corner in product(*[(-s, s) for s in sizes[:2]], (-sizes[2],), (sizes[3],))
+            for corner in [(*corner, side * sizes[4])]
+        )
+    found = told(design)["motion_play.worst_deg"]
+    # between 41 angles the greatest may be missed by its curvature, never exceeded
+    assert -1e-15 < found - float(mp.degrees(worst)) < 2e-3 * found
+
+
+def test_worst_and_squares_in_the_dwell():
+    found = told(MACHINES[0])
+    [lock] = locks(MACHINES[0].parts)
+    worst = lock(at(center_distance_mm=0.02, lock_radius_mm=-0.015, recess_radius_mm=0.01)).angle
+    assert found["dwell_position.worst_deg"] == pytest.approx(math.degrees(worst.c[0]) + 0.02)
+    play = lock(at()).angle.c[0]
+    slopes = [lock(slope_of(i)).angle.c[1] for i in (0, 5, 6)]
+    squares = sum((s * t) ** 2 for s, t in zip(slopes, (0.02, 0.015, 0.01), strict=True))
+    rss = math.degrees(play + math.sqrt(squares + math.radians(0.02) ** 2))
+    assert found["dwell_position.rss_deg"] == pytest.approx(rss, rel=1e-13)
+    shares = [row["share"] for row in found["contributions"]]
+    assert sum(shares) == pytest.approx(1.0, rel=1e-13)
+    assert shares == sorted(shares, reverse=True)
+    assert sum(row["motion_share"] for row in found["contributions"]) == pytest.approx(1.0)
+    assert found["dwell_position.p997_deg"] < found["dwell_position.worst_deg"]
+
+
+# Machines drawn ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("distribution, std", [("uniform", 0.02 / 3**0.5), ("normal", 0.02 / 3)])
+def test_one_dimension_alone_keeps_its_distribution(distribution, std):
+    design = Design(
+        External(6), tolerance=Tolerance(slot_angle_deg=0.02, distribution=distribution)
+    )
+    found = told(design, 1 << 16)
+    for name in ("dwell_position", "motion_play"):
+        assert found[f"{name}.worst_deg"] == pytest.approx(0.02, rel=1e-14)
+        assert found[f"{name}.rss_deg"] == pytest.approx(0.02, rel=1e-14)
+        assert abs(found[f"{name}.mean_deg"]) < 1e-5 * 0.02
+        assert found[f"{name}.std_deg"] == pytest.approx(std, rel=1e-4)
+    # 99.7 % of a normal distribution is within 2.9677 standard deviations
+    p997 = 0.997 * 0.02 if distribution == "uniform" else 2.967738 * std
+    assert found["dwell_position.p997_deg"] == pytest.approx(p997, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "wheel, key, s",
+    [
+        (External(3), "crank_radius_mm", 1e-7),
+        (External(6), "center_distance_mm", 1e-6),
+        (Internal(6), "crank_radius_mm", 1e-6),
+    ],
+)
+def test_mean_jump_of_a_million(wheel, key, s):
+    """0.411089479331229 tan b sqrt(2 s), for a normal error of R/L of standard deviation s.
+
+    The jump's next term is about 2 sqrt(s) of it: of small errors it is less than chance.
+    """
+    b = math.pi / wheel.z
+    size = 100.0 * (math.sin(b) if key == "crank_radius_mm" else 1.0)
+    normal = Tolerance(distribution="normal", **{key: 3.0 * s * size})
+    found = told(Design(wheel, tolerance=normal), 1_000_000)
+    factor = 2 ** (-1 / 4) * math.gamma(3 / 4) / math.sqrt(2 * math.pi)
+    assert factor == pytest.approx(0.411089479331229, rel=1e-14)
+    true = factor * math.tan(b) * math.sqrt(2.0 * s)
+    assert abs(found["entry_jump.mean"] - true) < 4.0 * found["entry_jump.std"] / 1000.0
+    # E jump² = tan² b 2 s E max(n, 0) = tan² b 2 s / sqrt(2 pi)
+    square = 2.0 * s * math.tan(b) ** 2 / math.sqrt(2.0 * math.pi)
+    assert found["entry_jump.std"] == pytest.approx(math.sqrt(square - true**2), rel=3e-3)
+    assert found["entry_jump.missed_share"] == pytest.approx(0.5, abs=1e-4)
+
+
+def test_mean_jump_of_large_errors():
+    """The law of sines, summed over a uniform error of up to a hundredth of R/L."""
+    b, big = mp.pi / 3, mp.mpf("0.01")
+
+    def jump(eps):
+        l = mp.sin(b) * (1 + eps)
+        a = mp.pi - mp.asin(1 / (1 + eps)) - b
+        return -l * (mp.cos(a) - l) / (1 - 2 * l * mp.cos(a) + l * l)
+
+    # by the root of the error the jump is smooth
+    with mp.workdps(15):
+        mean = mp.quad(lambda u: jump(u * u) * 2 * u, [0, mp.sqrt(big)]) / (2 * big)
+    arm = 100.0 * math.sin(math.pi / 3)
+    found = told(Design(External(3), tolerance=Tolerance(crank_radius_mm=0.01 * arm)), 1 << 18)
+    assert found["entry_jump.mean"] == pytest.approx(float(mean), rel=1e-5)
+    assert found["entry_jump.worst"] == pytest.approx(float(jump(big)), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "design",
+    [
+        Design(External(3)),
+        Design(Internal(4)),
+        Design(External(6), SideCrank(A=-0.4)),
+        Design(External(6, offset_mm=8.0)),
+        Design(Spherical(5)),
+        load(str(ROOT / "designs" / "four-bar-z4.toml")),
+    ],
+)
+def test_the_table_of_jumps_against_each_exact_one(design):
+    from geneva_cli.analysis.shock import contact
+
+    one = entered(design.mechanism)[0]
+    arm = design.spec.drive.ONE_ARM
+    center = design.spec.wheel.FLAT
+    rng = np.random.default_rng(5)
+    R = rng.normal(0.0, 0.02, 40) * arm * 10.0 ** rng.uniform(-4.0, 0.0, 40)
+    L = rng.normal(0.0, 0.02, 40) * center * 10.0 ** rng.uniform(-4.0, 0.0, 40)
+    jumps, missed = one(at(crank_radius_mm=R, center_distance_mm=L))
+    some = 0
+    for jump, misses, dR, dL in zip(jumps, missed, R, L, strict=True):
+        true = contact(one.line.engagement, dR / one.arm, dL / one.L)
+        some += true is not None
+        assert misses == (true is None)
+        assert jump == pytest.approx(abs(true.jump) if true else 0.0, rel=2e-6)
+    assert some > 5
+
+
+def test_the_same_seed_the_same_machines(monkeypatch):
+    one = told(MACHINES[0], 5000, seed=3)
+    assert str(told(MACHINES[0], 5000, seed=3)) == str(one)
+    assert told(MACHINES[0], 5000, seed=4)["motion_play.std_deg"] != one["motion_play.std_deg"]
+    monkeypatch.setattr(drawn, "BLOCK", 256)
+    assert str(told(MACHINES[0], 5000, seed=3)) == str(one)
+
+
+def test_machines_that_do_not_go_together_are_counted():
+    """Without clearance every other roller is wider than its slot."""
+    found = told(Design(External(6), tolerance=Tolerance(roller_diameter_mm=0.01)), 1 << 14)
+    assert found["clearances.jam_share"] == pytest.approx(0.5, abs=1e-3)
+    assert found["clearances.turns"] is False
+    assert "slot_clearance_mm must be at least 0.005" in found["warnings"][-1]
+
+
+# Clearances ----------------------------------------------------------------------------------
+
+
+def test_clearances_that_still_turn():
+    found = told(MACHINES[0])
+    [lock] = locks(MACHINES[0].parts)
+    # the tightest lock gives way by so much at the mouth, cos 30 deg of 100 mm off
+    yields = lock(at(center_distance_mm=-0.02, lock_radius_mm=0.015, recess_radius_mm=-0.01)).angle
+    mouth = 100.0 * math.cos(math.pi / 6)
+    across = 0.03 + 0.02 * math.sin(math.pi / 6)
+    across += mouth * (math.sin(math.radians(0.02)) - math.sin(yields.c[0]))
+    assert found["clearances.slot_needed_mm"] == pytest.approx(0.015 + across, rel=1e-9)
+    assert found["clearances.lock_needed_mm"] == pytest.approx(0.02 + 0.015 + 0.01)
+    needed = found["clearances.slot_needed_mm"]
+    for clearance, turns in ((needed * 1.001, True), (needed * 0.999, False)):
+        design = MACHINES[0].with_("size.slot_clearance_mm", clearance)
+        assert told(design)["clearances.turns"] is turns
+
+
+def test_the_parts_of_the_tightest_and_the_loosest_are_turned(monkeypatch):
+    """What is said to turn has been turned: two machines, neither of them the one of the spec."""
+    from geneva_cli.verdict.tolerance import needed
+
+    turned = []
+
+    class Seen(Proof):
+        def __init__(self, mechanism):
+            turned.append(mechanism.spec.size)
+            super().__init__(mechanism)
+
+    monkeypatch.setattr(needed, "Proof", Seen)
+    design = MACHINES[0].with_("size.slot_clearance_mm", 0.1)
+    assert told(design)["clearances.turns"] is True
+    tight, loose = turned
+    assert (tight.roller_radius_mm, loose.roller_radius_mm) == (5.005, 4.995)
+    assert (tight.lock_radius_mm, loose.lock_radius_mm) == (38.015, 37.985)
+    assert tight.lock_clearance_mm == pytest.approx(0.06 - 0.045)
+    assert loose.lock_clearance_mm == pytest.approx(0.06 + 0.045)
+
+
+def test_a_loose_machine_that_does_not_find_its_slot_is_said():
+    loose = Size(slot_clearance_mm=4.0, lock_clearance_mm=1.5, lock_radius_mm=36.0)
+    design = Design(External(6), size=loose, tolerance=Tolerance(slot_width_mm=1.9))
+    found = told(design)
+    assert found["clearances.turns"] is False
+    assert "smallest roller" in found["warnings"][-1] or "largest" in found["warnings"][-1]
+
+
+# What does not apply, and bad input ----------------------------------------------------------
+
+
+def test_what_does_not_apply_is_null_and_said():
+    angle = Tolerance(slot_angle_deg=0.01, center_distance_mm=0.01, crank_radius_mm=0.01)
+    curved = told(Design(External(6), None, Motion(Cycloidal()), tolerance=angle))
+    assert curved["motion_play.worst_deg"] is None
+    assert curved["entry_jump.mean"] is None
+    assert curved["dwell_position.worst_deg"] > 0.01
+    sphere = told(Design(Spherical(6), tolerance=angle))
+    assert sphere["dwell_position.rss_deg"] is None
+    assert sphere["clearances.turns"] is None
+    assert sphere["motion_play.worst_deg"] > 0.01
+    assert "shafts meet" in sphere["warnings"][0]
+    linkage = load(str(ROOT / "designs" / "four-bar-z4.toml")).with_("tolerance.crank_radius_mm", 1)
+    found = told(linkage)
+    assert "crank_radius_mm is left out" in found["warnings"][0]
+    assert found["motion_play.rss_deg"] == 0.0
+    names = [set(one) for one in (curved, sphere, found, told(MACHINES[0]))]
+    assert all(one == names[0] for one in names)
+    json.dumps(found["warnings"], allow_nan=False)
+
+
+@pytest.mark.parametrize(
+    "design, options, words",
+    [
+        (Design(External(6)), {}, "set one or more of center_distance_mm, crank_radius_mm"),
+        (MACHINES[0], {"samples": 0}, "--samples 0: it must be from 1 to 10000000"),
+        (MACHINES[0], {"samples": 10**12}, "--samples 1000000000000: it must be"),
+        (MACHINES[0], {"seed": -1}, "--seed -1"),
+        (MACHINES[0], {"radius_mm": math.nan}, "--radius nan"),
+        (MACHINES[0], {"radius_mm": -3.0}, "--radius -3"),
+    ],
+)
+def test_refused(design, options, words):
+    with pytest.raises(GenevaError) as error:
+        told(design, **options)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "key, value, words",
+    [
+        ("center_distance_mm", 100.0, "below 100, the centre distance"),
+        ("crank_radius_mm", 50.5, "below 50, the crank's radius"),
+        ("roller_diameter_mm", 10.0, "below 10, the roller's diameter"),
+        ("slot_width_mm", 20.0, "below 10.1, the slot's width"),
+        ("slot_angle_deg", 30.0, "below 30, half the wheel's step"),
+        ("lock_radius_mm", 40.0, "below 38, the locking disc's radius"),
+    ],
+)
+def test_a_tolerance_as_large_as_its_dimension_is_refused(key, value, words):
+    with pytest.raises(GenevaError, match=key) as error:
+        _ = MACHINES[0].with_(f"tolerance.{key}", value).mechanism
+    assert words in str(error.value)
+
+
+def test_a_lock_that_is_not_there_has_no_tolerance():
+    bare = Design(External(6), size=Size(lock_radius_mm=0.0))
+    for key in ("lock_radius_mm", "recess_radius_mm"):
+        with pytest.raises(GenevaError, match="no locking disc"):
+            _ = bare.with_(f"tolerance.{key}", 0.01).mechanism
