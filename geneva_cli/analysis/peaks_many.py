@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.engagement import Engagement, Motion
+from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import TIE
-from geneva_cli.numerics.roots_many import peaks_many
+from geneva_cli.numerics.roots_many import GROUP, peaks_many
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -38,16 +38,38 @@ class PeakOfMany(NamedTuple):
     at_deg: Array
 
 
+class _Samples:
+    """A motion's derivatives by the input's angle in radians, at angles in degrees.
+
+    All quantities are scanned at the same places, a block of designs after the other; these
+    samples are kept.
+    """
+
+    def __init__(self, motion: Motion, quantities: Sequence[str]) -> None:
+        self.motion = motion
+        self.order = 1 + max(ABOVE[name] for name in quantities)
+        self.kept: dict[int, tuple[Array, ...]] = {}
+
+    def __call__(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
+        # Designs lie side by side in memory: each operation runs along all of them.
+        angles = np.asfortranarray(x)
+        if not isinstance(which, slice):
+            some: Motion = taken(self.motion, which)
+            return some(angles, order).derivatives()
+        if which.start not in self.kept:
+            motion: Motion = taken(self.motion, which)
+            self.kept[which.start] = motion(angles, self.order).derivatives()
+        return self.kept[which.start]
+
+
 class _Curve(NamedTuple):
     """A quantity over the input angle in degrees, as ``roots_many`` asks for it."""
 
-    motion: Motion
+    samples: _Samples
     quantity: str
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        # Designs lie side by side in memory: each operation runs along all of them.
-        angles = np.asfortranarray(x)
-        p = taken(self.motion, which)(angles, ABOVE[self.quantity] + order).derivatives()
+        p = self.samples(x, which, ABOVE[self.quantity] + order)
         if self.quantity == "power":
             out = [p[1] * p[2], p[2] ** 2 + p[1] * p[3], 3.0 * p[2] * p[3]]
             if order > 1:
@@ -57,22 +79,45 @@ class _Curve(NamedTuple):
         return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(out[: order + 1])]
 
 
-def peak_of_many(motion: Motion, quantity: str) -> PeakOfMany:
-    """The greatest size of one quantity over the motions of m designs, ends included."""
-    known = motion.known(quantity)
-    if known is not None:
-        return PeakOfMany(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
+def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakOfMany]:
+    """The greatest sizes over the motions of m designs, ends included, at their input angles."""
+    found, sought = {}, []
+    for name in quantities:
+        known = motion.known(name)
+        if known is None:
+            sought.append(name)
+        else:
+            found[name] = PeakOfMany(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
+    if sought:
+        found |= _sought(motion, sought)
+    return found
+
+
+def _sought(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = np.size(motion(motion.entry_deg, 1).c[1] + motion.entry_deg)
-    places = [np.broadcast_to(x, (m, 1)) for x in breaks]
-    best: PeakOfMany | None = None
-    curve = _Curve(motion, quantity)
-    for a, b in zip(places, places[1:], strict=False):
-        # A break belongs to the piece before it; the piece after begins one double later.
-        start = a if best is None else np.nextafter(a, np.inf)
-        here = PeakOfMany(*peaks_many(curve, start, np.maximum(start, b)))
-        best = here if best is None else _greater(best, here)
-    assert best is not None  # a motion has an entry and an exit
+    places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
+    parts = [_part(motion, places, slice(i, i + GROUP), quantities) for i in range(0, m, GROUP)]
+    return {
+        name: PeakOfMany(*(np.concatenate(v) for v in zip(*[p[name] for p in parts], strict=True)))
+        for name in quantities
+    }
+
+
+def _part(
+    motion: Motion, places: Array, which: slice, quantities: Sequence[str]
+) -> dict[str, PeakOfMany]:
+    """Of some of the designs, between their breaks one after the other."""
+    best: dict[str, PeakOfMany] = {}
+    some = taken(motion, which)
+    for i in range(places.shape[1] - 1):
+        a, b = places[which, i : i + 1], places[which, i + 1 : i + 2]
+        if i:  # a break belongs to the piece before it; the piece after begins one double later
+            a = np.minimum(np.nextafter(a, np.inf), b)
+        samples = _Samples(some, quantities)
+        for name in quantities:
+            here = PeakOfMany(*peaks_many(_Curve(samples, name), a, b))
+            best[name] = _greater(best[name], here) if name in best else here
     return best
 
 
@@ -84,20 +129,13 @@ def _greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
     )
 
 
-def peaks_of_many(
-    engagement: Engagement, quantities: Sequence[str] = QUANTITIES
-) -> dict[str, PeakOfMany]:
-    """The peaks of one engagement of m designs, at its own input angles."""
-    return {name: peak_of_many(engagement.motion, name) for name in quantities}
-
-
 def worst_of_many(
     mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES
 ) -> dict[str, PeakOfMany]:
     """The greatest peaks over all engagements; angles are the machine's input angles."""
     best: dict[str, PeakOfMany] = {}
     for engagement in mechanism.engagements:
-        for name, found in peaks_of_many(engagement, quantities).items():
+        for name, found in peaks_of_many(engagement.motion, quantities).items():
             at_deg: Any = engagement.mid_deg + found.at_deg[:, None]
             here = PeakOfMany(found.max, np.ravel(mechanism.shown_deg(at_deg)))
             best[name] = _greater(best[name], here) if name in best else here

@@ -19,7 +19,7 @@ from geneva_cli.machine.engagement import (
 )
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import are_designs, chosen, library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
 
 if TYPE_CHECKING:
@@ -145,7 +145,10 @@ class Followed(Motion):
 
             return solve
 
-        return piecewise(input_deg, self.path.cuts, [about(a) for a in self.path.anchors])
+        anchors, cuts = self.path.anchors, self.path.cuts
+        if are_designs(input_deg, cuts[0], cuts[-1]):
+            return about(chosen(input_deg, cuts, anchors))(input_deg)
+        return piecewise(input_deg, cuts, [about(a) for a in anchors])
 
 
 class Classic(Followed):

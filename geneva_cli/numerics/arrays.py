@@ -31,12 +31,37 @@ def choose(condition: Any, yes: Any, no: Any) -> Any:
     """
     if isinstance(condition, bool):
         return yes if condition else no
+    if yes is no:
+        return yes
     if isinstance(yes, tuple):
         parts = [choose(condition, a, b) for a, b in zip(yes, no, strict=True)]
         return type(yes)(*parts) if type(yes) is not tuple else tuple(parts)
     import numpy
 
     return numpy.where(condition, yes, no)
+
+
+def chosen(x: Any, cuts: Sequence[Any], records: Sequence[Any]) -> Any:
+    """``records[i]`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
+
+    x or the cuts are arrays of designs; the record's numbers are chosen for each x.
+    """
+    out = records[0]
+    for cut, record in zip(cuts, records[1:], strict=True):
+        past = x > cut
+        if past.all():
+            out = record
+        elif past.any():
+            out = choose(past, record, out)
+        else:
+            break
+    return out
+
+
+def are_designs(x: Any, *numbers: Any) -> bool:
+    """Whether angles are (n, k), or one of some numbers differs from design to design."""
+    plain = isinstance(x, float) or x.ndim < 2
+    return not (plain and all(isinstance(one, float) for one in numbers))
 
 
 def all_true(condition: Any) -> bool:

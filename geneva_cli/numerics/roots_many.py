@@ -145,13 +145,17 @@ class _Scan(NamedTuple):
     low: Array  # the least and the greatest sample of each design
     high: Array
     turns: _Pairs  # where the slope changes sign, or is zero at one end
+    missed: _Pairs  # where a cubic does not predict: to be halved
 
 
 def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     """A group of designs, the first of which has the number ``start``."""
     scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
     ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
-    return _Scan(ends, low, high, _joined([s.turns for s in scans]))
+    turns, missed = (_joined([s[i] for s in scans]) for i in (3, 4))
+    if len(missed.which):
+        turns = _joined([turns, _refined(f, start, missed, low, high)])
+    return _Scan(ends, low, high, turns, missed)
 
 
 def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
@@ -167,35 +171,33 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     turn[:, ::2] &= ~missed
     turn[:, 1::2] &= ~missed
     row, column = np.nonzero(turn)
-    settled = [_Pairs(row + start, samples[:, row, column], samples[:, row, column + 1])]
+    turns = _Pairs(row + start, samples[:, row, column], samples[:, row, column + 1])
     row, column = np.nonzero(missed)
-    if len(row):
-        left, middle, right = (s[:, row, column] for s in (left, middle, right))
-        halves = _joined([_Pairs(row, left, middle), _Pairs(row, middle, right)])
-        settled += _refined(f, start, halves, low, high)
-    return _Scan(value[:, [0, -1]], low, high, _joined(settled))
+    left, middle, right = (s[:, row, column] for s in (left, middle, right))
+    row += start
+    halves = _joined([_Pairs(row, left, middle), _Pairs(row, middle, right)])
+    return _Scan(value[:, [0, -1]], low, high, turns, halves)
 
 
-def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> list[_Pairs]:
+def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _Pairs:
     """Pairs with a turn, halved until a cubic predicts; low and high grow as it comes to light."""
     settled = []
     for _ in range(DEEPEST):
         ask()
         which, left, right = open_
         x = 0.5 * (left[0] + right[0])
-        value, slope = (v[:, 0] for v in f(x[:, None], which + start, 1))
-        middle = np.stack((x, value, slope))
-        np.minimum.at(low, which, value)
-        np.maximum.at(high, which, value)
-        missed = _missed(left, middle, right, low[which], high[which])
+        value, slope = (v[:, 0] for v in f(x[:, None], which, 1))
+        middle, here = np.stack((x, value, slope)), which - start
+        np.minimum.at(low, here, value)
+        np.maximum.at(high, here, value)
+        missed = _missed(left, middle, right, low[here], high[here])
         halves = [_Pairs(which, left, middle), _Pairs(which, middle, right)]
         settled += [half.taken(~missed) for half in halves]
         open_ = _joined([half.taken(missed) for half in halves])
         if not len(open_.which):
             break
     pairs = _joined([*settled, open_])
-    pairs = pairs.taken(_turns(pairs.left[2], pairs.right[2]))
-    return [pairs._replace(which=pairs.which + start)]
+    return pairs.taken(_turns(pairs.left[2], pairs.right[2]))
 
 
 def _missed(left: Array, middle: Array, right: Array, low: Array, high: Array) -> Mask:
@@ -219,7 +221,8 @@ def _missed(left: Array, middle: Array, right: Array, low: Array, high: Array) -
 
 
 def _turns(left: Array, right: Array) -> Mask:
-    turns: Mask = (np.sign(left) * np.sign(right) < 0.0) | (left == 0.0) | (right == 0.0)
+    # both are zero where the function is a constant, or turns where a halving would have seen it
+    turns: Mask = (np.sign(left) * np.sign(right) < 0.0) | ((left == 0.0) != (right == 0.0))
     return turns
 
 

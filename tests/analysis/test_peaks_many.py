@@ -37,7 +37,7 @@ def test_against_50_digits(name):
     spec, rules = MACHINES[name]
     varied = drawn(rules, 12, 5)
     found = many(spec, varied)
-    peaks = peaks_of_many(found.machine.engagements[0], ["velocity", "acceleration"])
+    peaks = peaks_of_many(found.machine.engagements[0].motion, ["velocity", "acceleration"])
     for row, i in enumerate(found.which[:2]):
         engagement = alone(spec, varied, int(i)).engagements[0]
         exact = motions(alone(spec, varied, int(i)).spec)[0]
