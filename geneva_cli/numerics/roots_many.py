@@ -152,7 +152,9 @@ def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     """A group of designs, the first of which has the number ``start``."""
     scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
     ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
-    turns, missed = (_joined([s[i] for s in scans]) for i in (3, 4))
+    turns, missed = (
+        _joined(pairs) for pairs in ([s.turns for s in scans], [s.missed for s in scans])
+    )
     if len(missed.which):
         turns = _joined([turns, _refined(f, start, missed, low, high)])
     return _Scan(ends, low, high, turns, missed)
