@@ -23,6 +23,7 @@ OURS = {
     "motion": 8 * 2.0**-52,
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error
     "tolerance": 1e-3,  # of 20 000 machines; of a million some 1e-6
+    "vibration": 1e-13,
     "start": 0.0,
     "export": 0.0,
 }

@@ -1,0 +1,169 @@
+"""What the modified sine leaves of a load's swing, at very many period ratios.
+
+A script solves the oscillator's equation; with more thought it integrates the acceleration against
+the swing, or takes the closed form, which is 0/0 at the ratios 2/3 and 2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.analysis.vibration.shape import law_shape
+from geneva_cli.analysis.vibration.swing import Swing, left
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.truth import digits
+from geneva_cli.machine import registry
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+LAW = "modified-sine"
+RATIOS = 100_000
+QUICK = 1_000
+SAMPLE = 20  # ratios of which a loop is run
+CHECKED = 200  # ratios whose error is measured
+BESIDE = (2.0 / 3.0, 2.0 / 3.0 + 1e-9, 2.0, 2.0 - 1e-9)  # where the closed form is 0/0, and near
+BLOCK = 256  # ratios at a time of a sum over points
+LEAST = 1e-3  # share of the step: errors are over the residual, or over this where it is less
+DAMPED = 0.02
+PEAK = 4.0 * math.pi**2 / (4.0 + math.pi)  # C_a, the greatest acceleration
+# The pieces of its acceleration: from, to, rate and phase of the sine
+PIECES = (
+    (0.0, 0.125, 4.0, 0.0),
+    (0.125, 0.875, 4.0 / 3.0, 1.0 / 3.0),
+    (0.875, 1.0, 4.0, -2.0),
+)
+
+
+def acceleration(u: float) -> float:
+    """The law's acceleration at one place, as a script has it."""
+    _, _, rate, phase = next(piece for piece in PIECES if u <= piece[1])
+    return PEAK * math.sin(math.pi * (rate * u + phase))
+
+
+def solved(ratio: Array, damping: float, tolerance: float) -> list[float]:
+    """SciPy's solver of differential equations, piece by piece, one ratio after the other."""
+    from scipy.integrate import solve_ivp
+
+    out = []
+    for value in ratio:
+        omega = 2.0 * math.pi * float(value)
+
+        def slope(u: float, y: Any, omega: float = omega) -> list[float]:
+            swing = 2.0 * damping * omega * y[1] + omega * omega * y[0]
+            return [y[1], -acceleration(u) - swing]
+
+        y = [0.0, 0.0]
+        for a, b, *_ in PIECES:
+            run = solve_ivp(slope, (a, b), y, "DOP853", rtol=tolerance, atol=tolerance * 1e-2)
+            y = run.y[:, -1]
+        back = (y[1] + damping * omega * y[0]) / (omega * math.sqrt(1.0 - damping * damping))
+        out.append(math.hypot(y[0], back))
+    return out
+
+
+def summed(ratio: Array, damping: float, points: int) -> Array:
+    """The trapezoidal rule on the integral of the acceleration times the swing."""
+    u = np.linspace(0.0, 1.0, points)
+    bent = np.array([acceleration(x) for x in u]) / (points - 1)
+    p = 2.0 * np.pi * ratio * complex(-damping, math.sqrt(1.0 - damping * damping))
+    parts = [
+        np.abs(np.exp(np.outer(p[i : i + BLOCK], 1.0 - u)) @ bent) / p[i : i + BLOCK].imag
+        for i in range(0, len(p), BLOCK)
+    ]
+    return np.concatenate(parts)
+
+
+def closed(ratio: Array, damping: float, _: int = 0) -> Array:
+    """The closed form, each sine as two exponentials."""
+    p = 2.0 * np.pi * ratio * complex(-damping, math.sqrt(1.0 - damping * damping))
+    with np.errstate(all="ignore"):
+        found: Array = np.abs(_exponentials(np, np.pi, p)) * PEAK / p.imag
+    return found
+
+
+def _exponentials(m: Any, pi: Any, p: Any) -> Any:
+    """The integral of the unit law times e^(p (1 - u)), for a module's exp."""
+    total = 0.0
+    for a, b, rate, phase in ((_fraction(pi, v) for v in piece) for piece in _thirds()):
+        for side in (1, -1):
+            k = 1j * side * rate * pi
+            at = m.exp(1j * side * phase * pi) / (2j * side)
+            total = total + at * m.exp(p) * (m.exp((k - p) * b) - m.exp((k - p) * a)) / (k - p)
+    return total
+
+
+def _thirds() -> list[tuple[tuple[int, int], ...]]:
+    """The pieces in whole numbers: a quotient each."""
+    return [tuple((round(24 * v), 24) for v in piece) for piece in PIECES]
+
+
+def _fraction(pi: Any, value: tuple[int, int]) -> Any:
+    """A quotient in the arithmetic of ``pi``."""
+    return pi / pi * value[0] / value[1]
+
+
+@cache
+def _exact(ratio: float, damping: float) -> Any:
+    """The same at 50 digits, of which a ratio moved by 1e-25 away from 0/0 leaves half."""
+    mp = digits()
+    zeta, moved = mp.mpf(damping), mp.mpf(ratio) + mp.mpf("1e-25")
+    p = 2 * mp.pi * moved * mp.mpc(-zeta, mp.sqrt(1 - zeta * zeta))
+    return abs(_exponentials(mp, mp.pi, p)) * 4 * mp.pi**2 / (4 + mp.pi) / p.imag
+
+
+def _error(ratio: Array, damping: float, found: Sequence[float] | Array) -> float:
+    worst = 0.0
+    for value, exact in zip(found[:CHECKED], ratio, strict=False):
+        true = _exact(float(exact), damping)
+        error = float(abs(digits().mpf(float(value)) - true) / max(true, LEAST))
+        worst = max(worst, error if math.isfinite(error) else 1.0)  # no digit is right
+    return worst
+
+
+def subject(quick: bool) -> Subject:
+    """Without damping, and with a little."""
+    return Subject(
+        "What a modified sine leaves of a load's swing",
+        f"greatest error of {CHECKED} residuals, over the residual or {LEAST:g} of the step",
+        [_task(damping, quick) for damping in (0.0, DAMPED)],
+    )
+
+
+def _task(damping: float, quick: bool) -> Task:
+    count = QUICK if quick else RATIOS
+    ratio = np.random.default_rng(8).permutation(np.linspace(0.3, 20.0, count))
+    ratio[: len(BESIDE)] = BESIDE
+    ours, sample = law_shape(registry.law(LAW)()), 5 if quick else SAMPLE
+    zeta = np.full(count, damping)
+    methods = [
+        Method(
+            f"loop: SciPy solve_ivp (extrapolated from {sample})",
+            tolerance,
+            partial(solved, ratio[:sample], damping, tolerance),
+            times=count / sample,
+        )
+        for tolerance in ((1e-6,) if quick else (1e-6, 1e-8, 1e-11))
+    ]
+    others: list[tuple[str, Callable[[Array, float, int], Array], Sequence[int]]] = [
+        ("trapezoidal rule", summed, (101,) if quick else (101, 1001)),
+        ("closed form", closed, (0,)),
+    ]
+    methods += [
+        Method(name, size or None, partial(method, ratio, damping, size))
+        for name, method, sizes in others
+        for size in sizes
+    ]
+    methods.append(Method("ours", None, lambda: np.abs(left(ours, Swing(ratio, zeta))), True))
+    return Task(
+        f"{count} period ratios, damping {damping:g}",
+        f"one np.sin + np.cos over {count} numbers",
+        lambda: (np.sin(ratio), np.cos(ratio)),
+        lambda found: _error(ratio, damping, found),
+        methods,
+    )

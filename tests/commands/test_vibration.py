@@ -1,0 +1,133 @@
+"""``geneva vibration`` as a user meets it: its record, its spectrum, and what it refuses."""
+
+import csv
+import io
+import json
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+
+PRESS = str(repo.DESIGNS / "press-straight.toml")
+UNLOADED = str(repo.DESIGNS / "side-crank-z6.toml")
+NAMES = [
+    "spec",
+    "title",
+    "period_ratio",
+    "damping_ratio",
+    "natural_Hz",
+    "residual_share",
+    "residual_deg",
+    "residual_share_worst",
+    "steady_share",
+    "dynamic_factor",
+    "windup_deg",
+    "speeds_to_avoid_rpm",
+    "avoid",
+    "stations",
+    "warnings",
+]
+
+
+def run(*words):
+    return CliRunner().invoke(app, ["vibration", *words])
+
+
+def record(*words):
+    result = run(*words, "--format", "json")
+    assert result.exit_code == 0, result.output
+    return json.loads(result.stdout)
+
+
+@pytest.mark.parametrize("path", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
+def test_the_names_are_the_same_for_every_machine(path):
+    found = record(str(path), "--period-ratio", "3.7", "--damping", "0.01")
+    assert list(found) == NAMES
+    assert [name for name in NAMES if found[name] is None] in ([], ["stations"])
+    assert found["warnings"] == [] or "tuned" in found["warnings"][0]
+
+
+def test_without_an_inertia_all_is_null_and_why():
+    found = record(UNLOADED, "--set", "shaft.stiffness_Nm_rad=100")
+    assert {found[n] for n in NAMES[2:-1]} == {None}
+    assert "inertia_kgm2 in [load]" in found["warnings"][0]
+    # and a period ratio gives all of it
+    assert record(UNLOADED, "--period-ratio", "3")["residual_share"] > 0.0
+
+
+def test_without_damping_there_is_no_steady_state():
+    found = record(PRESS, "--period-ratio", "3")
+    assert found["steady_share"] is None
+    assert "damping_ratio in [shaft]" in found["warnings"][0]
+
+
+def test_a_motion_shorter_than_a_natural_period_is_said():
+    found = record(PRESS, "--period-ratio", "0.5", "--damping", "0.1")
+    assert "cannot follow" in found["warnings"][0]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([PRESS], "no stiffness_Nm_rad in [shaft]: set the stiffness"),
+        ([PRESS, "--set", "shaft.stiffness_Nm_rad=-5"], "stiffness_Nm_rad = -5 must be above 0"),
+        (
+            [PRESS, "--set", "shaft.damping_ratio=1"],
+            "damping_ratio = 1 must be at least 0, below 1",
+        ),
+        (
+            [PRESS, "--period-ratio", "3", "--damping", "1"],
+            "--damping 1: must be at least 0, below",
+        ),
+        ([PRESS, "--period-ratio", "3", "--damping", "nan"], "--damping nan: must be"),
+        ([PRESS, "--period-ratio", "0"], "--period-ratio 0: must be 1e-06 to 100000"),
+        ([PRESS, "--period-ratio", "nan"], "--period-ratio nan: must be"),
+        (
+            [PRESS, "--set", "shaft.stiffness_Nm_rad=1e12", "--set", "load.inertia_kgm2=1e-9"],
+            "makes",
+        ),
+        ([PRESS, "--period-ratio", "3", "--format", "csv", "--samples", "1"], "--samples 1: must"),
+        (
+            [UNLOADED, "--set", "shaft.stiffness_Nm_rad=100", "--format", "csv"],
+            "a load without inertia has no natural period; set inertia_kgm2",
+        ),
+    ],
+)
+def test_what_is_refused(words, said):
+    result = run(*words)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert result.stdout == ""
+
+
+def test_csv_is_the_spectrum(tmp_path):
+    file = tmp_path / "spectrum.csv"
+    words = ("--period-ratio", "6", "--damping", "0.02", "--samples", "5")
+    assert run(PRESS, *words, "-o", str(file)).exit_code == 0
+    text = file.read_text()
+    assert run(PRESS, *words, "--format", "csv").stdout == text
+    rows = list(csv.DictReader(io.StringIO(text)))
+    assert list(rows[0]) == [
+        "n_rpm",
+        "period_ratio",
+        "residual_share",
+        "residual_deg",
+        "residual_share_worst",
+        "steady_share",
+    ]
+    # the middle row is the design's own speed, where the record is
+    found = record(PRESS, "--period-ratio", "6", "--damping", "0.02")
+    for name in rows[0].keys() - {"n_rpm"}:
+        assert float(rows[2][name]) == pytest.approx(found[name], rel=1e-12)
+    assert float(rows[2]["n_rpm"]) == pytest.approx(60.0)
+
+
+def test_a_stiff_and_a_slack_shaft():
+    """From a load that stays behind by the whole step to one that follows like the wheel itself."""
+    slack, stiff = (record(PRESS, "--period-ratio", x) for x in ("1e-6", "1e4"))
+    assert slack["residual_share"] == pytest.approx(1.0)
+    assert slack["dynamic_factor"] == pytest.approx(0.0, abs=1e-9)
+    assert stiff["residual_share"] < 1e-8
+    assert stiff["speeds_to_avoid_rpm"] == []
