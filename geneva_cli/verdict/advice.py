@@ -37,6 +37,8 @@ APART = (
     ("wheel", "held_by"),
     ("shaft", "wheel_diameter_mm"),
     ("shaft", "wheel_overhang_mm"),
+    ("shaft", "crank_diameter_mm"),
+    ("shaft", "crank_overhang_mm"),
     ("material.roller", "dynamic_capacity_N"),
 )
 GAPS = ("gap_mm", "idle_roller_mm")

@@ -221,6 +221,11 @@ _WAYS: dict[str, tuple[Way, ...]] = {
         _times("shaft", "wheel_overhang_mm", 0.1),
         _SLOWER,
     ),
+    "crank_shaft_stress_MPa": (
+        _times("shaft", "crank_diameter_mm", 5.0),
+        _times("shaft", "crank_overhang_mm", 0.1),
+        _SLOWER,
+    ),
     "pressure_angle_deg": (_set("motion", "ratio", "matched"), *_LONGER, _SLOTS),
     "undercut_mm": (_SMALLER, *_LONGER),
     "velocity_min": (Way("motion", "lambda", _sine),),

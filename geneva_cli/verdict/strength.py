@@ -149,15 +149,23 @@ class Strength:
     @cached_property
     def wheel_shaft(self) -> shafts.Turned | None:
         """The wheel's shaft."""
-        ends, name = shafts.wheel_shaft(self.spec.shaft), "wheel_shaft_stress_MPa"
-        placed = (ends.overhang_mm is not None, "wheel_overhang_mm in [shaft]")
-        thick = (ends.diameter_mm is not None, "wheel_diameter_mm in [shaft]")
+        return self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft), shafts.on_wheel)
+
+    @cached_property
+    def crank_shaft(self) -> shafts.Turned | None:
+        """The shaft of a crank that carries the roller, on parallel shafts; None of others."""
+        if not (self.spec.drive.CRANKED and self.spec.wheel.FLAT):
+            return None
+        return self._shaft("crank", shafts.crank_shaft(self.spec.shaft), shafts.on_crank)
+
+    def _shaft(self, which: str, ends: shafts.Ends, loaded: shafts.On) -> shafts.Turned | None:
+        name = f"{which}_shaft_stress_MPa"
+        placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")
+        thick = (ends.diameter_mm is not None, f"{which}_diameter_mm in [shaft]")
         self._lacks(name, placed, thick, self._loaded)
         if not self.spec.is_loaded or not self._bounded(name):
             return None
-        return shafts.shaft(
-            self.cycle, ends, lambda i: i.wheel_bearing_N, lambda i: i.wheel_torque_Nm
-        )
+        return shafts.shaft(self.mechanism, ends, loaded)
 
     @cached_property
     def roller(self) -> roller.Life | None:

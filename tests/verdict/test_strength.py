@@ -31,6 +31,8 @@ WHOLE = Spec(
         wheel_overhang_mm=40.0,
         wheel_diameter_mm=20.0,
         wheel_span_mm=80.0,
+        crank_overhang_mm=30.0,
+        crank_diameter_mm=20.0,
         shear_stress_max_MPa=40.0,
     ),
     limits=Limits(pv_max_W_m2=1e8, roller_life_min_h=2e4, lock_stress_max_MPa=800.0),
@@ -43,6 +45,7 @@ ROWS = {
     "lock_horn_stress_MPa": ("material.wheel.stress_max_MPa", 2.0),
     "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", 400.0),
     "wheel_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 15.0),
+    "crank_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 12.0),
 }
 
 
@@ -68,6 +71,7 @@ def test_each_can_fail_and_one_key_mends_it(name):
     told, _, value = failing.nearest.partition(" = ")
     tables = {
         "wheel_diameter_mm": "shaft",
+        "crank_diameter_mm": "shaft",
         "dynamic_capacity_N": "material.roller",
         "n_rpm": "drive",
     }
@@ -157,6 +161,34 @@ def test_the_wheel_shaft_by_the_code():
     most = abs(at.wheel_torque_Nm).max()
     twist = most * 0.120 / (80.8e9 * math.pi * 0.020**4 / 32.0)
     assert of.wheel_shaft.twist_deg == pytest.approx(math.degrees(twist), rel=1e-6)
+
+
+@pytest.mark.parametrize("A", [0.0, 0.5, -0.3])
+def test_the_crank_shaft_takes_the_crank_s_torque(A):
+    """Moments about the crank's axis, of the force on the roller: bodies cut free.
+
+    The normal force at the contact by its place and direction on the fixed axes, at 2001 angles of
+    a frictionless machine: as near to the peak as these lie.
+    """
+    import numpy as np
+
+    shaft = Shaft(crank_overhang_mm=30.0, crank_diameter_mm=20.0, torsion_factor=2.0)
+    drive = Drive("side-crank", n_rpm=40.0)
+    spec = Spec(Wheel(8), drive, {"A": A}, size=Size(250.0, 12.0), load=Load(1.2, 20.0))
+    mechanism = build(spec.but(shaft=shaft))
+    engagement = mechanism.engagements[0]
+    x = np.linspace(engagement.entry_deg, engagement.exit_deg, 20001)
+    px, py = (0.250 * jet.c[0] for jet in engagement.path(x, 0))
+    rho = np.hypot(px, py)
+    psi = engagement.motion(x, 2)
+    w = 40.0 * math.pi / 30.0
+    force = (1.2 * w * w * psi.c[2] * 2.0 + 20.0) / rho  # a jet's third coefficient is half psi''
+    # on the wheel it is square to the radial slot; its moment about the crank's axis (L, 0)
+    torque = force * ((px - 0.250) * px + py * py) / rho
+    both = np.hypot(1.5 * 0.030 * force, 2.0 * torque).max()
+    found = Strength(mechanism).crank_shaft
+    assert found.moment_Nm == pytest.approx(both, rel=1e-6)
+    assert found.stress_MPa == pytest.approx(16e3 * both / (math.pi * 20.0**3), rel=1e-6)
 
 
 def test_margins():

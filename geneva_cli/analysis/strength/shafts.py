@@ -17,17 +17,20 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.analysis.loads.forces import Row
+from geneva_cli.analysis.loads.forces import Row, setting
+from geneva_cli.analysis.loads.instant import instant
+from geneva_cli.analysis.loads.peaks import maxima
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from geneva_cli.analysis.loads.cycle import Cycle
+    from geneva_cli.analysis.loads.contact import Contact
     from geneva_cli.analysis.loads.instant import Instant
-    from geneva_cli.numerics.jet import Coefficient
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.jet import Coefficient, Jet
     from geneva_cli.spec.tables import Shaft
 
-    Of = Callable[[Instant], Coefficient]
+    On = Callable[[Instant, Contact], tuple[Jet, Jet]]
 
 
 class Turned(NamedTuple):
@@ -72,37 +75,52 @@ def least_diameter_mm(moment_Nm: float, allowed_MPa: float) -> float:
     return math.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
 
 
-def shaft(cycle: Cycle, ends: Ends, force: Of, torque: Of) -> Turned | None:
-    """A shaft under a force and a torque that go with the cycle.
+def on_wheel(i: Instant, at: Contact) -> tuple[Jet, Jet]:
+    """Force and torque on the wheel's shaft: what the slot takes, and what the wheel passes on."""
+    return i.wheel_bearing_N, i.wheel_torque_Nm
 
-    None without an overhang or without a load; infinite moments are those of forces without a
-    bound.
+
+def on_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
+    """Force and torque on the shaft of a crank that carries the roller, on parallel shafts.
+
+    A transmission before it turns the crank at another rate than the input, that of the roller's
+    body; the torque is as much less or more as the power asks.
     """
-    if ends.overhang_mm is None or not cycle.is_loaded:
+    rate = at.spin + at.velocity * at.arm
+    return i.wheel_bearing_N, i.input_torque_Nm / rate
+
+
+def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
+    """A shaft under the force and torque of a cycle; None without an overhang or without a load.
+
+    Moments are infinite where the force has no bound.
+    """
+    if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
-    given = cycle.mechanism.spec.shaft
+    given, known = mechanism.spec.shaft, setting(mechanism)
     lever = given.bending_factor * ends.overhang_mm / 1000.0
 
-    def square(i: Instant) -> Row:
-        bent, turned = force(i) * lever, torque(i) * given.torsion_factor
-        return Row(bent * bent + turned * turned, i.grip)
+    def rows(at: Contact, *signs: Coefficient) -> list[Row]:
+        i = instant(known, at, *signs)
+        force, torque = loaded(i, at)
+        bent, turned = force * lever, torque * given.torsion_factor
+        return [Row(bent * bent + turned * turned, i.grip), Row(torque * torque, i.grip)]
 
-    def twisting(i: Instant) -> Row:
-        turned = torque(i)
-        return Row(turned * turned, i.held)
-
-    both, turned = cycle.extremes(square, twisting)
-    moment, most = math.sqrt(both.max), math.sqrt(turned.max)
-    d, allowed = ends.diameter_mm, given.shear_stress_max_MPa
+    both, at_deg, most = -1.0, 0.0, 0.0
+    for engagement in mechanism.engagements:
+        found, turned = maxima(engagement, known, rows)
+        most = max(most, turned.max)
+        if found.max > both:
+            both, at_deg = found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg)
+    moment, d, allowed = math.sqrt(both), ends.diameter_mm, given.shear_stress_max_MPa
     twist = None
     if d and ends.span_mm and math.isfinite(most):
         length = ends.overhang_mm + ends.span_mm
-        twist = math.degrees(
-            32.0 * most * length / (math.pi * d**4 * given.shear_modulus_GPa)
-        )  # N m mm / (mm^4 GPa) = 1
+        polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
+        twist = math.degrees(math.sqrt(most) * length / (given.shear_modulus_GPa * polar))
     return Turned(
         moment,
-        both.max_at_deg,
+        at_deg,
         None if d is None else shear_MPa(moment, d),
         None if allowed is None else least_diameter_mm(moment, allowed),
         twist,

@@ -46,4 +46,5 @@ LIMITS: dict[str, OfMachine] = {
     "lock_horn_stress_MPa": strength.lock_horn,
     "lock_stress_max_MPa": strength.lock,
     "wheel_shaft_stress_MPa": strength.wheel_shaft,
+    "crank_shaft_stress_MPa": strength.crank_shaft,
 }

@@ -45,6 +45,15 @@ def wheel_shaft(name: str, mechanism: Mechanism) -> Check | None:
     return _most(of, name, found and found.stress_MPa, limit, found and found.at_deg)
 
 
+def crank_shaft(name: str, mechanism: Mechanism) -> Check | None:
+    """The crank shaft's, likewise, where the crank carries the roller."""
+    limit, of = mechanism.spec.shaft.shear_stress_max_MPa, strength(mechanism)
+    if limit is None:
+        return None
+    found = of.crank_shaft
+    return _most(of, name, found and found.stress_MPa, limit, found and found.at_deg)
+
+
 def pv(name: str, mechanism: Mechanism) -> Check | None:
     """Contact stress times sliding speed."""
     limit, of = mechanism.spec.limits.pv_max_W_m2, strength(mechanism)

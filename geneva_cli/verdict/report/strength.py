@@ -12,12 +12,14 @@ from geneva_cli.verdict.strength import Strength, margin, strength
 def strong(proof: Proof) -> Values:
     """None without a load and a face width; ``strength.needs`` says which keys are missing."""
     of = strength(proof.mechanism)
+    given = of.spec.shaft
     values: Values = {}
     for part, found in (
         ("pin", _pin(of)),
         ("horn", _horn(of)),
         ("lock", _lock(of)),
-        ("wheel_shaft", _wheel_shaft(of)),
+        ("wheel_shaft", _shaft(of, of.wheel_shaft, shafts.wheel_shaft(given))),
+        ("crank_shaft", _shaft(of, of.crank_shaft, shafts.crank_shaft(given))),
     ):
         values |= {f"strength.{part}.{name}": value for name, value in found.items()}
     values |= {f"life.{name}": value for name, value in of.life.items()}
@@ -73,15 +75,14 @@ def _lock(of: Strength) -> Values:
     }
 
 
-def _wheel_shaft(of: Strength) -> Values:
-    found, allowed = of.wheel_shaft, of.spec.shaft.shear_stress_max_MPa
-    ends = shafts.wheel_shaft(of.spec.shaft)
+def _shaft(of: Strength, found: shafts.Turned | None, ends: shafts.Ends) -> Values:
+    allowed = of.spec.shaft.shear_stress_max_MPa
     return {
         "diameter_mm": ends.diameter_mm,
         "moment_Nm": found and found.moment_Nm,
         "at_deg": found and found.at_deg,
         "stress_MPa": found and found.stress_MPa,
-        "allowed_MPa": allowed,
+        "allowed_MPa": allowed if found else None,
         "margin": margin(found and found.stress_MPa, allowed),
         "least_diameter_mm": found and found.least_diameter_mm,
         "twist_deg": found and found.twist_deg,
