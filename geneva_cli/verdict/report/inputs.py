@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.schema import fields
-from geneva_cli.spec.tables import Limits, Load, RollerMaterial, WheelMaterial
+from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
 from geneva_cli.verdict.report.values import Values
 
 ECHOED = {  # what the numbers below rest on, besides the machine's own shape
     "drive": ("n_rpm",),
-    "size": ("slot_clearance_mm", "lock_clearance_mm", "face_width_mm"),
+    "size": (
+        "slot_clearance_mm",
+        "lock_clearance_mm",
+        "face_width_mm",
+        "pin_held",
+        "pin_gap_mm",
+        "lock_edge_mm",
+    ),
     "load": tuple(key.key for key in fields(Load)),
-    "shaft": ("stiffness_Nm_rad",),
+    "shaft": tuple(key.key for key in fields(Shaft)),
     "material.wheel": tuple(key.key for key in fields(WheelMaterial)),
     "material.roller": tuple(key.key for key in fields(RollerMaterial)),
     "limits": tuple(key.key for key in fields(Limits)),

@@ -31,7 +31,6 @@ def _pin(of: Strength) -> Values:
     stress, pin, force = of.pin_stress_MPa, of.pin, of.force_N
     known = pin is not None and force is not None
     return {
-        "held": of.spec.size.pin_held,
         "diameter_mm": float(pin.diameter_mm) if pin else None,
         "bending_MPa": float(pin.bending * force) if pin and force is not None else None,
         "shear_MPa": float(pin.shear * force) if pin and force is not None else None,
