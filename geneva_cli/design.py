@@ -256,6 +256,9 @@ class Design:
         >>> Design(External(6), load=Load(0.4, 15)).loads_table.to_dict()["reversals_deg"]
         (10.34475855916..., 43.0339138141...)
         """
+        return self._loads(for_people=False)
+
+    def _loads(self, for_people: bool) -> Table:
         from geneva_cli.analysis.loads.summary import loads_table
         from geneva_cli.verdict.strength import LIFE
 
@@ -263,7 +266,7 @@ class Design:
         # without a load all need one, and that is said already
         needed = self.strength.missing(LIFE[:7]) if self.cycle.is_loaded else []
         said = (*self.warnings, *self.load_warnings, *needed)
-        return loads_table(self.cycle, life, said)
+        return loads_table(self.cycle, life, said, for_people)
 
     @answer
     def strength(self) -> Strength:
@@ -279,11 +282,21 @@ class Design:
         return strength(self.mechanism)
 
     @answer
+    def loads_page(self) -> Table:
+        """The same for people: each quantity a row.
+
+        >>> page = Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()
+        >>> page["loads"][0]["quantity"], round(page["loads"][0]["max"], 12)
+        ('omega_rad_s', 6.28318530718)
+        """
+        return self._loads(for_people=True)
+
+    @answer
     def load_warnings(self) -> list[str]:
         """What the loads' numbers alone would hide: what has no bound, and what is not known.
 
-        >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings
-        ['contact_stress_MPa: needs face_width_mm in [size]']
+        >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
+        'contact_stress_MPa: needs face_width_mm in [size]'
         """
         from geneva_cli.analysis.loads.summary import missing
         from geneva_cli.verdict.load_cautions import load_cautions

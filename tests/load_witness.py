@@ -17,7 +17,9 @@ class Chain(NamedTuple):
     """What carries the roller: places and angles as functions of the input angle."""
 
     body: object  # angle of the body that carries the roller
-    shaft: object  # contact point and force on the roller, input angle -> torque on the input shaft
+    # contact point and force on the roller, input angle -> torque on the input shaft, force on the
+    # shaft that carries the crank, and force of what guides the roller's body besides
+    shaft: object
     sense: int  # which way the input shaft turns: 1 with the wheel, -1 against it
 
 
@@ -26,6 +28,10 @@ class Loads(NamedTuple):
     force: object
     shaft: object
     rubbing: object  # friction's force times the speed of sliding, per input radian
+    sliding: object  # speed of the roller along the wall, positive outwards, over L and radian
+    wheel_bearing: object
+    crank_bearing: object
+    guide: object  # None where the crank carries the roller
 
 
 def rate(f, x):
@@ -58,8 +64,8 @@ def crank(g):
     """The body is the crank on the input shaft itself."""
 
     def shaft(x, contact, force):
-        _, _, torque = balance((X, 1), (Y, 1), (None, 1), force=force, at=contact)
-        return torque
+        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=force, at=contact)
+        return torque, mp.hypot(p, q), None
 
     return Chain(None, shaft, -g)
 
@@ -75,7 +81,9 @@ def coulisse(g, A):
         way = (block - 1) / abs(block - 1)
         push = balance((X, 1), (Y, 1), (1j * way, block), force=force, at=contact)[2]
         back = -push * 1j * way  # on the input crank
-        return balance((X, axis), (Y, axis), (None, 1), force=back, at=block)[2]
+        # what the coulisse bears there depends on the input crank's length, which is not given
+        torque = balance((X, axis), (Y, axis), (None, 1), force=back, at=block)[2]
+        return torque, abs(force), None
 
     return Chain(None, shaft, -g)
 
@@ -93,8 +101,9 @@ def planet(spec):
     def shaft(x, contact, force):
         arm = -mp.expj(-x)
         pin, mesh = 1 + R0 * arm, 1 + fixed * arm
-        a, b, _ = balance((X, pin), (Y, pin), (1j * arm, mesh), force=force, at=contact)
-        return balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(a, b), at=pin)[2]
+        a, b, push = balance((X, pin), (Y, pin), (1j * arm, mesh), force=force, at=contact)
+        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(a, b), at=pin)
+        return torque, mp.hypot(p, q), abs(push)
 
     return Chain(lambda x: -c * x, shaft, -1)
 
@@ -107,11 +116,12 @@ def groove(g, pin):
         arm = (pin(x) - 1) / abs(pin(x) - 1)
         wall = 1j * way / abs(way)
         across = 1j * arm
-        _, push, couple = balance(
+        hold, push, couple = balance(
             (wall, pin(x)), (across, pin(x)), (None, 1), force=force, at=contact
         )
         back = -push * across
-        return balance((X, 1), (Y, 1), (None, 1), force=back, at=pin(x))[2] + couple
+        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=back, at=pin(x))
+        return torque + couple, mp.hypot(p, q), abs(hold)
 
     return Chain(None, shaft, -g)
 
@@ -156,8 +166,9 @@ def link(spec, entry_deg, exit_deg):
             B, hold = A + mp.mpf(keys.rod_mm) * mp.expj(coupler(x)), mp.mpc(0, 1)
         at = world(A)
         hold = way(hold) / abs(way(hold))
-        p, q, _ = balance((X, at), (Y, at), (hold, world(B)), force=force, at=contact)
-        return balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(p, q), at=at)[2]
+        p, q, third = balance((X, at), (Y, at), (hold, world(B)), force=force, at=contact)
+        p, q, torque = balance((X, 1), (Y, 1), (None, 1), force=-mp.mpc(p, q), at=at)
+        return torque, mp.hypot(p, q), abs(third)
 
     def angle(x):
         return sense * coupler(x)
@@ -208,7 +219,20 @@ def loads(spec, chain, wheel, pin, distance_mm, deg):
     rubs = ((roller - 1j * speed * contact) * mp.conj(tangent)).real
     unit = normal + f * mp.sign(rubs) * tangent  # force on the wheel for a pin force of 1
     # Wheel: bearing and torque of the load; its moment fixes the pin force.
-    held = balance((X, 0), (Y, 0), (None, 1), force=unit, at=contact)[2]
+    p, q, held = balance((X, 0), (Y, 0), (None, 1), force=unit, at=contact)
     force = -torque / held / L
-    shaft = chain.shaft(x, contact, -force * unit) * L * chain.sense
-    return Loads(torque, force, shaft, f * force * abs(rubs) * L), speed
+    shaft, crank_bearing, guide = chain.shaft(x, contact, -force * unit)
+    outwards = rubs * mp.sign((tangent * mp.conj(place)).real)
+    wheel_bearing = abs(force) * mp.hypot(p, q)
+    lost = f * force * abs(rubs) * L
+    found = Loads(
+        torque,
+        force,
+        shaft * L * chain.sense,
+        lost,
+        outwards * L,
+        wheel_bearing,
+        crank_bearing,
+        guide,
+    )
+    return found, speed

@@ -37,7 +37,10 @@ def run(
     design = load(spec, given or ())
     name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
-    table = design.load_cycle(samples or ROWS) if by_rows else design.loads_table
+    if by_rows:
+        table = design.load_cycle(ROWS if samples is None else samples)
+    else:
+        table = design.loads_table if name == "json" else design.loads_page
     show(table, output, format, design.spec.files)
     warn(design)
     say(design.spec.path, design.load_warnings)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
@@ -42,6 +42,27 @@ class Body(Protocol):
 
     def __call__(self, tau: Coefficient, order: int) -> Jet:
         """How fast it turns, positive with the wheel, ``tau`` input radians after mid-motion."""
+
+
+Vector: TypeAlias = tuple[Jet, Jet]
+
+
+class Joints(Protocol):
+    """What holds the roller's body where that is not the crank: links without mass or friction."""
+
+    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
+        """Reactions to a force at the pin's centre and a couple, both on the roller's body.
+
+        Those on the crank's shaft in its bearings, and at what guides the body besides: rocker,
+        slider, groove or fixed gear. In units of the force, the couple in units of it times L;
+        on any axes, since only their sizes are asked for. A mesh of gears pushes along the common
+        tangent of the pitch circles.
+        """
+
+
+def cross(a: Vector, b: Vector) -> Jet:
+    """The third component of a vector product."""
+    return a[0] * b[1] - a[1] * b[0]
 
 
 class Turning(NamedTuple):
@@ -160,8 +181,9 @@ class Engagement:
     ``mid_deg`` is the machine's input angle at its mid-motion. ``crank_sense`` says which way the
     crank turns where the roller is not on its arm: with the wheel (-1) or against it (1); 0 where
     it is, and the pin's direction is the crank's. ``groove`` is the path where a fixed groove
-    guides the roller along the crank; ``body`` carries the roller where the crank's arm does not.
-    ``hub`` is where the crank's arm turns about, on the line of centres: 1 but on a sphere.
+    guides the roller along the crank; ``body`` carries the roller where the crank's arm does not,
+    and ``joints`` hold that body. ``hub`` is where the crank's arm turns about, on the line of
+    centres: 1 but on a sphere.
     """
 
     def __init__(
@@ -174,11 +196,13 @@ class Engagement:
         groove: SolvedPath | None = None,
         body: Body | None = None,
         hub: float = 1.0,
+        joints: Joints | None = None,
     ) -> None:
         self.mid_deg = mid_deg
         self.path, self.slot, self.motion = path, slot, motion
         self.crank_sense = crank_sense
         self.groove, self.body, self.hub = groove, body, hub
+        self.joints = joints
 
     @property
     def entry_deg(self) -> float:

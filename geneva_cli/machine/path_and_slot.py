@@ -11,6 +11,7 @@ from geneva_cli.machine.engagement import (
     Axis,
     Body,
     Engagement,
+    Joints,
     Known,
     Motion,
     PeakKnown,
@@ -221,9 +222,11 @@ def engagement(
     motion: Followed,
     crank_sense: float = 0.0,
     body: Body | None = None,
+    joints: Joints | None = None,
 ) -> Engagement:
     """The engagement of a radial slot in a plane."""
-    return Engagement(mid_deg, path, RadialSlot(path), motion, crank_sense, body=body)
+    slot = RadialSlot(path)
+    return Engagement(mid_deg, path, slot, motion, crank_sense, body=body, joints=joints)
 
 
 def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:

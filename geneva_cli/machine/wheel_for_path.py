@@ -23,11 +23,11 @@ from typing import NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.machine import path_and_slot
-from geneva_cli.machine.engagement import Anchor, Engagement
+from geneva_cli.machine.engagement import Anchor, Engagement, Vector, cross
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
-from geneva_cli.numerics.angles import scaled_sin_cos
+from geneva_cli.numerics.angles import radians, scaled_sin_cos
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos, sine_versine
 
 
@@ -47,6 +47,14 @@ class Path(ABC):
     @abstractmethod
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """A unit vector on the link that carries the roller; exact: jets of 50 digits."""
+
+    @abstractmethod
+    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """The crank's pin A, which carries the link."""
+
+    @abstractmethod
+    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
+        """The other joint B's distance from A along the link, and the line of the force there."""
 
     @abstractmethod
     def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
@@ -150,7 +158,9 @@ def engagement(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
     anchored = AnchoredPath(anchors, ahead)
     motion = Followed(anchored, step.b, mirrored=False)
     body = Link(path, float(middle), fit.sense)
-    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body), float(L)
+    ahead_x, ahead_y = float(-ox / L), float(-oy / L)
+    joints = LinkJoints(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
+    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, joints), float(L)
 
 
 class Link(NamedTuple):
@@ -164,6 +174,33 @@ class Link(NamedTuple):
         """How fast it turns, positive with the wheel."""
         x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
         return atan2(y, x).derivative() * self.sense
+
+
+class LinkJoints(NamedTuple):
+    """The link cut free: the crank's pin A holds it, and a third body at B along a known line."""
+
+    path: Path
+    middle: float  # the crank's angle at mid-motion
+    sense: float
+    L: float  # millimetres
+    x: float  # direction of the line of centres from the wheel's axis, on the path's axes
+    y: float
+
+    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
+        """Reactions of the crank's shaft, which are those at A, and of the third body."""
+        tau = Jet.variable(radians(input_deg) + self.middle, moment.order)
+        sine, cosine = sin_cos(tau)
+        across = force[1] * self.sense
+        F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
+        ex, ey = self.path.link(sine, cosine)
+        px, py = self.path.place(sine, cosine)
+        ax, ay = self.path.joint(sine, cosine)
+        arm, h = self.path.hold(sine, cosine)
+        # moments about A
+        turning = cross((px - ax, py - ay), F) + moment * (self.sense * self.L)
+        push = turning / (cross((ex * arm, ey * arm), h)) * -1.0
+        third = h[0] * push, h[1] * push
+        return (F[0] + third[0], F[1] + third[1]), third
 
 
 class AlongRay(NamedTuple):

@@ -54,10 +54,12 @@ def _headings(names: tuple[str, ...]) -> list[list[str]]:
     return [[""] * (height - len(p)) + p for p in parts]
 
 
-def _plain(table: Table) -> Iterator[str]:
+def _plain(table: Table, one_unit: bool = True) -> Iterator[str]:
+    """Rows under their headings; ``one_unit`` where the numbers of a column can be compared."""
     heads = _headings(table.names)
     for block in table.blocks():
-        lines = [[cell(v) for v in row] for row in _without_noise(block)]
+        rows = _without_noise(block) if one_unit else block
+        lines = [[cell(v) for v in row] for row in rows]
         widths = [
             max(len(text) for text in (*head, *(line[i] for line in lines)))
             for i, head in enumerate(heads)
@@ -94,13 +96,29 @@ def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:
 
 
 def _record(table: Table) -> Iterator[str]:
-    """One line a value, a heading where the first part of the dotted name changes."""
+    """One line a value, a heading where the first part of the dotted name changes.
+
+    Tables in it whose names are plain stand as tables, after what is before them.
+    """
+    every = next(table.rows())
+    for i, value in enumerate(every):
+        if isinstance(value, Table) and not any("." in name for name in value.names):
+            before, after = (
+                Table(table.names[part], [(v,) for v in every[part]], True)
+                for part in (slice(i), slice(i + 1, None))
+            )
+            yield from _record(before)
+            yield "\n"
+            yield from _plain(value, one_unit=False)
+            yield "\n"
+            yield from _record(after)
+            return
     table = flat(table)
     # What does not apply is no line for a person.
     shown = [pair for pair in zip(table.names, next(table.rows()), strict=True) if _is(pair[1])]
     row = [value for _, value in shown]
     split = [name.rpartition(".") for name, _ in shown]
-    width = max(len(name) + (2 if group else 0) for group, _, name in split)
+    width = max((len(name) + (2 if group else 0) for group, _, name in split), default=0)
     current = ""
     for (group, _, name), value in zip(split, row, strict=True):
         if group != current:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.engagement import Engagement, Vector
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sqrt
@@ -30,6 +30,9 @@ class Contact(NamedTuple):
     spin: Jet  # rate at which the body that carries the roller turns against the wheel
     arm: Jet  # of friction at the wall about the wheel's axis, beyond M's: over the roller's radius
     touches: Jet  # 0 while gears drive and no roller does, else 1
+    held: tuple[tuple[Vector, Vector], ...] | None = None
+    # what holds the roller's body (the crank's shaft, a guide) against a force of 1 along the
+    # normal i t, one along t, and a couple of 1; None where the body is the crank
 
 
 def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> Contact:
@@ -42,7 +45,7 @@ def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> C
         return _beside(engagement, input_deg, order)
 
     def beside(x: Coefficient) -> Jet:
-        return Jet([c for jet in _beside(engagement, x, order) for c in jet.c])
+        return Jet([c for jet in _beside(engagement, x, order)[:-1] for c in jet.c])
 
     def middle(x: Coefficient) -> Jet:
         assert order == 0
@@ -50,7 +53,8 @@ def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> C
 
     # one piece each side of mid-motion, and mid-motion itself
     every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
-    return Contact(*[Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)])
+    jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
+    return Contact._make([*jets, None])
 
 
 def is_straight(engagement: Engagement) -> bool:
@@ -81,13 +85,34 @@ def _beside(engagement: Engagement, x: Coefficient, order: int) -> Contact:
     touches = constant + engagement.slot.touches(x)
     spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
-    return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches)
+    held = _held(engagement, x, lever, aside)
+    return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches, held)
+
+
+def _held(
+    engagement: Engagement, x: Coefficient, lever: Jet, aside: Jet
+) -> tuple[tuple[Vector, Vector], ...] | None:
+    """The joints' reactions to three unit loads at the pin."""
+    if engagement.joints is None:
+        return None
+    px, py = engagement.path(x, lever.order)
+    square = px * px + py * py
+    # the tangent of which M . t and M x t are known
+    tx, ty = (px * lever - py * aside) / square, (py * lever + px * aside) / square
+    none = px * 0.0
+    normal, tangent = (ty * -1.0, tx), (tx, ty)
+    loads: tuple[tuple[Vector, Jet], ...] = (
+        (normal, none),
+        (tangent, none),
+        ((none, none), none + 1.0),
+    )
+    return tuple(engagement.joints(x, force, couple) for force, couple in loads)
 
 
 def _middle(engagement: Engagement) -> list[float]:
     """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
     if not retraces(engagement):
-        values = [jet.c[0] for jet in _beside(engagement, 0.0, 0)]
+        values = [jet.c[0] for jet in _beside(engagement, 0.0, 0)[:-1]]
         values[Contact._fields.index("lever")] = 0.0
         return values
     at = pitch_at_retrace(engagement)

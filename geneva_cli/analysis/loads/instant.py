@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Coefficient, Jet, sqrt
 
 
 class Instant(NamedTuple):
@@ -34,6 +34,8 @@ class Instant(NamedTuple):
     power_W: Coefficient  # input torque times input speed
     friction_W: Coefficient  # that the contact turns to heat
     wheel_bearing_N: Coefficient  # size of the force on the wheel, and so of its shaft's reaction
+    crank_bearing_N: Coefficient  # likewise of the shaft whose crank carries the roller or link
+    guide_force_N: Coefficient | None  # of rocker, slider, groove or fixed gear; None without
     drives: Coefficient  # sign of the wheel's torque
     slides: Coefficient  # sign of the sliding
     grip: Coefficient  # where it is not above 0, friction alone holds the wheel: forces are endless
@@ -45,6 +47,18 @@ class Instant(NamedTuple):
         """The square of the contact stress, likewise."""
         assert self.stress_squared is not None  # there is a face width
         return Row(self.stress_squared, self.edge)
+
+    @property
+    def pressure_speed(self) -> Row:
+        """The square of p v, the greatest Hertz pressure times the sliding, likewise; W²/m⁴."""
+        pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
+        return Row(pv, self.edge)
+
+    @property
+    def guide(self) -> Row:
+        """The guide's force, likewise."""
+        assert self.guide_force_N is not None  # there is a guide
+        return Row(self.guide_force_N, self.grip)
 
     @property
     def pin_force(self) -> Row:
@@ -67,6 +81,7 @@ def instant(
     # losses that are not known to be there: a brake must hold all of it.
     shaft = found.shaft * (0.5 * (1.0 + pays) / given.efficiency + 0.5 * (1.0 - pays))
     rub = given.friction * at.touches.c[0]
+    on_wheel = found.force * (1.0 + rub * rub) ** 0.5
     return Instant(
         at.velocity * w,
         at.acceleration * (w * w),
@@ -77,13 +92,41 @@ def instant(
         shaft,
         shaft * w,
         found.force * rubs * (rub * slides),
-        found.force * (1.0 + rub * rub) ** 0.5,
+        on_wheel,
+        *_joints(given, at, found.force, drives, rub * slides, on_wheel),
         drives,
         slides,
         found.grip,
         found.grip if given.friction else None,
         found.edge,
     )
+
+
+def _joints(
+    given: Setting,
+    at: Contact,
+    force: Jet,
+    drives: Coefficient,
+    rub: Coefficient,
+    on_wheel: Jet,
+) -> tuple[Jet, Jet | None]:
+    """Sizes of the reactions on the crank's shaft, and of what guides the roller's body besides.
+
+    The pin pushes the wall along d i t + f s t; about its centre that force has a couple too.
+    """
+    if at.held is None:  # the crank is the roller's body, and what turns it gives it a couple
+        return on_wheel, None
+    normal, tangent, couple = at.held
+    turn = rub * drives * given.radius
+
+    def size(joint: int) -> Jet:
+        x, y = (
+            normal[joint][i] * drives + tangent[joint][i] * rub - couple[joint][i] * turn
+            for i in (0, 1)
+        )
+        return force * sqrt(x * x + y * y)
+
+    return size(0), size(1)
 
 
 def value(quantity: Coefficient) -> Coefficient:
@@ -103,7 +146,10 @@ def bounded(found: Instant) -> Instant:
     bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
     out = here._asdict()
     out["pin_force_N"] = np.where(held, here.pin_force_N, bound * here.drives)
-    out["wheel_bearing_N"] = np.where(held, here.wheel_bearing_N, bound)
+    for name in ("wheel_bearing_N", "crank_bearing_N"):
+        out[name] = np.where(held, out[name], bound)
+    if here.guide_force_N is not None:
+        out["guide_force_N"] = np.where(held, here.guide_force_N, bound)
     if here.held is not None:
         for name in ("input_torque_Nm", "power_W", "friction_W"):
             out[name] = np.where(held, out[name], bound)

@@ -14,27 +14,72 @@ from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.numerics.jet import Coefficient
-from geneva_cli.table import Table, pieces, record_table
+from geneva_cli.table import Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 PLACES = ("time_s", "input_deg", "wheel_deg")
-# The quantities, in the order of their columns, and what each is at an instant.
-NEEDS_WIDTH = "contact_stress_MPa"
-NOUGHT = 1e-30  # a mean whose square is so small a share of the mean square is rounding
+STRESS = "contact_stress_MPa"
 MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # what is known without a load
+ZERO = 1e-15  # share of a peak that is rounding
+NOUGHT = ZERO * ZERO  # a mean whose square is so small a share of the mean square is rounding
+PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
+SQUARED = (STRESS, PV)  # whose squares are looked for: a root has no slope where it is 0
+# What each quantity is at an instant, whose extremes are looked for.
 QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: Row(i.omega_rad_s),
     "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
     "wheel_torque_Nm": lambda i: Row(i.wheel_torque_Nm),
     "pin_force_N": lambda i: i.pin_force,
-    NEEDS_WIDTH: lambda i: i.stress,
+    STRESS: lambda i: i.stress,
     "sliding_m_s": lambda i: Row(i.sliding_m_s),
     "input_torque_Nm": lambda i: i.shaft(i.input_torque_Nm),
-    "power_W": lambda i: i.shaft(i.power_W),
     "wheel_bearing_N": lambda i: Row(i.wheel_bearing_N, i.grip),
+    "crank_bearing_N": lambda i: Row(i.crank_bearing_N, i.grip),
+    PV: lambda i: i.pressure_speed,
+    "guide_force_N": lambda i: i.guide,
 }
+SHOWN = (
+    "omega_rad_s",
+    "alpha_rad_s2",
+    "wheel_torque_Nm",
+    "pin_force_N",
+    STRESS,
+    "sliding_m_s",
+    "input_torque_Nm",
+    "power_W",
+    "wheel_bearing_N",
+    "crank_bearing_N",
+    PV,
+    "guide_force_N",
+    "wheel_near_bearing_N",
+    "wheel_far_bearing_N",
+    "crank_near_bearing_N",
+    "crank_far_bearing_N",
+)
+
+
+def shares(cycle: Cycle) -> dict[str, tuple[str, float | None, str]]:
+    """What is another quantity times a number: which, and what gives the number.
+
+    A shaft carries its load outside two bearings, the overhang a from the nearer and s between
+    them: the nearer bears (a + s)/s of it, the other a/s the other way.
+    """
+    shaft = cycle.mechanism.spec.shaft
+    out: dict[str, tuple[str, float | None, str]] = {
+        "power_W": ("input_torque_Nm", cycle.given.speed_rad_s, ""),
+    }
+    for name, a, s in (
+        ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),
+        ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm),
+    ):
+        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]"
+        far = None if a is None or s is None else a / s
+        near = None if far is None else 1.0 + far
+        out[f"{name}_near_bearing_N"] = (f"{name}_bearing_N", near, needs)
+        out[f"{name}_far_bearing_N"] = (f"{name}_bearing_N", far, needs)
+    return out
 
 
 class Summary(NamedTuple):
@@ -50,19 +95,24 @@ class Summary(NamedTuple):
     mean: float | None = None
     rms: float | None = None
 
+    def times(self, share: float) -> Summary:
+        """The summary of so many times the quantity, which is above 0."""
+        every = self._asdict().items()
+        sized = {k: v if v is None or k.endswith("_at_deg") else v * share for k, v in every}
+        return Summary(**sized)
+
 
 def _squared(values: Coefficient, name: str) -> Coefficient:
-    return values if name == NEEDS_WIDTH else values * values
+    return values if name in SQUARED else values * values
 
 
 def known(cycle: Cycle) -> list[str]:
     """The quantities of which there is a value."""
-    wide = cycle.given.hertz is not None
-    return [
-        name
-        for name in QUANTITIES
-        if name in MOVES or (cycle.is_loaded and (wide or name != NEEDS_WIDTH))
-    ]
+    missing = set() if cycle.given.hertz is not None else {*SQUARED}
+    if not any(engagement.joints for engagement in cycle.mechanism.engagements):
+        missing.add("guide_force_N")
+    found = QUANTITIES if cycle.is_loaded else MOVES
+    return [name for name in found if name not in missing]
 
 
 def summaries(cycle: Cycle) -> dict[str, Summary]:
@@ -85,7 +135,10 @@ def summaries(cycle: Cycle) -> dict[str, Summary]:
     out = {
         name: _summary(name, ends, pairs.get(name)) for name, ends in zip(names, found, strict=True)
     }
-    return {name: out.get(name, Summary()) for name in QUANTITIES}
+    for name, (source, share, _) in shares(cycle).items():
+        if share is not None and source in out:
+            out[name] = out[source].times(share)
+    return {name: out.get(name, Summary()) for name in SHOWN}
 
 
 def _is_bounded(ends: Extremes) -> bool:
@@ -94,13 +147,14 @@ def _is_bounded(ends: Extremes) -> bool:
 
 def _plain(i: Instant, name: str) -> Coefficient:
     value: Coefficient = QUANTITIES[name](i).value
-    return np.sqrt(abs(value)) if name == NEEDS_WIDTH else value
+    return np.sqrt(abs(value)) if name in SQUARED else value
 
 
 def _summary(name: str, ends: Extremes, sums: tuple[float, float] | None) -> Summary:
     most, least = ends.max, ends.min
-    if name == NEEDS_WIDTH:
+    if name in SQUARED:
         most, least = (math.sqrt(max(x, 0.0)) for x in (most, least))
+        least = least if least > ZERO * most else 0.0
     mean, square = sums or (None, None)
     if mean is not None and square is not None and mean * mean <= NOUGHT * square:
         mean = 0.0
@@ -123,16 +177,29 @@ def reversals_deg(cycle: Cycle) -> list[float]:
     return out
 
 
-def loads_table(cycle: Cycle, life: Mapping[str, float | None], warnings: Sequence[str]) -> Table:
-    """The summary, with what must be bought, how long it lasts, and what else is to be said."""
+def loads_table(
+    cycle: Cycle,
+    life: Mapping[str, float | None],
+    warnings: Sequence[str],
+    for_people: bool = False,
+) -> Table:
+    """The summary, with what must be bought, how long it lasts, and what else is to be said.
+
+    For people the quantities that have a value are the rows of a table.
+    """
     spec = cycle.mechanism.spec
     values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
-    for name, one in summaries(cycle).items():
-        values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
+    found = summaries(cycle)
+    if for_people:
+        rows = [(name, *one) for name, one in found.items() if one != Summary()]
+        values["loads"] = rows_table(("quantity", *Summary._fields), rows)
+    else:
+        for name, one in found.items():
+            values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
     bought, needed = sizing(cycle)
-    for group, found in (("sizing", bought), ("life", life)):
-        values |= {f"{group}.{key}": value for key, value in found.items()}
+    for group, answers in (("sizing", bought), ("life", life)):
+        values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
     return record_table(values)
 
@@ -144,9 +211,13 @@ def missing(cycle: Cycle) -> list[str]:
             "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in "
             "[load], or a [[mass]]"
         ]
-    if cycle.given.hertz is None:
-        return [f"{NEEDS_WIDTH}: needs face_width_mm in [size]"]
-    return []
+    wide = cycle.given.hertz is not None
+    out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in SQUARED]
+    unknown: dict[str, list[str]] = {}
+    for name, (_, share, needs) in shares(cycle).items():
+        if share is None:
+            unknown.setdefault(needs, []).append(name)
+    return out + [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
 
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:
@@ -155,7 +226,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
     A value without a bound, or not known, is None.
     """
     check_samples(samples)
-    names = (*PLACES, *QUANTITIES)
+    names = (*PLACES, *SHOWN)
 
     def rows(begin: int, end: int) -> list[Any]:
         return _rows(cycle, samples, begin, end)
@@ -168,15 +239,17 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
-    names = known(cycle)
-    columns: list[Any] = [
+    found = {name: _plain(states, name) for name in known(cycle)}
+    for name, (source, share, _) in shares(cycle).items():
+        if share is not None and source in found:
+            found[name] = found[source] * share
+    none = [None] * len(input_deg)
+    return [
         times_s(cycle.mechanism, input_deg),
         input_deg,
         np.degrees(derivatives(cycle.mechanism, input_deg, (0,))[0]),
+        *[_cells(found[name]) if name in found else none for name in SHOWN],
     ]
-    for name in QUANTITIES:
-        columns.append(_cells(_plain(states, name)) if name in names else [None] * len(input_deg))
-    return columns
 
 
 def _cells(values: Array) -> Any:

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Needs, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Engagement, Turning
+from geneva_cli.machine.engagement import Engagement, Turning, Vector, cross
 from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, choose, larger
+from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
@@ -66,9 +67,30 @@ class Cam(PinPath):
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
         body = Turning(-wheel.SIGN)  # the roller slides along the crank, and turns with it
-        engagement = Engagement(0.0, path, RadialSlot(path), turned, groove=path, body=body)
+        slot, joints = RadialSlot(path), Slide(path)
+        engagement = Engagement(0.0, path, slot, turned, groove=path, body=body, joints=joints)
         ratio = path.distances(0.0, 0)[1].c[0]
         return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
+
+
+class Slide(NamedTuple):
+    """The roller's slide cut free: the groove's wall holds it, and the crank across its arm.
+
+    What the crank holds besides is a couple.
+    """
+
+    path: SolvedPath
+
+    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
+        """Reactions of the crank's shaft, and of the groove."""
+        order = moment.order
+        x, y = self.path(input_deg, order + 1)
+        wall = y.derivative() * -1.0, x.derivative()
+        arm = Jet(x.c[: order + 1]) - 1.0, Jet(y.c[: order + 1])
+        across = arm[1] * -1.0, arm[0]
+        turning = cross(wall, across)
+        push, hold = cross(force, wall) / turning, cross(force, across) / (turning * -1.0)
+        return (across[0] * push, across[1] * push), (wall[0] * hold, wall[1] * hold)
 
 
 def _half_way(law: Law) -> float:

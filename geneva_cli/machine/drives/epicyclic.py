@@ -15,11 +15,12 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Anchor, Turning
+from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range, Words
 
 if TYPE_CHECKING:
@@ -87,8 +88,29 @@ class Epicyclic(PinPath):
         path = AnchoredPath(anchors)
         motion = Followed(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
-        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c))
+        joints = PlanetJoints(R0, rp, c)
+        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c), joints)
         return self.planned(engagement, R0 + rp, spec.given_distance_mm)
+
+
+class PlanetJoints(NamedTuple):
+    """The planet cut free: the carrier's pin holds it, and the fixed gear where they mesh.
+
+    The mesh is -R0/c farther out than the planet's axis: nearer on a sun, farther in a ring.
+    """
+
+    R0: Coefficient  # over L
+    rp: Coefficient
+    c: Coefficient
+
+    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
+        """Reactions of the carrier's shaft, and of the fixed gear."""
+        turn = Jet.variable(radians(input_deg), moment.order)
+        (s, c), (sp, cp) = sin_cos(turn), sin_cos(turn * self.c)
+        across, planet = (s * -1.0, c * -1.0), (cp * -self.rp, sp * self.rp)
+        push = (cross(planet, force) + moment) * (self.c / self.R0)
+        third = across[0] * push, across[1] * push
+        return (force[0] + third[0], force[1] + third[1]), third
 
 
 class Arms(NamedTuple):

@@ -126,6 +126,16 @@ class CouplerPath(Path):
         across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2 * b)) * self.side
         return dx * along - dy * across, dy * along + dx * across
 
+    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """The crank's pin A."""
+        return cosine * self.rough.a, sine * self.rough.a
+
+    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
+        """The rocker pulls or pushes along itself."""
+        a, g, b, c, _, _ = self.rough
+        ex, ey = self.link(sine, cosine)
+        return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
+
     def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """Crank, and e turned and stretched to the point."""
         a, _, _, _, p, q = self.exact if exact else self.rough

@@ -90,6 +90,14 @@ class RodPath(Path):
         ey = (h - sine * a) / b
         return sqrt((1 - ey) * (ey + 1)), ey
 
+    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """The crank's pin A."""
+        return cosine * self.rough.a, sine * self.rough.a
+
+    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
+        """The slider's guide pushes across itself."""
+        return self.rough.b, (sine * 0.0, cosine * 0.0 + 1.0)
+
     def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """Crank, and the rod's vector turned and stretched to the point."""
         a, _, _, p, q = self.exact if exact else self.rough
