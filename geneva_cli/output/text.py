@@ -100,7 +100,7 @@ def _record(table: Table) -> Iterator[str]:
 
     Tables in it whose names are plain stand as tables, after what is before them.
     """
-    every = next(table.rows())
+    every = next(table.rows(), ())
     for i, value in enumerate(every):
         if isinstance(value, Table) and not any("." in name for name in value.names):
             before, after = (
@@ -113,6 +113,8 @@ def _record(table: Table) -> Iterator[str]:
             yield "\n"
             yield from _record(after)
             return
+    if not every:
+        return
     table = flat(table)
     # What does not apply is no line for a person.
     shown = [pair for pair in zip(table.names, next(table.rows()), strict=True) if _is(pair[1])]
