@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 10_000_000
+TAIL = 3.0  # plus or minuses: nine standard deviations
+PLACES = 361  # of a motion
 
 
 class Entry(NamedTuple):
@@ -53,6 +55,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     _refuse(mechanism, samples, seed)
     given = tolerances(mechanism.spec)
     use, told = _applicable(mechanism, given)
+    _refuse_wide(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
     discs = _locks(mechanism, proof, told)
@@ -103,6 +106,27 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
             + " in [tolerance], each a plus or minus",
             ("tolerance",),
         )
+
+
+def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
+    """The roller must stay clear of the wheel's axis, and the crank keep its radius, in every draw.
+
+    A normal distribution has tails: what is drawn of it lies within three times its plus or minus.
+    """
+    times = TAIL if mechanism.spec.tolerance.distribution == "normal" else 1.0
+    play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
+    for one in led(mechanism):
+        e = one.engagement
+        x, y = e.path(np.linspace(e.entry_deg, e.exit_deg, PLACES), 0)
+        nearest = one.L * (float(np.hypot(x.c[0], y.c[0]).min()) - abs(e.slot.offset))
+        room = min((nearest - one.clearance) / times - play, one.arm / times)
+        if not use["center_distance_mm"] + use["crank_radius_mm"] < room:
+            raise GenevaError(
+                "the tolerances are too wide for a machine: center_distance_mm and "
+                f"crank_radius_mm must together be below {max(room, 0.0):.6g}, or the roller could "
+                "come to the wheel's axis, or to the crank's",
+                ("tolerance", "center_distance_mm"),
+            )
 
 
 def _applicable(
