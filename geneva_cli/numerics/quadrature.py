@@ -50,6 +50,23 @@ def integrals(functions: Integrands, spans: Sequence[tuple[float, float]]) -> li
     An interval is halved until its halves agree with it; a function without a bound never does,
     and its integral is infinite.
     """
+    every, _ = _settled(functions, spans)
+    return [math.fsum(row) if np.isfinite(row).all() else math.inf for row in every.tolist()]
+
+
+def integral_of_each(
+    function: Callable[[Array, Whole], Array], spans: Sequence[tuple[float, float]]
+) -> list[float]:
+    """The integral of one function over each span; what is a rounding of their sum is no matter."""
+    (every,), of = _settled(lambda x, span: (function(x, span),), spans)
+    return [
+        math.fsum(part) if np.isfinite(part).all() else math.inf
+        for part in (every[of == k].tolist() for k in range(len(spans)))
+    ]
+
+
+def _settled(functions: Integrands, spans: Sequence[tuple[float, float]]) -> tuple[Array, Whole]:
+    """Rows of the functions' integrals over the intervals in the end, and the intervals' spans."""
     node, weight = rule(NODES)
     low, high = (np.array(side, dtype=float) for side in zip(*spans, strict=True))
     span = np.arange(len(low))
@@ -67,6 +84,7 @@ def integrals(functions: Integrands, spans: Sequence[tuple[float, float]]) -> li
     whole, size = parts(low, high, span)
     total = size.sum(axis=1, keepdims=True)
     done: list[Array] = []
+    of: list[Whole] = []
     before = np.full(whole.shape, np.inf)
     for _ in range(DEEPEST):
         ask()
@@ -77,6 +95,7 @@ def integrals(functions: Integrands, spans: Sequence[tuple[float, float]]) -> li
             noise = (off > before / SHRINKS) & (off < NOISE * total)
             open_ = np.any((off > AGREED * total) & ~noise, axis=0)
         done += [left[:, ~open_], right[:, ~open_]]
+        of += [span[~open_]] * 2
         if not open_.any():
             break
         low, middle, high, span = low[open_], middle[open_], high[open_], span[open_]
@@ -86,5 +105,5 @@ def integrals(functions: Integrands, spans: Sequence[tuple[float, float]]) -> li
         before = np.concatenate((off[:, open_], off[:, open_]), axis=1)
     else:
         done.append(whole)
-    every = np.concatenate(done, axis=1)
-    return [math.fsum(row) if np.isfinite(row).all() else math.inf for row in every.tolist()]
+        of.append(span)
+    return np.concatenate(done, axis=1), np.concatenate(of)

@@ -38,6 +38,7 @@ class Instant(NamedTuple):
     guide_force_N: Coefficient | None  # of rocker, slider, groove or fixed gear; None without
     drives: Coefficient  # sign of the wheel's torque
     slides: Coefficient  # sign of the sliding
+    pays: Coefficient  # sign of the input's torque
     grip: Coefficient  # where it is not above 0, friction alone holds the wheel: forces are endless
     held: Coefficient | None  # the same for what friction alone makes endless; None without
     edge: Coefficient | None  # the same for the stress alone: the wall is sharper than the roller
@@ -96,6 +97,7 @@ def instant(
         *_joints(given, at, found.force, drives, rub * slides, on_wheel),
         drives,
         slides,
+        pays,
         found.grip,
         found.grip if given.friction else None,
         found.edge,

@@ -2,38 +2,143 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
+from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
+from geneva_cli.analysis.loads.fluctuation import fluctuation_J, flywheel_kgm2
+from geneva_cli.analysis.loads.makers_form import Load, MakersForm, makers_form
+from geneva_cli.analysis.peaks import acceleration_peak, peak, velocity_peak
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.cycle import Cycle
+    from geneva_cli.numerics.jet import Coefficient
+    from geneva_cli.spec.tables import Motor
 
-NAMES = (
-    "inertia_kgm2",
-    "acceleration_rad_s2",
-    "inertia_torque_Nm",
-    "friction_torque_Nm",
-    "total_torque_Nm",
-    "design_torque_Nm",
-    "input_torque_Nm",
-    "power_W",
-    "Am",
-    "Vm",
-    "Qm",
-    "energy_fluctuation_J",
-    "flywheel_kgm2",
-    "motor_rpm",
-    "motor_torque_max_Nm",
-    "motor_torque_rms_Nm",
-    "inertia_ratio",
-)
+
+class Sizing(NamedTuple):
+    """None where a value needs what is not given, or nothing bounds the input's torque."""
+
+    inertia_kgm2: float | None = None  # of all that the wheel turns, at its shaft
+    # the makers' form, of the engagement that asks most of the input
+    acceleration_rad_s2: float | None = None
+    inertia_torque_Nm: float | None = None
+    friction_torque_Nm: float | None = None  # of the support
+    total_torque_Nm: float | None = None
+    design_torque_Nm: float | None = None  # with the service factor
+    input_torque_Nm: float | None = None
+    power_W: float | None = None  # at the motor, losses of wheel and reducer included
+    Am: float | None = None
+    Vm: float | None = None
+    Qm: float | None = None
+    # of the exact cycle
+    energy_fluctuation_J: float | None = None
+    flywheel_kgm2: float | None = None  # in all, at the input shaft, for the speed variation
+    motor_rpm: float | None = None
+    motor_torque_max_Nm: float | None = None
+    motor_torque_rms_Nm: float | None = None
+    inertia_ratio: float | None = None  # greatest inertia that the motor feels, over its own
+    flywheel_to_add_kgm2: float | None = None  # the same less the motor's own, seen at the input
+    coasting_speed_share: float | None = None  # least speed without drive or losses, over greatest
+    input_torque_ratio: float | None = None  # the form's over the exact cycle's greatest
 
 
 def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
-    """The values of ``sizing`` by their names, and what would give those that are None.
+    """The values of ``Sizing`` by their names, and what would give those that are None."""
+    spec = cycle.mechanism.spec
+    inertia = inertia_kgm2(spec) or None
+    out = _form(cycle)._asdict()
+    out |= {"inertia_kgm2": inertia, "motor_rpm": spec.drive.n_rpm * spec.motor.gear_ratio}
+    if not cycle.is_loaded:
+        return out, []
+    exact, needs = _exact(cycle, out["input_torque_Nm"])
+    out |= exact
+    if inertia is None:
+        needs.append("sizing.inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
+    if out["friction_torque_Nm"] is None:
+        needs.append("sizing.friction_torque_Nm: needs friction and radius_mm in [support]")
+    if spec.motor.speed_variation is None:
+        needs.append("sizing.flywheel_kgm2: needs speed_variation in [motor]")
+    if not spec.motor.inertia_kgm2:
+        needs.append("sizing.inertia_ratio: needs inertia_kgm2 in [motor]")
+    return out, needs
 
-    ``cycle`` has the machine (``cycle.mechanism``, whose ``spec`` has [motor], [support] and the
-    masses), ``cycle.given`` (inertia, resistance and input speed, at the wheel's shaft), exact
-    ``extremes`` and ``integrals`` of anything made of an ``Instant``, and ``stretches`` with
-    ``moving`` for what needs the way between.
+
+def _form(cycle: Cycle) -> Sizing:
+    """The makers' form, for the engagement that asks most of the input."""
+    mechanism, spec = cycle.mechanism, cycle.mechanism.spec
+    friction = support_torque_Nm(spec)
+    load = Load(inertia_kgm2(spec), friction, spec.load.torque_Nm, spec.motor.service_factor)
+    best: tuple[MakersForm, CamFactors] | None = None
+    for number, engagement in enumerate(mechanism.engagements):
+        step, motion = mechanism.index_deg(number), engagement.motion_deg
+        invariants = (
+            velocity_peak(engagement).max,
+            acceleration_peak(engagement).max,
+            peak(engagement.motion, "power").max,
+        )
+        factors = cam_factors(*invariants, motion, step)
+        form = makers_form(factors, step, motion, spec.drive.n_rpm, load)
+        if best is None or (form.Tc, form.alpha) > (best[0].Tc, best[0].alpha):
+            best = form, factors
+    assert best is not None  # a machine has engagements
+    form, factors = best
+    out = Sizing(None, form.alpha, **factors._asdict())
+    if not cycle.is_loaded:
+        return out
+    lost = spec.load.efficiency * spec.motor.gear_efficiency
+    return out._replace(
+        inertia_torque_Nm=form.Ti or None,
+        friction_torque_Nm=friction or None,
+        total_torque_Nm=form.Tt,
+        design_torque_Nm=form.Te,
+        input_torque_Nm=form.Tc,
+        power_W=cycle.given.speed_rad_s * form.Tc / lost,
+    )
+
+
+def _exact(cycle: Cycle, form_torque: float | None) -> tuple[dict[str, float | None], list[str]]:
+    """What the exact cycle says of motor and flywheel; that nothing bounds it, where that is so."""
+    motor, w = cycle.mechanism.spec.motor, cycle.given.speed_rad_s
+    torque = cycle.extremes(lambda i: i.shaft(i.input_torque_Nm))[0]
+    square = cycle.integrals(lambda i: _at_motor(motor, i.input_torque_Nm, i.pays) ** 2)[0]
+    out: dict[str, float | None] = _inertias(cycle, motor)
+    if not all(map(math.isfinite, (torque.max, torque.min, square))):
+        return out, ["sizing: nothing bounds the input's torque, so no motor or flywheel suffices"]
+    swing = fluctuation_J(cycle)
+    out["energy_fluctuation_J"] = swing
+    if motor.speed_variation is not None:
+        whole = flywheel_kgm2(swing, motor.speed_variation, w)
+        own = motor.inertia_kgm2 * motor.gear_ratio**2
+        out |= {"flywheel_kgm2": whole, "flywheel_to_add_kgm2": max(whole - own, 0.0)}
+    pushed, held = _at_motor(motor, torque.max, 1.0), _at_motor(motor, torque.min, -1.0)
+    out["motor_torque_max_Nm"] = max(pushed, -held)
+    out["motor_torque_rms_Nm"] = math.sqrt(square / cycle.period)
+    size = max(torque.max, -torque.min)
+    if form_torque and size:
+        out["input_torque_ratio"] = form_torque / size
+    return out, []
+
+
+def _at_motor(motor: Motor, torque: Coefficient, pays: Coefficient) -> Coefficient:
+    """The input's torque at the motor: the reducer takes its share where it drives and is driven.
+
+    ``pays`` is 1 where the input drives, -1 where the wheel does. At constant speed the rotor's
+    own inertia takes no torque.
     """
-    return dict.fromkeys(NAMES), []
+    eta = motor.gear_efficiency
+    return torque * (0.5 * (1.0 + pays) / eta + 0.5 * (1.0 - pays) * eta) / motor.gear_ratio
+
+
+def _inertias(cycle: Cycle, motor: Motor) -> dict[str, float | None]:
+    """What the motor feels of the wheel's inertia where it turns fastest, against its own.
+
+    Left to coast without losses, I_input w²/2 + I psi1² w²/2 stays: w = w0/sqrt(1 + mu psi1²).
+    """
+    if not motor.inertia_kgm2:
+        return {}
+    fastest = max(velocity_peak(engagement).max for engagement in cycle.mechanism.engagements)
+    felt = inertia_kgm2(cycle.mechanism.spec) * (fastest / motor.gear_ratio) ** 2
+    mu = felt / motor.inertia_kgm2
+    return {"inertia_ratio": mu, "coasting_speed_share": 1.0 / math.sqrt(1.0 + mu)}

@@ -1,0 +1,115 @@
+"""How far the input's work swings about its mean: what a flywheel has to take up and give back."""
+
+from __future__ import annotations
+
+from bisect import bisect
+from collections.abc import Iterable
+from itertools import accumulate, pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import contact
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.instant import instant, values
+from geneva_cli.analysis.loads.peaks import stretches, whole
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.quadrature import integral_of_each
+from geneva_cli.numerics.roots import root
+from geneva_cli.numerics.scan import scan
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array, Coefficient
+    from geneva_cli.numerics.scan import Whole
+
+
+NOUGHT = 1e-26  # a mean whose square is so small a share of the mean square is rounding
+
+
+def fluctuation_J(cycle: Cycle) -> float:
+    """Greatest minus least of the input's cumulated work less its mean line over a period.
+
+    The work turns where the torque is its mean: there the motions are cut, and the torque is
+    integrated between. Of inertia alone it is I w² psi1max²/2. Infinite where the torque's
+    integral is.
+    """
+    work, square = cycle.integrals(lambda i: i.input_torque_Nm, lambda i: i.input_torque_Nm**2)
+    mean = work / cycle.period
+    if not np.isfinite(square):
+        return float("inf")
+    if mean * mean <= NOUGHT * square / cycle.period:
+        mean = 0.0  # of inertia alone, but for rounding
+    parts, end = [], None
+    for engagement in cycle.mechanism.engagements:
+        if end is not None:
+            parts.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
+        parts += [work - mean * way for work, way in _work(cycle, engagement, mean)]
+        end = engagement.mid_deg + engagement.exit_deg
+    return swing(parts)
+
+
+def swing(parts: Iterable[float]) -> float:
+    """Greatest minus least of the sums of parts from the first on.
+
+    >>> swing([2.0, -5.0, 3.0])
+    5.0
+    """
+    sums = [0.0, *accumulate(parts)]
+    return max(sums) - min(sums)
+
+
+def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
+    """Inertia that keeps a mean speed, rad/s, within a share of it: dE / (Cs w²).
+
+    >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
+    1724.04
+    """
+    return energy_J / (speed_variation * w * w)
+
+
+def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float, float]]:
+    """Work in joules and input angle in radians, between places where the torque is its mean."""
+    given = cycle.given
+    pieces = whole(engagement, given)
+    ends = [piece.start for piece in pieces]
+    # where the mean is nothing the torque changes sign, and there the pieces are cut already
+    crossed = _crossings(cycle, engagement, mean) if mean else []
+    places = sorted({*ends, *crossed, pieces[-1].end})
+    spans = list(pairwise(places))
+    of = np.array([bisect(ends, 0.5 * (a + b)) - 1 for a, b in spans])
+    signs = np.array([piece[2:] for piece in pieces]).T
+
+    def torque(x: Array, span: Whole) -> Array:
+        at = contact(engagement, x)
+        out: Array = values(instant(given, at, *signs[:, of[span]])).input_torque_Nm
+        return out
+
+    works = integral_of_each(torque, spans)
+    return [(work * DEGREE, (b - a) * DEGREE) for work, (a, b) in zip(works, spans, strict=True)]
+
+
+def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> list[float]:
+    """Input angles at which the torque is its mean, from the engagement's mid-motion."""
+    given = cycle.given
+    pieces = stretches(engagement, given)
+    signs = np.array([piece[2:] for piece in pieces]).T
+
+    def above(x: Coefficient, span: Whole | int) -> tuple[Coefficient, Coefficient]:
+        c = instant(given, contact(engagement, x, 1), *signs[:, span]).input_torque_Nm.c
+        return c[0] - mean, c[1] * DEGREE
+
+    def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
+        value, slope = (np.broadcast_to(row, x.shape)[None, :] for row in above(x, span))
+        return value, slope
+
+    found = scan(sampled, [(p.start, p.end) for p in pieces])
+    out = []
+    for i in found.changes(0):
+        low, high, number = float(found.x[i]), float(found.x[i + 1]), int(found.span[i])
+
+        def here(way: float, low: float = low, number: int = number) -> tuple[float, float]:
+            return above(low + way, number)
+
+        out.append(low + root(here, 0.0, high - low))
+    return out
