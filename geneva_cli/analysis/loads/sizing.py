@@ -55,13 +55,13 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     exact, needs = _exact(cycle, out["input_torque_Nm"])
     out |= exact
     if inertia is None:
-        needs.append("sizing.inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
+        needs.append("inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
     if out["friction_torque_Nm"] is None:
-        needs.append("sizing.friction_torque_Nm: needs friction and radius_mm in [support]")
+        needs.append("friction_torque_Nm: needs friction and radius_mm in [support]")
     if spec.motor.speed_variation is None:
-        needs.append("sizing.flywheel_kgm2: needs speed_variation in [motor]")
+        needs.append("flywheel_kgm2: needs speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
-        needs.append("sizing.inertia_ratio: needs inertia_kgm2 in [motor]")
+        needs.append("inertia_ratio: needs inertia_kgm2 in [motor]")
     return out, needs
 
 
