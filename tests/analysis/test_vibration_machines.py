@@ -86,6 +86,30 @@ def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
         assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
 
 
+@pytest.mark.parametrize("z", [3, 6])
+def test_straight_slots_at_large_ratios(z):
+    """By parts, again and again: what is left are the derivatives at entry and exit.
+
+    What the bend between them leaves besides is below e^-1000.
+    """
+    mp = truth.digits()
+    engagement = build(Spec(External(z))).engagements[0]
+    half = truth.half_motion(z, "external", 0.0)
+    bent = [
+        mp.taylor(lambda x: truth.motion(z, "external", 0.0, x)[2], side, 7)
+        for side in (-half, half)
+    ]
+    for ratio in (1234.567, 9999.3):
+        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(0, 1) / (2 * half)
+        total = sum(
+            mp.factorial(k) * (bent[0][k] * mp.exp(2 * half * p) - bent[1][k]) / p ** (k + 1)
+            for k in range(8)
+        )
+        exact = abs(total / p) / (2 * mp.pi / z)
+        found = shares(shape(engagement), np.array([ratio]), 0.0)[0]
+        assert abs(found - exact) <= 1e-13 * exact
+
+
 def test_many_points_are_no_burden():
     """A law of 2,001 points is as many panels: its fifth derivative jumps at each."""
     u = np.linspace(0.0, 1.0, 2001)
@@ -205,9 +229,9 @@ def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
 def test_no_residual_is_above_its_bound():
     for machine in (build(Spec(External(4))), build(Spec(External(6), SideCrank(A=0.6)))):
         form = shape(machine.engagements[0])
-        for share in (1e-2, 1e-4):
-            high = highest_ratio(form, share)
-            assert shares(form, np.linspace(high, 3.0 * high, 2000), 0.0).max() <= share
+        for share, damping in ((1e-2, 0.0), (1e-4, 0.0), (1e-4, 0.5), (1e-4, 0.99)):
+            high = highest_ratio(form, share, damping)
+            assert shares(form, np.linspace(high, 3.0 * high, 2000), damping).max() <= share
 
 
 def test_speeds_to_avoid_are_the_greatest_nearby():

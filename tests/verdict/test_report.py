@@ -148,6 +148,25 @@ def test_every_spec_is_checked_also_beside_one_that_is_missing(tmp_path: Path) -
     assert re.search(r"spec\.toml:2: .*z", second)
 
 
+SHAFT = "[wheel]\nz = 6\n[shaft]\nstiffness_Nm_rad = "
+
+
+def test_a_shaft_adds_its_vibration(tmp_path: Path) -> None:
+    """What `geneva vibration` has; of a shaft that swings at no known period only why."""
+    file = written(tmp_path, f"{SHAFT}3000\n[load]\ninertia_kgm2 = 0.4\n")
+    whole = json.loads(run("report", file, "--format", "json").stdout)["vibration"]
+    alone = json.loads(run("vibration", file, "--format", "json").stdout)
+    assert whole.pop("none") is None
+    assert whole == {name: alone[name] for name in whole}
+    for text, said in (
+        (f"{SHAFT}3000\n", "no natural period"),
+        (f"{SHAFT}1e12\n[load]\ninertia_kgm2 = 1e-9\n", "makes a period ratio"),
+    ):
+        why = json.loads(run("report", written(tmp_path, text), "--format", "json").stdout)
+        assert said in why["vibration"].pop("none")
+        assert set(map(str, why["vibration"].values())) == {"None"}
+
+
 def test_without_a_good_spec_nothing_is_printed(tmp_path: Path) -> None:
     found = run("check", str(tmp_path / "a.toml"), str(tmp_path / "b.toml"))
     assert (found.exit_code, found.stdout) == (2, "")

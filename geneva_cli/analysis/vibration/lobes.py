@@ -22,6 +22,7 @@ PER_ONE = 16  # samples for each 1 of the period ratio
 FEWEST = 64
 DEGREE = 12  # of the polynomial between two samples about a maximum: exact to a double there
 NEWTON = 6
+SAMPLED = 1.02  # by which a variation may exceed that of its samples
 _chebyshev = np.polynomial.chebyshev
 
 
@@ -64,11 +65,13 @@ def lobes(shape: Shape, low: float, high: float, damping: float) -> Lobes:
     return Lobes(places, shares(shape, places, damping))
 
 
-def highest_ratio(shape: Shape, share: float) -> float:
+def highest_ratio(shape: Shape, share: float, damping: float) -> float:
     """A period ratio above which no motion of this shape leaves more than a share of the step.
 
-    The residual is at most the variation of a derivative over Omega to its order.
+    The residual is at most the variation of a derivative over Omega to its order, and over
+    sqrt(1 - zeta²).
     """
     orders = np.arange(1, len(shape.variation) + 1)
-    omega = (shape.variation / share) ** (1.0 / orders)
+    most = SAMPLED * shape.variation / math.sqrt(1.0 - damping * damping)
+    omega = (most / share) ** (1.0 / orders)
     return float(omega.min()) / (2.0 * math.pi)

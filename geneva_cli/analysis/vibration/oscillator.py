@@ -63,7 +63,9 @@ def oscillator(
     return Oscillator(ratio, zeta)
 
 
-def needed(mechanism: Mechanism, period_ratio: float | None, damping: float | None) -> Oscillator:
+def needed(
+    mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
+) -> Oscillator:
     """The same where nothing can be said without an inertia: raises GenevaError."""
     load = oscillator(mechanism, period_ratio, damping)
     if load is None:

@@ -123,7 +123,7 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
     for i, engagement in enumerate(mechanism.engagements):
         form = shape(engagement)
         low = load.ratio / FASTER * scales[i]
-        high = min(load.ratio / SLOWER * scales[i], highest_ratio(form, AVOIDED))
+        high = min(load.ratio / SLOWER * scales[i], highest_ratio(form, AVOIDED, load.damping))
         if low >= high:
             continue
         own = lobes(form, low, high, load.damping)

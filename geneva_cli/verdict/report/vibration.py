@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from geneva_cli.analysis.vibration.answers import NUMBERS, values
-from geneva_cli.analysis.vibration.oscillator import oscillator
+from geneva_cli.analysis.vibration.oscillator import needed
+from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
 
 
 def vibration(proof: Proof) -> Values:
-    """None without a stiffness; bands, stations and warnings are ``geneva vibration``'s."""
+    """None without a stiffness, and why where inertia is missing or its period is out of range.
+
+    Bands, stations and warnings are those of ``geneva vibration``.
+    """
     mechanism = proof.mechanism
-    stiff = mechanism.spec.shaft.stiffness_Nm_rad is not None
-    found = values(mechanism, oscillator(mechanism) if stiff else None)
-    return {f"vibration.{name}": found[name] if stiff else None for name in NUMBERS}
+    out: Values = {"vibration.none": None} | dict.fromkeys(f"vibration.{n}" for n in NUMBERS)
+    if mechanism.spec.shaft.stiffness_Nm_rad is None:
+        return out
+    try:
+        found = values(mechanism, needed(mechanism))
+    except GenevaError as error:
+        return out | {"vibration.none": str(error)}
+    return out | {f"vibration.{name}": found[name] for name in NUMBERS}
