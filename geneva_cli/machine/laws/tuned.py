@@ -19,6 +19,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.laws.law import Law
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.spec.rules import OneOf, Range
 
@@ -71,7 +72,7 @@ class Tuned(Law):
     @property
     def symmetric(self) -> bool:
         """Without damping, as its law."""
-        return self._y.symmetric and self.damping_ratio == 0.0
+        return self._y.symmetric and all_true(self.damping_ratio == 0.0)
 
     @property
     def tuned_to(self) -> float:
