@@ -74,7 +74,8 @@ class GearSector(PinPath):
             return b - turn + 0.5 * u * D - wanted
 
         if isinstance(self.gear_ratio, str):  # the step grows with b
-            return boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
+            grown: float = boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
+            return grown
         # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
         # turns the wheel.
         u = self.gear_ratio
