@@ -15,63 +15,28 @@ from __future__ import annotations
 
 import cmath
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from decimal import Decimal, localcontext
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.machine import path_and_slot
+from geneva_cli.machine import path_and_slot, path_pairs
 from geneva_cli.machine.engagement import Anchor, Engagement, Vector, cross
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.path_pairs import Path, Way
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians, scaled_sin_cos
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos, sine_versine
-
-
-class Way(Protocol):
-    """The pin's way since a moment."""
-
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """(x, y), from sin d and 1 - cos d of the crank's angle d since then."""
-
 
 Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
 
 
-class Path(ABC):
-    """A roller's closed path about the crank's axis, in millimetres."""
-
-    @abstractmethod
-    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """A unit vector on the link that carries the roller; exact: jets of 50 digits."""
-
-    @abstractmethod
-    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """The crank's pin A, which carries the link."""
-
-    @abstractmethod
-    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """The other joint B's distance from A along the link, and the line of the force there."""
-
-    @abstractmethod
-    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """The pin (x, y) for a crank of this direction."""
-
-    @abstractmethod
-    def about(self, sine: Decimal, cosine: Decimal) -> Way:
-        """The pin's way since the crank stood there, written so that it vanishes there."""
-
-    def at(self, phi: Coefficient, order: int) -> tuple[Jet, Jet]:
-        """The pin for a crank angle in radians."""
-        return self.place(*sin_cos(Jet.variable(phi, order)))
-
-
-GRID = 720  # places on the path that are tried for entry and for exit
-SMALL = 0.05  # radians by which the index angle may be off, for a double root to be looked for
+GRID = 720  # places between entry and exit, and between exit and entry, that are checked
 DOUBLE = 1e-12  # radians: a stationary index angle nearer than this to the wanted one is meant
+BESIDE = 1e-4  # radians: entries nearer to each other lead to the same pair
 NEWTON = 1e-12  # radians: steps of the search that are worth another one
 ROUGH = 1e-9  # radians: index angle's excess that is left to the polishing
 ANCHORS = 4  # on either side of the middle: near the wheel a path is all bends
@@ -145,7 +110,13 @@ def engagement(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
                 digits.to_degrees(p.phi - middle),
                 wheel,
                 float(_length(ray) / L),
-                _along_ray(path.about(p.sine, p.cosine), ray, fit.sense, float(L), end),
+                along_ray(
+                    path.about(p.sine, p.cosine),
+                    (float(ray[0]), float(ray[1])),
+                    fit.sense,
+                    float(L),
+                    end,
+                ),
             )
             for p, ray, wheel, end in zip(
                 places,
@@ -220,16 +191,16 @@ class AlongRay(NamedTuple):
         return along, across
 
 
-def _along_ray(way: Way, ray: Exact, sense: float, L: float, end: float) -> AlongRay:
+def along_ray(way: Way, ray: tuple[float, float], sense: float, L: float, end: float) -> AlongRay:
     """The pin's way along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
 
     There it is the velocity that ``way`` itself gives, so that nothing at all is left across it.
     """
-    ux, uy = float(ray[0]), float(ray[1])
+    ux, uy = ray
     if end:
         x, y = way(*sine_versine(Jet.variable(0.0, 1)))
         ux, uy = end * x.c[1], end * y.c[1]
-    return AlongRay(way, ux, uy, 1.0 / (math.hypot(ux, uy) * L), sense)
+    return AlongRay(way, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)
 
 
 class _Turned(NamedTuple):
@@ -278,27 +249,18 @@ def _place(path: Path, phi: float) -> _Place:
 
 def _candidates(path: Path, b: float) -> Iterator[tuple[float, float]]:
     """Entry and exit of every pair with the right index angle, checked for nothing else."""
-    phi = np.arange(GRID) * (math.tau / GRID)
-    x, y = path.at(phi, 1)
-    p, v = x.c[0] + 1j * y.c[0], x.c[1] + 1j * y.c[1]
-    speed = np.abs(v)
-    t = np.divide(v, speed, out=np.zeros_like(v), where=speed > 0.0)  # none where the point rests
-    # Rows are entries; column j is an exit j + 1 grid steps later.
-    later = (np.arange(GRID)[:, None] + np.arange(1, GRID)[None, :]) % GRID
-    chord, both = p[later] - p[:, None], t[later] + t[:, None]
-    product = chord * both.conj()
-    crossing = (np.sign(product.imag[:, 1:]) != np.sign(product.imag[:, :-1])) & (
-        (product.real[:, 1:] > 0.0) & (product.real[:, :-1] > 0.0)
-    )
-    excess = np.abs(np.angle(-t[later] * t[:, None].conj())) - 2.0 * b
-    for i, j in np.argwhere(crossing & (np.abs(excess[:, 1:]) < 4.0 * SMALL)):
-        entry = float(phi[i])
-        pair = _on_family(path, b, entry, entry + (int(j) + 1.5) * math.tau / GRID)
-        if pair is None:
-            continue
-        root = _refined(path, b, pair)
-        if root:
-            yield root
+    with np.errstate(all="ignore"):
+        found = path_pairs.pairs(path, path_pairs.on_grid(path, 1), np.array([[b]]))
+    tried: list[float] = []
+    for ends in found:
+        for entry, exit_ in ends.phi.tolist():
+            if any(abs(math.remainder(entry - other, math.tau)) < BESIDE for other in tried):
+                continue
+            tried.append(entry)
+            pair = _on_family(path, b, entry, exit_)
+            root = _refined(path, b, pair) if pair else None
+            if root:
+                yield root
 
 
 def _on_family(path: Path, b: float, entry: float, exit_: float) -> Pair | None:

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import reduce
 from typing import Annotated, Any, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example
-from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
-from geneva_cli.machine.wheel_for_path import Path, Way
+from geneva_cli.machine.drives.linkage import Linkage, exactly, refuse_proportions, roughly
+from geneva_cli.machine.path_pairs import Path, Way
+from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
@@ -72,17 +74,19 @@ class FourBar(Linkage):
         )
         # Grashof: the crank turns all round.
         others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
-        longest = max(others)
-        limit = min(*others, sum(others) - 2.0 * longest)
-        if self.crank_mm >= limit:
+        limit = smaller(reduce(smaller, others), sum(others) - 2.0 * reduce(larger, others))
+
+        def error() -> GenevaError:
             below = f"it must be below {limit:.6g}"
             helps = below if limit > 0.0 else "change the other links first"
-            raise GenevaError(
+            return GenevaError(
                 f"crank_mm = {self.crank_mm:g}: the crank cannot turn all round (Grashof: it is "
                 "the shortest link, and with the longest shorter than the other two together); "
                 f"{helps}",
                 ("drive", "crank_mm"),
             )
+
+        refuse(self.crank_mm >= limit, error)
 
     @property
     def roller_path(self) -> CouplerPath:
@@ -110,10 +114,12 @@ class CouplerPath(Path):
 
     def __init__(self, keys: FourBar) -> None:
         lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
-        a, g, b, c = (Decimal(x) for x in lengths)
-        p, q = exact_point(keys.point_mm, keys.point_deg)
-        self.exact = _Links(a, g, b, c, p, q)
-        self.rough = _Links._make(float(x) for x in self.exact)
+        point = {"reach_mm": keys.point_mm, "angle_deg": keys.point_deg}
+        if keys.varies:
+            self.rough = _Links(*roughly(*lengths, **point))
+        else:
+            self.exact = _Links(*exactly(*lengths, **point))
+            self.rough = _Links._make(float(x) for x in self.exact)
         self.side = 1 if keys.branch == "+" else -1
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
@@ -142,24 +148,20 @@ class CouplerPath(Path):
         ex, ey = self.link(sine, cosine, exact)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
-    def about(self, sine: Decimal, cosine: Decimal) -> Way:
+    def about(self, sine: Any, cosine: Any) -> Way:
         """The change of each of A, D, 1/D, N, k and e, from the one before it."""
-        a, g, b, c, p, q = self.exact
+        exact = isinstance(sine, Decimal)
+        rounded: Any = float if exact else lambda x: x
+        a, g, b, c, p, q = self.exact if exact else self.rough
         D0 = g * g + a * a - 2 * g * a * cosine
         above, below = (b + c) ** 2 - D0, D0 - (b - c) ** 2
-        N0, m = (above * below).sqrt(), (b - c) * (b + c)
+        N0, m = sqrt(Jet((above * below,))).c[0], (b - c) * (b + c)
         k0 = ((1 + m / D0) / (2 * b), self.side * N0 / (D0 * 2 * b))
-        x0, y0 = float(g - cosine * a), float(-sine * a)
-        s, t = float(a * sine), float(a * cosine)
-        high, low, steep = float(above), float(below), float(above - below)
-        root, inverse, span = float(N0), float(1 / D0), float(2 * g)
-        real, imag = float(k0[0]), float(k0[1])
-        by_u, by_N = float(m / (2 * b)), float(self.side / (2 * b))
-        P, Q = float(p), float(q)
-
-        return CouplerWay(
-            s, t, high, low, steep, root, inverse, span, real, imag, by_u, by_N, x0, y0, P, Q
+        numbers = (
+            *(a * sine, a * cosine, above, below, above - below, N0, 1 / D0, 2 * g, *k0),
+            *(m / (2 * b), self.side / (2 * b), g - cosine * a, -sine * a, p, q),
         )
+        return CouplerWay._make(rounded(x) for x in numbers)
 
 
 class CouplerWay(NamedTuple):

@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from functools import reduce
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.machine import wheel_for_path
+import numpy as np
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine import wheel_for_path, wheels_for_paths
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.wheel_for_path import Path
+from geneva_cli.machine.path_pairs import Path
+from geneva_cli.machine.wheel_for_path import Fit
+from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
-from geneva_cli.spec.rules import Range
+from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.arrays import larger, library, smaller
+from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.spec import Spec
 
 LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
@@ -34,10 +43,6 @@ class Linkage(PinPath):
     entry_deg: Annotated[
         float | None, Range(-360.0, 360.0), "crank angle near entry, where several wheels fit"
     ] = None
-
-    def may_vary(self, table: str, key: str) -> bool:
-        """The wheel is searched for, one machine after the other: only what is no part of that."""
-        return table not in ("wheel", "drive") or key == "n_rpm"
 
     @property
     @abstractmethod
@@ -57,37 +62,90 @@ class Linkage(PinPath):
                 ("size", "center_distance_mm"),
             )
         step, path = spec.wheel.step, self.roller_path
-        found = wheel_for_path.fits(path, step)
-        if not found:
-            raise GenevaError(
-                f"no wheel of z = {spec.wheel.z} slots fits this path: no two of its tangents meet "
-                f"at {360.0 / spec.wheel.z:.6g} deg, equally far away, with the roller nearer than "
-                "that all the way between and farther on the way back; change the linkage, or z",
-                ("drive", "kind"),
-            )
-        fit = found[0]
-        if self.entry_deg is not None:
-            wanted = math.radians(self.entry_deg)
-            fit = min(found, key=lambda f: abs(math.remainder(float(f.entry) - wanted, math.tau)))
-        engagement, L = wheel_for_path.engagement(path, fit, step)
+        if self.varies or is_array(step.b):
+            engagement, L = self._of_many(step)
+        else:
+            fit = self._chosen(wheel_for_path.fits(path, step))
+            if fit is None:
+                raise _none_fits(spec.wheel.z)
+            engagement, L = wheel_for_path.engagement(path, fit, step)
         x, y = engagement.path(0.0, 0)
-        return self.planned(engagement, math.hypot(1.0 - x.c[0], y.c[0]), L)
+        return self.planned(engagement, library(L).hypot(1.0 - x.c[0], y.c[0]), L)
+
+    @property
+    def varies(self) -> bool:
+        """Whether its links are those of many designs."""
+        return any(is_array(value) for key, value in vars(self).items() if key != "n_rpm")
+
+    def _chosen(self, found: list[Fit]) -> Fit | None:
+        """Of the wheels that fit, the gentlest first, the one that is asked for."""
+        if self.entry_deg is None or not found:
+            return found[0] if found else None
+        wanted = math.radians(self.entry_deg)
+        return min(found, key=lambda f: abs(math.remainder(float(f.entry) - wanted, math.tau)))
+
+    def _one(self, i: int) -> Self:
+        """The linkage of the i-th design. Raises GenevaError for one that is marked as refused."""
+        one = copy.copy(self)
+        for key, value in vars(self).items():
+            if is_array(value):
+                vars(one)[key] = float(value[i, 0])
+        one.__post_init__()
+        return one
+
+    def _of_many(self, step: Step) -> tuple[Engagement, float]:
+        """The engagements and the centre distances of many designs; those without are marked."""
+        wanted = None if self.entry_deg is None else radians(self.entry_deg)
+        found = wheels_for_paths.fits_many(self.roller_path, step.b, wanted)
+        for i in found.alone:
+            p, q = (int(np.broadcast_to(x, found.entry.shape)[i, 0]) for x in step)
+            try:
+                one = self._one(i)
+                fit = one._chosen(wheel_for_path.fits(one.roller_path, Step(p, q)))
+            except GenevaError:
+                fit = None
+            values = (float(fit.entry), float(fit.exit), fit.sense) if fit else (math.nan,) * 3
+            for array, value in zip(found[:3], values, strict=True):
+                array[i, 0] = value
+        refuse(found.entry != found.entry, lambda: _none_fits(step.q))
+        return wheels_for_paths.engagement_many(self.roller_path, found, step.b)
+
+
+def _none_fits(z: int) -> GenevaError:
+    return GenevaError(
+        f"no wheel of z = {z} slots fits this path: no two of its tangents meet at "
+        f"{360.0 / z:.6g} deg, equally far away, with the roller nearer than that all the way "
+        "between and farther on the way back; change the linkage, or z",
+        ("drive", "kind"),
+    )
 
 
 def refuse_proportions(**lengths: float) -> None:
     """Raise GenevaError for links so unlike in length that no wheel can be solved for."""
-    name = max(lengths, key=lengths.__getitem__)
-    limit = LENGTHS * min(lengths.values())
-    if lengths[name] > limit:
-        raise GenevaError(
+    limit = LENGTHS * reduce(smaller, lengths.values())
+
+    def error() -> GenevaError:
+        name = max(lengths, key=lengths.__getitem__)
+        return GenevaError(
             f"{name} = {lengths[name]:g}: links differ by more than {LENGTHS:g} times; it must be "
             f"at most {limit:g}",
             ("drive", name),
         )
 
+    refuse(reduce(larger, lengths.values()) > limit, error)
 
-def exact_point(reach_mm: float, angle_deg: float) -> tuple[Decimal, Decimal]:
-    """A point's places along a line and aside, to 50 digits, from its distance and angle."""
+
+def exactly(*lengths: float, reach_mm: float, angle_deg: float) -> list[Decimal]:
+    """Lengths to 50 digits, and so a point's places along a line and aside, from its distance and
+    angle.
+    """
     with localcontext(digits.FIFTY):
         sine, cosine = digits.sin_cos(digits.of_degrees(angle_deg))
-        return Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
+        point = Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
+        return [*(Decimal(x) for x in lengths), *point]
+
+
+def roughly(*lengths: float, reach_mm: float, angle_deg: float) -> list[float]:
+    """The same in doubles, for arrays of designs too."""
+    sine, cosine = sin_cos_deg(angle_deg)
+    return [*lengths, reach_mm * cosine, reach_mm * sine]

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Annotated, Any, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example
-from geneva_cli.machine.drives.linkage import Linkage, exact_point, refuse_proportions
-from geneva_cli.machine.wheel_for_path import Path, Way
+from geneva_cli.machine.drives.linkage import Linkage, exactly, refuse_proportions, roughly
+from geneva_cli.machine.path_pairs import Path, Way
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
@@ -52,12 +52,14 @@ class SliderCrank(Linkage):
         super().__post_init__()
         a, b, h = self.crank_mm, self.rod_mm, self.height_mm
         refuse_proportions(crank_mm=a, rod_mm=b, point_mm=self.point_mm)
-        if a + abs(h) >= b:
-            raise GenevaError(
+        refuse(
+            a + abs(h) >= b,
+            lambda: GenevaError(
                 f"crank_mm = {a:g}: the crank cannot turn all round; crank and height together "
                 f"must be shorter than the rod, so the crank below {b - abs(h):.6g}",
                 ("drive", "crank_mm"),
-            )
+            ),
+        )
 
     @property
     def roller_path(self) -> RodPath:
@@ -79,10 +81,13 @@ class RodPath(Path):
     """The path of a point of the connecting rod."""
 
     def __init__(self, keys: SliderCrank) -> None:
-        a, b, h = (Decimal(x) for x in (keys.crank_mm, keys.rod_mm, keys.height_mm))
-        p, q = exact_point(keys.point_mm, keys.point_deg)
-        self.exact = _Rod(a, b, h, p, q)
-        self.rough = _Rod._make(float(x) for x in self.exact)
+        lengths = (keys.crank_mm, keys.rod_mm, keys.height_mm)
+        point = {"reach_mm": keys.point_mm, "angle_deg": keys.point_deg}
+        if keys.varies:
+            self.rough = _Rod(*roughly(*lengths, **point))
+        else:
+            self.exact = _Rod(*exactly(*lengths, **point))
+            self.rough = _Rod._make(float(x) for x in self.exact)
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """The rod's unit vector, from A towards B."""
@@ -104,14 +109,17 @@ class RodPath(Path):
         ex, ey = self.link(sine, cosine, exact)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
-    def about(self, sine: Decimal, cosine: Decimal) -> Way:
+    def about(self, sine: Any, cosine: Any) -> Way:
         """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
+        exact = isinstance(sine, Decimal)
+        rounded: Any = float if exact else lambda x: x
+        a, b, h, _, _ = self.exact if exact else self.rough
+        level = (h - sine * a) / b
+        less, more = 1 - level, 1 + level
+        ex = sqrt(Jet((less * more,))).c[0]
+        numbers = [rounded(x) for x in (sine, cosine, level, ex, less, more)]
         a, b, _, p, q = self.rough
-        level = (self.exact.h - sine * self.exact.a) / self.exact.b
-        s, c, ey = float(sine), float(cosine), float(level)
-        less, more, ex = float(1 - level), float(1 + level), float((1 - level * level).sqrt())
-
-        return RodWay(s, c, ey, ex, less, more, a, b, p, q)
+        return RodWay._make((*numbers, a, b, p, q))
 
 
 class RodWay(NamedTuple):
