@@ -16,6 +16,8 @@ class Table(NamedTuple):
     A ``record`` has one row, whose dotted names are a tree: json nests it, and people read it
     line by line. A None is a value that does not exist (an empty field, ``null`` in json). In a
     record a value may be a tuple of texts, or a table of its own. ``prose`` stands below the title.
+    The columns of a ``mixed`` table hold quantities of many kinds, so that no number in them is
+    small beside another.
     """
 
     names: tuple[str, ...]
@@ -23,6 +25,7 @@ class Table(NamedTuple):
     record: bool = False
     title: str = ""
     prose: str = ""
+    mixed: bool = False
 
     def __len__(self) -> int:
         return len(self.columns[0]) if self.columns else 0
@@ -135,10 +138,12 @@ def is_floats(column: Any) -> bool:
     return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
-def rows_table(names: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> Table:
+def rows_table(
+    names: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "", mixed: bool = False
+) -> Table:
     """A table from its rows."""
     columns = list(zip(*rows, strict=True)) if rows else [() for _ in names]
-    return Table(tuple(names), columns, title=title)
+    return Table(tuple(names), columns, title=title, mixed=mixed)
 
 
 def record_table(values: dict[str, Any], title: str = "", prose: str = "") -> Table:

@@ -54,11 +54,11 @@ def _headings(names: tuple[str, ...]) -> list[list[str]]:
     return [[""] * (height - len(p)) + p for p in parts]
 
 
-def _plain(table: Table, one_unit: bool = True) -> Iterator[str]:
-    """Rows under their headings; ``one_unit`` where the numbers of a column can be compared."""
+def _plain(table: Table) -> Iterator[str]:
+    """Rows under their headings."""
     heads = _headings(table.names)
     for block in table.blocks():
-        rows = _without_noise(block) if one_unit else block
+        rows = block if table.mixed else _without_noise(block)
         lines = [[cell(v) for v in row] for row in rows]
         widths = [
             max(len(text) for text in (*head, *(line[i] for line in lines)))
@@ -109,7 +109,7 @@ def _record(table: Table) -> Iterator[str]:
             )
             yield from _record(before)
             yield "\n"
-            yield from _plain(value, one_unit=False)
+            yield from _plain(value)
             yield "\n"
             yield from _record(after)
             return

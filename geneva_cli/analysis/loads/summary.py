@@ -192,7 +192,7 @@ def loads_table(
     found = summaries(cycle)
     if for_people:
         rows = [(name, *one) for name, one in found.items() if one != Summary()]
-        values["loads"] = rows_table(("quantity", *Summary._fields), rows)
+        values["loads"] = rows_table(("quantity", *Summary._fields), rows, mixed=True)
     else:
         for name, one in found.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}

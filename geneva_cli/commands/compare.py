@@ -1,0 +1,35 @@
+"""``geneva compare``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Given, Output
+
+
+def run(
+    specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(metavar="KEY=VALUES", help="One spec through values: drive.A=0,0.3,0.6."),
+    ] = None,
+    pick: Annotated[
+        str, typer.Option(metavar="FIELD,...", help="Only these, as acceleration.max,dwell_s.")
+    ] = "",
+    ratio: Annotated[
+        bool, typer.Option("--ratio", help="Numbers over the first design's.")
+    ] = False,
+    differing: Annotated[bool, typer.Option("--differing", help="Only what differs.")] = False,
+    given: Given = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Designs side by side: a column a design, a row a quantity, and whether they differ in it."""
+    from geneva_cli.output import show
+    from geneva_cli.study.compare import compare
+
+    picks = [name.strip() for name in pick.split(",")] if pick else []
+    table = compare(specs, given or (), vary or (), picks, ratio, not differing)
+    show(table, output, format, specs)

@@ -1,0 +1,106 @@
+"""Designs side by side: a column a design, a row a quantity, the same rows for every machine."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Sequence
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.settings import setting
+from geneva_cli.study.fields import Cell, pick, values
+from geneva_cli.study.sweep.values import axis
+from geneva_cli.table import Table, rows_table
+
+COLUMNS_MAX = 100
+LEFT_OUT = "inputs."  # what a spec says is in the spec; what differs of it is in the columns' names
+
+
+def compare(
+    paths: Sequence[str],
+    given: Sequence[str] = (),
+    vary: Sequence[str] = (),
+    picks: Sequence[str] = (),
+    ratio: bool = False,
+    alike: bool = True,
+) -> Table:
+    """``quantity``, a column a design, and ``differs``; with ``ratio`` numbers over the first's.
+
+    One design is varied through values of keys (``vary``, ``KEY=VALUES``), or several are set side
+    by side. ``picks`` are the quantities to show, all quick ones without; ``alike`` shows those
+    that do not differ too. Raises GenevaError for a design that cannot be read or built.
+    """
+    names, machines = _columns(paths, given, vary)
+    if picks:
+        wanted = pick(picks, machines[0])
+        each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
+    else:
+        each = [values(m) for m in machines]
+    rows = []
+    for quantity in dict.fromkeys(name for found in each for name in found):
+        if quantity.startswith(LEFT_OUT) and not picks:
+            continue
+        cells = [found.get(quantity) for found in each]
+        differs = any(c != cells[0] for c in cells[1:])
+        if any(c is not None for c in cells) and (differs or alike):
+            rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
+    return rows_table(("quantity", *names, "differs"), rows, mixed=True)
+
+
+def _ratios(cells: Sequence[Cell]) -> list[Cell]:
+    """The first as it is, the others over it where both are numbers."""
+    first, *others = cells
+    return [first, *(_over(c, first) for c in others)]
+
+
+def _over(cell: Cell, first: Cell) -> Cell:
+    numbers = all(isinstance(c, (int, float)) and not isinstance(c, bool) for c in (cell, first))
+    return cell / first if numbers and first else cell  # type: ignore[operator]
+
+
+def _columns(
+    paths: Sequence[str], given: Sequence[str], vary: Sequence[str]
+) -> tuple[list[str], list[Mechanism]]:
+    """The names of the columns, and their machines."""
+    texts: dict[str, Text]
+    if vary:
+        if len(paths) > 1:
+            raise GenevaError("--vary is for one SPEC; set several side by side without it")
+        texts = _varied(read(paths[0], given), vary)
+    else:
+        twice = next((p for p in paths if list(paths).count(p) > 1), None)
+        if twice:
+            raise GenevaError(f"{cut(twice)}: given twice; --vary shows changes of one spec")
+        texts = {_name(p, paths): read(p, given) for p in paths}
+    if len(texts) > COLUMNS_MAX:
+        raise GenevaError(
+            f"{len(texts)} designs side by side; at most {COLUMNS_MAX}: `geneva sweep` has a row "
+            "for each"
+        )
+    machines = []
+    for text in texts.values():
+        spec = text.spec()
+        with text.located():
+            machines.append(build(spec))
+    return list(texts), machines
+
+
+def _name(path: str, paths: Sequence[str]) -> str:
+    """A file's name without folder and ending, where that tells it from the others."""
+    stems = [os.path.splitext(os.path.basename(p))[0] for p in paths]
+    stem = stems[list(paths).index(path)]
+    return stem if stems.count(stem) == 1 and stem not in ("quantity", "differs") else path
+
+
+def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
+    axes = [axis(v) for v in vary]
+    out = {}
+    for some in itertools.product(*[a.values for a in axes]):
+        said = [f"{a.key}={v}" for a, v in zip(axes, some, strict=True)]
+        changes = tuple(setting(s, "--vary") for s in said)
+        out[" ".join(said)] = text._replace(given=(*text.given, *changes))
+        if len(out) > COLUMNS_MAX:
+            break
+    return out

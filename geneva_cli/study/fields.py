@@ -1,0 +1,105 @@
+"""The quantities of a design by their names, as ``acceleration.max``: those of its report.
+
+A section of the report is worked out only where one of its quantities is asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, TypeAlias
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.proof import Proof
+from geneva_cli.table import Table
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.report.parts import parts
+from geneva_cli.verdict.report.sections import SECTIONS
+from geneva_cli.verdict.report.values import Values
+
+Cell: TypeAlias = float | int | str | bool | None
+Section: TypeAlias = Callable[[Proof], Values]
+
+
+def machine(proof: Proof) -> Values:
+    """What kind of machine it is."""
+    spec = proof.mechanism.spec
+    return {
+        "wheel.z": spec.wheel.z,
+        "wheel.gearing": spec.wheel.NAME,
+        "drive.kind": spec.drive.NAME,
+        "drive.rollers": spec.drive.rollers,
+        "motion.law": spec.motion.law.NAME if spec.motion else None,
+    }
+
+
+def judged(proof: Proof) -> Values:
+    """The value of each check, and whether all pass."""
+    rows = checks(proof.mechanism, proof)
+    values: Values = {f"checks.{c.name}": c.value for c in rows}
+    failed = [c.name for c in rows if c.passes is False]
+    return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
+
+
+# What turns the parts of a machine takes a second, and comes last.
+QUICK: tuple[Section, ...] = (machine, *(s for s in SECTIONS if s is not parts))
+SLOW: tuple[Section, ...] = (parts, judged)
+
+
+def values(mechanism: Mechanism, sections: Iterable[Section] = QUICK) -> dict[str, Cell]:
+    """The quantities of some sections; what is a text of several lines or a table is left out."""
+    proof, out = Proof(mechanism), {}
+    for section in sections:
+        for name, value in section(proof).items():
+            if not isinstance(value, (tuple, Table)):
+                out[name] = value
+    return out
+
+
+class Pick(NamedTuple):
+    """Quantities that are asked for, and the sections that they are found in."""
+
+    names: tuple[str, ...]
+    sections: tuple[Section, ...]
+    # the names as they were asked for, whole: one may have been asked for twice
+    asked: tuple[str, ...] = ()
+
+    def of(self, mechanism: Mechanism) -> list[Cell]:
+        """Their values, None where one does not apply."""
+        found = values(mechanism, self.sections)
+        return [found.get(name) for name in self.names]
+
+
+def pick(asked: Sequence[str], mechanism: Mechanism, option: str = "--pick") -> Pick:
+    """The quantities of these names, which need not be whole: ``dwell_s`` is timing.dwell_s.
+
+    ``mechanism`` is one that has them. Raises GenevaError, with the nearest name, for a name that
+    is none, or is not one alone.
+    """
+    known: dict[str, Section] = {}
+    names: dict[str, str] = {}
+    for section in (*QUICK, *SLOW):
+        known |= dict.fromkeys(values(mechanism, (section,)), section)
+        names |= {a: found for a in asked if a not in names and (found := _named(a, known, option))}
+        if len(names) == len(set(asked)):
+            break
+    for a in asked:
+        if a not in names:
+            raise GenevaError(
+                f"{option} {cut(a)}: no quantity of a design{nearest(a, known)}; `geneva compare` "
+                "shows all that are quick, and check names stand behind checks."
+            )
+    sections = tuple(dict.fromkeys(known[names[a]] for a in asked))
+    whole = tuple(names[a] for a in asked)
+    return Pick(tuple(dict.fromkeys(whole)), sections, whole)
+
+
+def _named(asked: str, known: Iterable[str], option: str) -> str | None:
+    """The whole name of what is asked for; None where there is none yet."""
+    among = list(known)
+    if asked in among:
+        return asked
+    found = [name for name in among if name.endswith(f".{asked}")]
+    if len(found) > 1:
+        raise GenevaError(f"{option} {cut(asked)}: it may be {' or '.join(found)}; say which")
+    return found[0] if found else None

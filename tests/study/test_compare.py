@@ -1,0 +1,99 @@
+"""Designs side by side: the same rows for every machine, and the numbers of their own reports."""
+
+import os
+
+import pytest
+
+from geneva_cli import GenevaError, load
+from geneva_cli.study.compare import compare
+
+HERE = os.path.dirname(__file__)
+DESIGNS = os.path.join(HERE, os.pardir, os.pardir, "designs")
+NAMES = sorted(f for f in os.listdir(DESIGNS) if f.endswith(".toml"))
+
+
+def path(name):
+    return os.path.join(DESIGNS, name)
+
+
+def by_quantity(table):
+    return {row["quantity"]: row for row in table.to_rows()}
+
+
+def test_the_papers_ratios():
+    """Polyudov and Kandyak: at A = 0.6, z = 6 the plain crank's velocity, acceleration and kinetic
+    power are 1.600, 2.583 and 4.164 times as high."""
+    found = by_quantity(compare([path("side-crank-z6.toml")], vary=["drive.A=0.6,0"], ratio=True))
+    ratios = [found[f"{name}.max"]["drive.A=0"] for name in ("velocity", "acceleration", "power")]
+    assert [round(r, 3) for r in ratios] == [1.6, 2.583, 4.164]
+
+
+def test_each_column_is_the_designs_own_report():
+    names = ["internal-z6.toml", "four-bar-z4.toml", "spherical-z6.toml"]
+    found = by_quantity(compare([path(n) for n in names]))
+    for name in names:
+        report = load(path(name)).report.table.to_dict()
+        column = {q: row[name.removesuffix(".toml")] for q, row in found.items()}
+        shared = column.keys() & report.keys()
+        assert len(shared) > 30
+        assert all(column[q] == report[q] for q in shared)
+
+
+def test_every_machine_has_the_same_rows():
+    """All designs at once; what a machine does not have is None."""
+    table = compare([path(n) for n in NAMES])
+    assert len(table.names) == len(NAMES) + 2
+    assert by_quantity(table).keys() >= {"timing.dwell_s", "acceleration.max", "sizes.ratio"}
+
+
+def test_differing_rows_are_marked_and_alone_on_request():
+    whole = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6"])
+    marked = [q for q, row in by_quantity(whole).items() if row["differs"]]
+    only = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6"], alike=False)
+    assert list(by_quantity(only)) == marked
+    assert "wheel.z" not in marked and "acceleration.max" in marked
+
+
+def test_picked_quantities_by_whole_and_short_names():
+    table = compare([path("limits.toml")], picks=["dwell_s", "acceleration.max", "passes"])
+    assert list(by_quantity(table)) == ["timing.dwell_s", "acceleration.max", "checks.passes"]
+
+
+def test_two_keys_vary_as_a_grid():
+    table = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6", "wheel.z=6,8"])
+    assert table.names[1:3] == ("drive.A=0 wheel.z=6", "drive.A=0 wheel.z=8")
+    assert len(table.names) == 6
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (
+            {"picks": ["acceleration.mx"]},
+            'no quantity of a design (did you mean "acceleration.max"?',
+        ),
+        ({"picks": ["max"]}, "it may be velocity.max or"),
+        ({"vary": ["drive.A=0,2"]}, "--vary drive.A=2: A = 2 must be above -1, below 1"),
+        ({"vary": ["drive.B=1"]}, "--vary drive.B=1: unknown key B in [drive]"),
+        ({"vary": ["drive.A=0:1:0.001"]}, "at most 100: `geneva sweep`"),
+    ],
+)
+def test_what_cannot_be_compared(arguments, said):
+    with pytest.raises(GenevaError) as error:
+        compare([path("side-crank-z6.toml")], **arguments)
+    assert said in str(error.value)
+
+
+def test_a_design_beside_itself_is_refused():
+    with pytest.raises(GenevaError, match="given twice"):
+        compare([path("limits.toml")] * 2)
+
+
+def test_a_small_number_is_no_noise_beside_another_quantity(capsys):
+    """In one column 1e-25 of jerk stands beside 1e9 s, unlike in a column of one quantity."""
+    from geneva_cli.output import show
+
+    slow = ["drive.n_rpm=1e-8"]
+    show(compare([path("side-crank-z6.toml")], slow, picks=["motion_s", "jerk.max_rad_s3"]))
+    jerk = capsys.readouterr().out.splitlines()[-1].split()
+    assert jerk[0] == "jerk.max_rad_s3" and 0.0 < float(jerk[1]) < 1e-20
