@@ -31,6 +31,8 @@ COMMANDS = {
     "report": "One page on a design, for a person.",
     "tolerance": "Place, play and entry from every dimension's plus or minus.",
     "check": "Does the design work? Exit status 1 where a check fails.",
+    "compare": "Designs side by side: a column a design, a row a quantity.",
+    "sweep": "Thousands of designs, a row each: keys varied, quantities picked.",
     "laws": "The motion laws and their characteristic values.",
     "synth": "From a wish (tau, k, angle, time, acceleration) to machines for it.",
     "new": "Write a commented spec to start from.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
@@ -24,7 +24,12 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
             line = ",".join(["%r"] * len(table.names)) + "\n"
             yield line * len(block) % tuple(v + 0.0 for row in block for v in row)
         else:
-            yield "".join(",".join(_field(v) for v in row) + "\n" for row in block)
+            yield "".join(map(one_line, block))
+
+
+def one_line(row: Iterable[Any]) -> str:
+    """One row."""
+    return ",".join(map(_field, row)) + "\n"
 
 
 def _numbers(table: Table) -> Iterator[str]:

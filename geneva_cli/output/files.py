@@ -29,34 +29,48 @@ def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
     owner and permissions. A device or a pipe is written to directly. Raises GenevaError where the
     file cannot be written, is read-only, or is one of ``inputs``.
     """
+    with told(path):
+        real, old = place(path, inputs)
+        if old is None or stat.S_ISREG(old.st_mode):
+            _replace(real, chunks, old)
+            return
+        with open(real, "w", encoding="utf-8", newline="") as device:
+            device.writelines(chunks)
+
+
+@contextmanager
+def told(path: str) -> Iterator[None]:
+    """What the system says against a file comes out as a GenevaError."""
+    try:
+        yield
+    except OSError as error:
+        raise GenevaError(
+            f"{cut(path, 300)}: cannot write: {error.strerror}{_advice(error, path)}"
+        ) from None
+
+
+def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | None]:
+    """The real path of a file that is to be written, and the status of what is there already.
+
+    Raises GenevaError, or OSError, where it must not or cannot be written.
+    """
     if not path or "\0" in path:
         raise GenevaError(f'-o "{path}": not a file\'s name')
     try:
         real = os.path.realpath(path)
     except FileNotFoundError:
         raise GenevaError(f'-o "{path}": the current folder is gone; change to another') from None
-    try:
-        old = _status(real)
-        if old is None:
-            _replace(real, chunks, None)
-            return
-        _refuse_input(path, old, inputs)
-        if stat.S_ISDIR(old.st_mode):
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-        if not old.st_mode & stat.S_IWUSR or not os.access(real, os.W_OK):
-            raise GenevaError(
-                f"{path}: this file is read-only; allow writing (chmod u+w), or give -o another "
-                "name"
-            )
-        if stat.S_ISREG(old.st_mode):
-            _replace(real, chunks, old)
-            return
-        with open(real, "w", encoding="utf-8", newline="") as device:
-            device.writelines(chunks)
-    except OSError as error:
+    old = _status(real)
+    if old is None:
+        return real, None
+    _refuse_input(path, old, inputs)
+    if stat.S_ISDIR(old.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not old.st_mode & stat.S_IWUSR or not os.access(real, os.W_OK):
         raise GenevaError(
-            f"{cut(path, 300)}: cannot write: {error.strerror}{_advice(error, real)}"
-        ) from None
+            f"{path}: this file is read-only; allow writing (chmod u+w), or give -o another name"
+        )
+    return real, old
 
 
 def _status(path: str) -> os.stat_result | None:
@@ -79,7 +93,7 @@ def _replace(path: str, chunks: Iterable[str], old: os.stat_result | None) -> No
             with open(temporary, "x", encoding="utf-8", newline="") as file:
                 _lock(file.fileno())
                 if old is not None:
-                    _take_after(file.fileno(), old)
+                    take_after(file.fileno(), old)
                 file.writelines(chunks)
                 file.flush()
                 os.fsync(file.fileno())
@@ -109,7 +123,7 @@ def _stopping_cleanly() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _take_after(descriptor: int, old: os.stat_result) -> None:
+def take_after(descriptor: int, old: os.stat_result) -> None:
     """Owner and permissions of the old file; who may not give a file away keeps it."""
     new = os.fstat(descriptor)
     if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
@@ -186,7 +200,7 @@ def _refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None
 
 def _advice(error: OSError, path: str) -> str:
     if error.errno == errno.ENOENT:
-        return f"; make the folder {os.path.dirname(path)} first"
+        return f"; make the folder {os.path.dirname(os.path.realpath(path))} first"
     if error.errno == errno.EISDIR:
         return "; give a file's name"
     return ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from typing import Any
 
@@ -76,4 +77,5 @@ def quoted(value: Any) -> str:
     """A value as TOML has it."""
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(quoted(v) for v in value)}]"
-    return f'"{value}"' if isinstance(value, str) else repr(value)
+    # what JSON writes of a text TOML reads, quotation marks in it too
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import signal
-import threading
 from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
@@ -47,39 +44,9 @@ def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
     """The verdicts on specs, in their order; standard input is read here, files anywhere."""
     judge = partial(verdict, given=given)
     files = [path for path in paths if path != "-"]
-    workers = min(len(files), os.cpu_count() or 1)
-    if workers < 2:
-        yield from map(judge, paths)
-        return
-    from concurrent.futures import ProcessPoolExecutor
-    from concurrent.futures.process import BrokenProcessPool
-
-    # A fork needs no second start of the program; where there is none, there is one.
-    methods = multiprocessing.get_all_start_methods()
-    context = multiprocessing.get_context("fork" if "fork" in methods else None)
-    with ProcessPoolExecutor(workers, context, _attend) as pool:
-        try:
-            found = pool.map(judge, files)
-            for path in paths:
-                yield judge(path) if path == "-" else next(found)
-        except BrokenProcessPool:
-            raise GenevaError(
-                "a process that checked some of the specs was ended from outside, or ran out of "
-                "memory; check fewer at a time"
-            ) from None
-
-
-def _attend() -> None:
-    """A worker ends with the program that started it, and by Ctrl-C, without a word of its own."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    threading.Thread(target=_leave, daemon=True).start()
-
-
-def _leave() -> None:
-    parent = multiprocessing.parent_process()
-    if parent:
-        parent.join()
-        os._exit(1)
+    found = mapped(judge, files, min(len(files), cores()), "specs")
+    for path in paths:
+        yield judge(path) if path == "-" else next(found)
 
 
 def checks_table(found: list[Verdict]) -> Table:

@@ -1,0 +1,140 @@
+"""``geneva sweep``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+import typer
+
+from geneva_cli.commands.options import Given, SpecPath
+from geneva_cli.errors import GenevaError, cut
+
+if TYPE_CHECKING:
+    from geneva_cli.study.sweep.request import Request
+
+Rows: TypeAlias = list[list[Any]]
+
+
+def run(
+    spec: SpecPath,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KEY=VALUES", help="drive.A=0:0.9:0.1, wheel.z=3..12, motion.law=a,b; repeat."
+        ),
+    ] = None,
+    pick: Annotated[
+        str, typer.Option(metavar="FIELD,...", help="Quantities, as acceleration.max,dwell_s.")
+    ] = "",
+    random: Annotated[
+        int | None, typer.Option(metavar="N", help="N designs drawn from the box, not the grid.")
+    ] = None,
+    seed: Annotated[int, typer.Option(metavar="S", help="What they are drawn with.")] = 0,
+    check: Annotated[bool, typer.Option("--check", help="Add whether all checks pass.")] = False,
+    subject_to: Annotated[
+        list[str] | None,
+        typer.Option(metavar="BOUND", help='Only rows that keep it: "dwell_s >= 0.8"; repeat.'),
+    ] = None,
+    pareto: Annotated[
+        str,
+        typer.Option(metavar="min:FIELD,...", help="Only rows that no other beats in all these."),
+    ] = "",
+    best: Annotated[
+        str, typer.Option(metavar="min:FIELD", help="The best design, refined, as a spec.")
+    ] = "",
+    shard: Annotated[
+        str, typer.Option(metavar="I/N", help="Only the I-th of N shares, as 3/16.")
+    ] = "",
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with a stopped sweep.")] = False,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", help="Processes; all cores without.")
+    ] = None,
+    given: Given = None,
+    output: Annotated[
+        str,
+        typer.Option("-o", "--output", metavar="FILE", help="A .csv or .parquet; - prints."),
+    ] = "-",
+) -> None:
+    """One row a design: the varied keys, then the quantities; the last key runs fastest.
+
+    A design that cannot be built is a row that says why. Stopped, a sweep into a file goes on with
+    --resume. The rows of all shares, one after the other, are those of one run: the first alone has
+    the header. With --random and --best a key may vary between LOW:HIGH.
+    """
+    from geneva_cli.study.sweep.request import request
+
+    asked = request(
+        spec,
+        vary or (),
+        given or (),
+        pick=pick,
+        random=random,
+        seed=seed,
+        check=check,
+        subject_to=subject_to or (),
+        pareto=pareto,
+        best=best,
+        shard=shard,
+        jobs=jobs,
+    )
+    if best:
+        _write_best(asked, output)
+        return
+    if resume and asked.chooses:
+        raise GenevaError("--resume goes on with all rows of a sweep, not with a choice of them")
+    done, failed = _write_rows(asked, output, resume)
+    if failed:
+        print(
+            f"{spec}: {failed:,} of {done:,} designs cannot be built: column error says why",
+            file=sys.stderr,
+        )
+
+
+def _write_rows(asked: Request, output: str, resume: bool) -> tuple[int, int]:
+    """All rows as they come, or the choice of them; how many designs there were, and not built."""
+    from geneva_cli.output.rows import Growth
+
+    found, count, failed = asked.sweep, 0, 0
+    first, files = found.shard.number == 1, found.text.spec().files
+
+    def counted(blocks: Iterable[Rows]) -> Iterator[Rows]:
+        nonlocal count, failed
+        for block in blocks:
+            count += len(block)
+            failed += sum(row[-1] is not None for row in block)
+            yield block
+
+    with Growth(found.names, asked.key, first, output, resume, files) as rows:
+        blocks = counted(_shown(asked, rows.done))
+        for block in asked.chosen(blocks) if asked.chooses else blocks:
+            rows.append(block)
+        rows.finish()
+    return count, failed
+
+
+def _write_best(asked: Request, output: str) -> None:
+    from geneva_cli.output import show_text
+
+    if output != "-" and not output.endswith(".toml"):
+        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
+    show_text("\n".join(asked.best(_shown(asked, 0))) + "\n", output)
+
+
+def _shown(asked: Request, done: int) -> Iterator[Rows]:
+    """The rows, with a progress bar where a person looks and nothing else is printed."""
+    blocks = asked.blocks(done)
+    if not sys.stderr.isatty() or sys.stdout.isatty():
+        yield from blocks
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    start, stop = asked.sweep.span
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=stop - start, completed=done)
+        for block in blocks:
+            yield block
+            bar.advance(task, len(block))

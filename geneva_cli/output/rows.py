@@ -1,0 +1,84 @@
+"""Rows of a table that grows: csv on standard output or in a file, or a parquet made from it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Sequence
+from types import TracebackType
+from typing import Any, Self
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output.delimited import one_line
+from geneva_cli.output.finite import refuse_nonsense
+from geneva_cli.output.growing import Growing
+
+ENDINGS = (".csv", ".parquet")
+
+
+class Growth:
+    """Where the rows of ``names`` go; ``done`` of them are there already.
+
+    ``key`` is all that they depend on, for ``resume``; a later share of a table has no ``header``.
+    """
+
+    def __init__(
+        self,
+        names: Sequence[str],
+        key: str,
+        header: bool,
+        output: str,
+        resume: bool = False,
+        inputs: Iterable[str] = (),
+    ) -> None:
+        self.names, self.output, self.done = names, output, 0
+        self.file: Growing | None = None
+        self.parquet = output.endswith(".parquet")
+        if output != "-" and not output.endswith(ENDINGS):
+            raise GenevaError(f'-o "{cut(output, 300)}": it must end in {" or ".join(ENDINGS)}')
+        if self.parquet:
+            from geneva_cli.output.parquet import refuse_without
+
+            refuse_without()
+            header = True  # a share is a file of its own
+        first = one_line(names) if header else ""
+        if output != "-":
+            self.file = Growing(output, first, key, resume, inputs)
+            self.done = self.file.done
+        elif resume:
+            raise GenevaError("--resume goes on with a file: give -o FILE")
+        else:
+            sys.stdout.write(first)
+
+    def append(self, rows: Sequence[Sequence[Any]]) -> None:
+        """More rows. Raises GenevaError for a number that is none."""
+        refuse_nonsense(self.names, list(zip(*rows, strict=True)))
+        text = "".join(map(one_line, rows))
+        if self.file:
+            self.file.append(text)
+        else:
+            sys.stdout.write(text)
+
+    def finish(self) -> None:
+        """Nothing more comes: the file takes its name."""
+        if not self.file:
+            return
+        if self.parquet:
+            from geneva_cli.output.parquet import convert
+
+            made = f"{self.file.partial}.parquet"
+            convert(self.file.partial, made)
+            self.file.finish(made)
+            return
+        self.file.finish()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self.file:
+            self.file.file.close()

@@ -1,0 +1,73 @@
+"""Work spread over the computer's cores, its results in order."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, TypeVar
+
+from geneva_cli.errors import GenevaError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+T = TypeVar("T")
+R = TypeVar("R")
+AHEAD = 4  # results a worker may be ahead of the one that is waited for: memory stays flat
+
+
+def mapped(
+    work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
+) -> Iterator[R]:
+    """``work`` of each item, in order, by ``workers`` processes; by this one where they are one.
+
+    Raises GenevaError, which calls the items ``what``, where a process is ended from outside.
+    """
+    if workers < 2:
+        yield from map(work, items)
+        return
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
+    # A fork needs no second start of the program; where there is none, there is one.
+    methods = multiprocessing.get_all_start_methods()
+    context = multiprocessing.get_context("fork" if "fork" in methods else None)
+    with ProcessPoolExecutor(workers, context, _attend) as pool:
+        waiting: deque[Future[R]] = deque()
+        try:
+            for item in items:
+                waiting.append(pool.submit(work, item))
+                if len(waiting) > AHEAD * workers:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        except BrokenProcessPool:
+            raise GenevaError(
+                f"a process that worked on some of the {what} was ended from outside, or ran out "
+                f"of memory; try fewer {what} at a time"
+            ) from None
+
+
+def cores() -> int:
+    """How many processes may run at once here."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # a system that does not say
+        return os.cpu_count() or 1
+
+
+def _attend() -> None:
+    """A worker ends with the program that started it, and by Ctrl-C, without a word of its own."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    threading.Thread(target=_leave, daemon=True).start()
+
+
+def _leave() -> None:
+    parent = multiprocessing.parent_process()
+    if parent:
+        parent.join()
+        os._exit(1)

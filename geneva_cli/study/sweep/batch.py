@@ -1,0 +1,101 @@
+"""The rows of many designs at once, where one machine can be all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.many import Many, many, may_vary
+from geneva_cli.machine.spec import Spec
+from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.sweep.values import Value
+
+TRIED = 20  # designs of a group, one of which must be a spec, to know its kinds
+
+
+class Group:
+    """Designs that differ in numbers alone: their own numbers, and the values that they share."""
+
+    def __init__(self, rows: Sequence[Sequence[Value]], members: list[int]) -> None:
+        self.rows, self.members = rows, members
+
+    def spec(self, read: Callable[[Sequence[Value]], Spec]) -> Spec | None:
+        """The spec of the first that is one; None where none of the first is."""
+        for i in self.members[:TRIED]:
+            try:
+                return read(self.rows[i])
+            except GenevaError:
+                continue
+        return None
+
+    def built(self, spec: Spec, keys: Sequence[str], wide: Sequence[int]) -> Many:
+        """The machine of all of them."""
+        varied = {keys[k]: np.array([self.rows[i][k] for i in self.members]) for k in wide}
+        return many(spec, varied)
+
+
+def groups(rows: Sequence[Sequence[Value]], wide: Sequence[int]) -> Iterator[Group]:
+    """Rows apart by what is no array: ``wide`` are the numbers of the keys that may be."""
+    apart: dict[tuple[Value, ...], list[int]] = {}
+    for i, row in enumerate(rows):
+        apart.setdefault(tuple(v for k, v in enumerate(row) if k not in wide), []).append(i)
+    yield from (Group(rows, members) for members in apart.values())
+
+
+def wide_keys(spec: Spec, keys: Sequence[str], rows: Sequence[Sequence[Value]]) -> list[int]:
+    """The numbers of the keys whose values may be arrays in a machine of this spec."""
+    numeric = [k for k in range(len(keys)) if all(not isinstance(row[k], str) for row in rows)]
+    return [k for k in numeric if _may(spec, keys[k])]
+
+
+def _may(spec: Spec, key: str) -> bool:
+    try:
+        return may_vary(spec, key)
+    except GenevaError:  # a key of another kind
+        return False
+
+
+def table(
+    rows: Sequence[Sequence[Value]],
+    keys: Sequence[str],
+    names: Sequence[str],
+    read: Callable[[Sequence[Value]], Spec],
+) -> Mapping[int, list[float]]:
+    """The quantities of the designs that can be had together, by their numbers among ``rows``.
+
+    ``read`` gives the spec of a row. What is missing is had by itself, or cannot be built.
+    """
+    out: dict[int, list[float]] = {}
+    words = [k for k in range(len(keys)) if any(isinstance(row[k], str) for row in rows)]
+    for rough in groups(rows, [k for k in range(len(keys)) if k not in words]):
+        spec = rough.spec(read)
+        if spec is None:
+            continue
+        own = [rows[i] for i in rough.members]
+        wide = wide_keys(spec, keys, own)
+        if not wide:
+            continue
+        for fine in groups(own, wide):
+            here = fine.spec(read)
+            if here is None:
+                continue
+            _fill(
+                out, [rough.members[i] for i in fine.members], fine.built(here, keys, wide), names
+            )
+    return out
+
+
+def _fill(
+    out: dict[int, list[float]], members: Sequence[int], found: Many, names: Sequence[str]
+) -> None:
+    if found.machine is None:
+        return
+    built = found.which.tolist()
+    values = columns(found.machine, names, len(built))
+    if values is None:
+        return
+    for i, row in zip(built, np.column_stack(values).tolist(), strict=True):
+        if all(np.isfinite(row)):
+            out[members[i]] = row

@@ -1,0 +1,155 @@
+"""The best of a sweep: found by looking everywhere, then refined where it was found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.study.fields import Cell
+from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.sweep.front import Objective
+from geneva_cli.study.sweep.run import Sweep
+from geneva_cli.study.sweep.values import Value
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+Row: TypeAlias = Sequence[Cell]
+
+STARTS = 3  # of the best designs of the scan, from each of which the optimiser sets out
+EVALUATIONS = 300  # of the optimiser, from each start
+FINEST = 1e-9  # share of a key's range to which it is refined
+FAR = 1e3  # outside a bound, or above a cost: a design that cannot be built
+
+
+class Asked(NamedTuple):
+    """What is wanted of the designs of a sweep: an objective, within bounds."""
+
+    objective: Objective
+    constraints: tuple[Constraint, ...]
+
+
+class Winner(NamedTuple):
+    """The best design: its numbers by name, its machine, and how it was found."""
+
+    values: dict[str, float]
+    mechanism: Mechanism
+    tried: int
+    feasible: int
+    binding: tuple[Constraint, ...]
+
+    def lines(self, asked: Asked) -> list[str]:
+        """The design as a spec, what it is the best of in a comment above it."""
+        name = asked.objective.name
+        word = "least" if asked.objective.sign > 0.0 else "greatest"
+        notes = [
+            f"# The {word} {name} of {self.tried:,} designs, {self.feasible:,} of them within the "
+            f"bounds: {self.values[name]:.9g}.",
+            *[
+                f"# {c}: {self.values[c.name]:.9g}{' (binds)' * c.binds(self.values[c.name])}"
+                for c in asked.constraints
+            ],
+        ]
+        spec = self.mechanism.spec
+        title = [f"title = {quoted(spec.title)}"] if spec.title else []
+        return [*notes, *title, *written(spec)]
+
+
+def winner(found: Sweep, rows: Sequence[Row], asked: Asked) -> Winner:
+    """The best of the rows of a sweep, refined over those of its keys that were given as spans.
+
+    Raises GenevaError, saying how near the designs come, where none keeps the bounds.
+    """
+    search = Search(found, asked)
+    kept = [row for row in rows if search.keeps(row)]
+    if not kept:
+        raise GenevaError(_none(found, rows, asked))
+    kept.sort(key=search.cost)  # the first of equals stays first
+    best = min((search.refined(row) for row in kept[:STARTS]), key=search.cost)
+    values = dict(zip(found.names, best, strict=True))
+    numbers = {name: float(v) for name, v in values.items() if is_number(v)}
+    binding = tuple(c for c in asked.constraints if c.binds(numbers[c.name]))
+    return Winner(numbers, found.machine(search.keys(best)), len(rows), len(kept), binding)
+
+
+class Search:
+    """The rows of a sweep as an optimiser sees them: shares of the free keys' spans."""
+
+    def __init__(self, found: Sweep, asked: Asked) -> None:
+        self.found, self.sign = found, asked.objective.sign
+        self.at = found.names.index(asked.objective.name)
+        self.bounds = [(found.names.index(c.name), c) for c in asked.constraints]
+        axes = found.plan.axes
+        self.free = [i for i, a in enumerate(axes) if a.span]
+        ends = [axes[i].values for i in self.free]
+        self.low, self.high = np.array(ends, dtype=float).reshape(-1, 2).T
+
+    def keys(self, row: Row) -> list[Value]:
+        """The values of the keys of a row."""
+        return [v for v in row[: len(self.found.plan.axes)] if v is not None]
+
+    def cost(self, row: Row) -> float:
+        """What is to be small; infinite for a design that does not have it."""
+        value = row[self.at]
+        return self.sign * float(value) if is_number(value) else np.inf
+
+    def keeps(self, row: Row) -> bool:
+        """Whether a design has the objective and keeps all bounds."""
+        return np.isfinite(self.cost(row)) and all(c.kept(row[i]) for i, c in self.bounds)
+
+    def rooms(self, row: Row) -> list[float]:
+        """How far inside each bound a design is; one without the quantity is far outside."""
+        return [c.room(float(v)) if is_number(v := row[i]) else -FAR for i, c in self.bounds]
+
+    def refined(self, start: Row) -> Row:
+        """The best design that the optimiser comes by on its way from this one, or this one."""
+        if not self.free:
+            return start
+        from scipy.optimize import NonlinearConstraint, minimize
+
+        scale = abs(self.cost(start)) or 1.0
+        keys = self.keys(start)
+        seen: dict[bytes, Row] = {}
+
+        def row(x: Array) -> Row:
+            place = x.tobytes()
+            if place not in seen:
+                values = self.low + np.clip(x, 0.0, 1.0) * (self.high - self.low)
+                here = keys.copy()
+                for i, value in zip(self.free, values.tolist(), strict=True):
+                    here[i] = value
+                seen[place] = self.found.row(here)
+            return seen[place]
+
+        first = np.array([float(keys[i]) for i in self.free])
+        rooms = NonlinearConstraint(lambda x: self.rooms(row(x)), 0.0, np.inf)
+        minimize(
+            lambda x: min(self.cost(row(x)) / scale, FAR),
+            (first - self.low) / (self.high - self.low),
+            method="COBYQA",
+            bounds=[(0.0, 1.0)] * len(self.free),
+            constraints=[rooms] if self.bounds else [],
+            options={"maxfev": EVALUATIONS, "initial_tr_radius": 0.05, "final_tr_radius": FINEST},
+        )
+        return min((r for r in (start, *seen.values()) if self.keeps(r)), key=self.cost)
+
+
+def _none(found: Sweep, rows: Sequence[Row], asked: Asked) -> str:
+    """What to say where no design keeps the bounds: how many keep each, and how near they come."""
+    at = {name: i for i, name in enumerate(found.names)}
+    said = []
+    for c in asked.constraints:
+        values = [float(v) for row in rows if is_number(v := row[at[c.name]])]
+        if values:
+            nearest = max(values) if c.sign == ">=" else min(values)
+            count = sum(c.kept(v) for v in values)
+            said.append(f"{c} is kept by {count:,}, the nearest being {nearest:.6g}")
+        else:
+            said.append(f"{c.name} is known of none")
+    why = "; ".join(said) or "none has the quantity"
+    return f"--best: none of {len(rows):,} designs will do: {why}"

@@ -1,0 +1,74 @@
+"""Bounds on quantities, as ``dwell_s >= 0.8``: which rows of a sweep keep them, and which bind."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import NamedTuple, TypeGuard
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.numerics.keeps import keeps
+
+_FORM = re.compile(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*")
+WORDS = {"<=": "at most", ">=": "at least"}
+BINDING = 1e-6  # share of a bound, nearer than which a quantity stands at it
+
+
+class Constraint(NamedTuple):
+    """A quantity that must be at least, or at most, a bound."""
+
+    name: str
+    sign: str  # <= or >=
+    bound: float
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.sign} {self.bound:.12g}"
+
+    def kept(self, value: object) -> bool:
+        """Whether a value keeps it, but for rounding; what does not apply to a design does not."""
+        return is_number(value) and keeps(float(value), WORDS[self.sign], self.bound)
+
+    def room(self, value: float) -> float:
+        """How far inside the bound a value is, over the bound's size; negative outside."""
+        room = value - self.bound if self.sign == ">=" else self.bound - value
+        return room / (abs(self.bound) or 1.0)
+
+    def binds(self, value: float) -> bool:
+        """Whether a value stands at the bound."""
+        return abs(self.room(value)) <= BINDING
+
+
+def is_number(value: object) -> TypeGuard[float]:
+    """Whether a cell of a row holds a number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def constraint(text: str, option: str = "--subject-to") -> Constraint:
+    """What ``"dwell_s >= 0.8"`` demands. Raises GenevaError where it is no bound.
+
+    >>> constraint("dwell_s >= 0.8")
+    Constraint(name='dwell_s', sign='>=', bound=0.8)
+    """
+    found = _FORM.fullmatch(text)
+    said = f"{option} {cut(text.strip())!r}"
+    if not found:
+        raise GenevaError(
+            f'{said}: it must be FIELD >= NUMBER or FIELD <= NUMBER, as "dwell_s >= 0.8"'
+        )
+    try:
+        bound = float(found[3])
+    except ValueError:
+        raise GenevaError(f"{said}: {cut(found[3])!r} is no number") from None
+    if not math.isfinite(bound):
+        raise GenevaError(f"{said}: the bound must be a finite number")
+    return Constraint(found[1], found[2], bound)
+
+
+def refuse_contradictions(given: Sequence[Constraint]) -> None:
+    """Raise GenevaError for two bounds that nothing keeps."""
+    for low in given:
+        for high in given:
+            apart = low.sign == ">=" and high.sign == "<=" and low.bound > high.bound
+            if apart and low.name == high.name:
+                raise GenevaError(f"--subject-to: nothing is both {low} and {high}")

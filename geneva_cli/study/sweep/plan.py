@@ -1,0 +1,116 @@
+"""Which designs a sweep holds: all of a grid, or a cloud drawn in it; each by its number."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.study.sweep.values import POINTS_MAX, Axis, Value
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+DIMENSIONS_MAX = 100  # keys that are drawn at once
+BLOCK = 4096  # designs that are worked on together; a power of two, for the Sobol sequence
+
+
+class Plan(NamedTuple):
+    """The designs of a sweep, numbered from 0; the last key runs fastest in a grid.
+
+    ``random`` is how many are drawn, 0 for the whole grid, and ``seed`` what they are drawn with.
+    """
+
+    axes: tuple[Axis, ...]
+    random: int = 0
+    seed: int = 0
+
+    def __len__(self) -> int:
+        return self.random or math.prod(len(a.values) for a in self.axes)
+
+    def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
+        """The values of the keys of the designs from ``start`` up to ``stop``, left out."""
+        return list(self._drawn(start, stop) if self.random else self._grid(start, stop))
+
+    def _grid(self, start: int, stop: int) -> Iterator[tuple[Value, ...]]:
+        sizes = [len(a.values) for a in self.axes]
+        for i in range(start, stop):
+            out: list[Value] = []
+            for a, size in zip(reversed(self.axes), reversed(sizes), strict=True):
+                i, at = divmod(i, size)
+                out.append(a.values[at])
+            yield tuple(reversed(out))
+
+    def _drawn(self, start: int, stop: int) -> Iterator[tuple[Value, ...]]:
+        for point in _sobol(len(self.axes), self.seed, start, stop).tolist():
+            yield tuple(_at(a, x) for a, x in zip(self.axes, point, strict=True))
+
+
+def _at(axis: Axis, x: float) -> Value:
+    """The value of a key at a share of its range, or of its list."""
+    if axis.span:
+        low, high = (float(v) for v in axis.values)
+        return low + (high - low) * x
+    return axis.values[min(int(x * len(axis.values)), len(axis.values) - 1)]
+
+
+def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
+    """Points of a scrambled Sobol sequence, which fill the cube more evenly than random ones."""
+    import numpy as np
+    from scipy.stats import qmc
+
+    # Whole blocks are drawn: of other counts the sequence warns, and a share must not differ.
+    first = start - start % BLOCK
+    count = -(-(stop - first) // BLOCK) * BLOCK
+    sequence = qmc.Sobol(dimensions, rng=seed)
+    if first:
+        sequence.fast_forward(first)
+    points: Array = np.concatenate([sequence.random(BLOCK) for _ in range(count // BLOCK)])
+    return points[start - first : stop - first]
+
+
+def plan(axes: Sequence[Axis], random: int | None, seed: int) -> Plan:
+    """The plan of a sweep. Raises GenevaError, naming the option, where there is none."""
+    keys = [a.key for a in axes]
+    twice = next((k for k in keys if keys.count(k) > 1), None)
+    if twice:
+        raise GenevaError(f"--vary {cut(twice)}: given twice; put all its values into one")
+    if not axes:
+        raise GenevaError("--vary is missing: what is to be varied, as in --vary drive.A=0:0.9:0.1")
+    if random is not None and not 1 <= random <= POINTS_MAX:
+        raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
+    if random and len(axes) > DIMENSIONS_MAX:
+        raise GenevaError(f"--random with {len(axes)} keys; at most {DIMENSIONS_MAX}")
+    if not 0 <= seed < 2**32:
+        raise GenevaError(f"--seed {cut(seed)}: it must be at least 0 and below 2**32")
+    found = Plan(tuple(axes), random or 0, seed)
+    size = math.prod(len(a.values) for a in axes)
+    if not random and size > POINTS_MAX:
+        raise GenevaError(
+            f"--vary: {size:,} designs in all; at most {POINTS_MAX:,}: fewer values, or "
+            "--random N of them"
+        )
+    return found
+
+
+class Shard(NamedTuple):
+    """One of several equal shares of a sweep, counted from 1."""
+
+    number: int = 1
+    of: int = 1
+
+    def span(self, length: int) -> tuple[int, int]:
+        """The designs of this share; all shares together are all designs, in order."""
+        return length * (self.number - 1) // self.of, length * self.number // self.of
+
+
+WHOLE = Shard()
+
+
+def shard(text: str) -> Shard:
+    """What ``3/16`` means. Raises GenevaError where it is no share."""
+    number, _, of = text.partition("/")
+    if not (number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of) <= POINTS_MAX):
+        raise GenevaError(f"--shard {cut(text)}: it must be NUMBER/OF from 1/OF to OF/OF, as 3/16")
+    return Shard(int(number), int(of))

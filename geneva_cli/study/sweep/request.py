@@ -1,0 +1,110 @@
+"""All that is asked of a sweep, read from the words of the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.study.fields import Cell
+from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
+from geneva_cli.study.sweep.front import Objective, objective
+from geneva_cli.study.sweep.plan import WHOLE, plan
+from geneva_cli.study.sweep.plan import shard as share
+from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep
+from geneva_cli.study.sweep.values import axis
+
+DRAWN = 4096  # designs that --best looks at where nothing else is said
+
+
+class Request(NamedTuple):
+    """A sweep, and what of it is to be kept."""
+
+    sweep: Sweep
+    constraints: tuple[Constraint, ...]
+    objectives: tuple[Objective, ...]
+    jobs: int | None
+
+    @property
+    def chooses(self) -> bool:
+        """Whether only some of the rows are kept."""
+        return bool(self.constraints or self.objectives)
+
+    @property
+    def key(self) -> str:
+        """What the rows depend on, as one word."""
+        return self.sweep.key
+
+    def blocks(self, done: int = 0) -> Iterator[list[list[Cell]]]:
+        """All rows, some at a time; ``done`` are there already."""
+        return blocks(self.sweep, done, self.jobs)
+
+    def chosen(self, every: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
+        """The rows that keep all bounds and, of these, that no other beats."""
+        names = self.sweep.names
+        bounds = [(names.index(c.name), c) for c in self.constraints]
+        kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in every)
+        if not self.objectives:
+            yield from (block for block in kept if block)
+            return
+        from geneva_cli.study.sweep.front import front
+
+        rows = [row for block in kept for row in block]
+        at = [names.index(o.name) for o in self.objectives]
+        found = front(rows, at, [o.sign for o in self.objectives])
+        if found:
+            yield [rows[i] for i in found]
+
+    def best(self, every: Iterable[list[list[Cell]]]) -> list[str]:
+        """The best design, refined, as the lines of a spec."""
+        from geneva_cli.study.sweep.best import Asked, winner
+
+        asked = Asked(self.objectives[0], self.constraints)
+        rows = [row for block in every for row in block]
+        return winner(self.sweep, rows, asked).lines(asked)
+
+
+def request(
+    path: str,
+    vary: Sequence[str],
+    given: Sequence[str] = (),
+    *,
+    pick: str = "",
+    random: int | None = None,
+    seed: int = 0,
+    check: bool = False,
+    subject_to: Sequence[str] = (),
+    pareto: str = "",
+    best: str = "",
+    shard: str = "",
+    jobs: int | None = None,
+) -> Request:
+    """What these options ask for. Raises GenevaError, naming the option, for what cannot be."""
+    if jobs is not None and jobs < 1:
+        raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
+    axes = [axis(text, random is not None or bool(best)) for text in vary]
+    if best and random is None and any(a.span for a in axes):
+        random = DRAWN
+    bounds = [constraint(text) for text in subject_to]
+    wanted = _objectives(pareto, best)
+    part = share(shard) if shard else WHOLE
+    if shard and wanted:
+        raise GenevaError("--shard: a share has a front of its own; choose from all rows together")
+    names = [name.strip() for name in pick.split(",")] if pick else []
+    if not names and not wanted:
+        names = list(DEFAULT)
+    asked = [o.name for o in wanted] + [c.name for c in bounds]
+    found = sweep(path, plan(axes, random, seed), given, [*asked, *names], check, part)
+    whole = dict(zip([*asked, *names], found.asked, strict=False))
+    constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
+    refuse_contradictions(constraints)
+    objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
+    return Request(found, constraints, objectives, jobs)
+
+
+def _objectives(pareto: str, best: str) -> list[Objective]:
+    if pareto and best:
+        raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
+    if best:
+        return [objective(best if ":" in best else f"min:{best}", "--best")]
+    return [objective(text) for text in pareto.split(",")] if pareto else []

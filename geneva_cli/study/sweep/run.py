@@ -1,0 +1,149 @@
+"""A sweep: one row a design, its varied keys, then the quantities that are asked for."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli import __version__
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.settings import Setting, setting
+from geneva_cli.study.fields import Cell, Pick, pick
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.sweep import batch, columns
+from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Plan, Shard
+from geneva_cli.study.sweep.values import Value
+
+DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
+CHECKED = ("checks.passes", "checks.failed")
+ERROR = "error"  # the column that says why a design cannot be built
+TASK = 64  # designs that a process is given at a time
+TRIED = 1000  # designs among which one must be built, to know the quantities
+
+
+class Sweep(NamedTuple):
+    """Designs that are all one spec's, with some keys varied, and what is asked of each."""
+
+    text: Text
+    plan: Plan
+    pick: Pick
+    shard: Shard = WHOLE
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The columns."""
+        return (*(a.key for a in self.plan.axes), *self.pick.names, ERROR)
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """The quantities in the order in which they were asked for, by their whole names."""
+        return self.pick.asked
+
+    @property
+    def span(self) -> tuple[int, int]:
+        """The numbers of the designs of this share."""
+        return self.shard.span(len(self.plan))
+
+    @property
+    def key(self) -> str:
+        """What its rows depend on, as one word."""
+        said = repr((__version__, self.text, self.plan, self.pick.names, self.shard))
+        return hashlib.sha256(said.encode()).hexdigest()
+
+    def rows(self, start: int, stop: int) -> list[list[Cell]]:
+        """The rows of the designs from ``start`` up to ``stop``, left out."""
+        every = self.plan.rows(start, stop)
+        keys = [a.key for a in self.plan.axes]
+        known: Mapping[int, list[float]] = {}
+        if self.together:
+            known = batch.table(every, keys, self.pick.names, self._spec)
+        return [
+            [*some, *known[i], None] if i in known else self.row(some)
+            for i, some in enumerate(every)
+        ]
+
+    @property
+    def together(self) -> bool:
+        """Whether the quantities are known for arrays of designs."""
+        return columns.known(self.pick.names)
+
+    def _spec(self, some: Sequence[Value]) -> Spec:
+        return _text(self.text, self.plan, some).spec()
+
+    def row(self, some: Sequence[Value]) -> list[Cell]:
+        """The row of the design with these values of the keys."""
+        try:
+            return [*some, *self.pick.of(self.machine(some)), None]
+        except GenevaError as error:
+            return [*some, *[None] * len(self.pick.names), str(error)]
+
+    def machine(self, some: Sequence[Value]) -> Mechanism:
+        """The machine with these values. Raises GenevaError where there is none."""
+        return _machine(self.text, self.plan, some)
+
+
+def sweep(
+    path: str,
+    plan: Plan,
+    given: Sequence[str] = (),
+    picks: Sequence[str] = DEFAULT,
+    check: bool = False,
+    shard: Shard = WHOLE,
+) -> Sweep:
+    """The sweep of a spec. ``check`` adds whether each design passes every check.
+
+    Raises GenevaError for a spec that cannot be read, a quantity that does not exist, and where
+    none of the first designs can be built.
+    """
+    text = read(path, given)
+    text.spec()  # what is wrong with the file is said of the file
+    asked = [*picks, *(CHECKED if check else ())]
+    return Sweep(text, plan, pick(asked, _first(text, plan)), shard)
+
+
+def _first(text: Text, plan: Plan) -> Mechanism:
+    """The first design that can be built."""
+    said = ""
+    for some in plan.rows(0, min(TRIED, len(plan))):
+        try:
+            return _machine(text, plan, some)
+        except GenevaError as error:
+            said = said or str(error)
+    raise GenevaError(f"none of the first {min(TRIED, len(plan))} designs can be built: {said}")
+
+
+def _text(text: Text, plan: Plan, some: Sequence[Value]) -> Text:
+    """The spec with the values of the keys set over its own."""
+    changes = tuple(_changed(a.key, v) for a, v in zip(plan.axes, some, strict=True))
+    return text._replace(given=(*text.given, *changes))
+
+
+def _machine(text: Text, plan: Plan, some: Sequence[Value]) -> Mechanism:
+    text = _text(text, plan, some)
+    spec = text.spec()
+    with text.located():
+        return build(spec)
+
+
+def _changed(key: str, value: Value) -> Setting:
+    path = setting(f"{key}=0", "--vary").path
+    said = f"{value:.12g}" if isinstance(value, float) else str(value)
+    return Setting(cut(f"{key}={said}"), path, value)
+
+
+def blocks(found: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:
+    """The rows of a sweep's share, some at a time, in order; ``done`` are there already."""
+    start, stop = found.span
+    size = BLOCK if found.together else TASK
+    starts = range(start + done, stop, size)
+    count = min(len(starts), cores() if workers is None else workers)
+    yield from mapped(partial(_block, found, stop, size), starts, count)
+
+
+def _block(found: Sweep, stop: int, size: int, start: int) -> list[list[Cell]]:
+    return found.rows(start, min(start + size, stop))

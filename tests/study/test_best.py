@@ -1,0 +1,112 @@
+"""The best of a sweep: against closed forms, brute force and the built design itself."""
+
+import os
+
+import numpy as np
+import pytest
+import tomli
+from scipy.optimize import brentq
+
+from geneva_cli import GenevaError, load
+from geneva_cli.study.sweep.request import request
+
+SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
+
+
+def best(tmp_path, *vary, **asked):
+    """The lines of the winning spec, and the design read back from it."""
+    found = request(SPEC, vary, random=asked.pop("random", 32), jobs=1, **asked)
+    lines = found.best(found.blocks())
+    path = tmp_path / "best.toml"
+    path.write_text("\n".join(lines))
+    return lines, load(str(path))
+
+
+def test_the_bound_that_binds_is_met_exactly(tmp_path):
+    """Peak acceleration falls with A, and so does the dwell: the best A leaves a dwell of 0.55 s.
+
+    The witness solves the dwell's own equation: half the motion is phi + asin(A sin phi) with phi
+    = 60 deg, and the dwell is what is left of a turn in a second."""
+    lines, design = best(
+        tmp_path, "drive.A=-0.5:0.9", best="acceleration.max", subject_to=["dwell_s >= 0.55"]
+    )
+    half = np.radians(60.0)
+    A = brentq(lambda A: 1.0 - (half + np.arcsin(A * np.sin(half))) / np.pi - 0.55, 0.0, 0.9)
+    assert pytest.approx(A, abs=1e-7) == design.spec.drive.A  # the bound is kept to 1e-9 of itself
+    assert design.timing.dwell_s >= 0.55 * (1.0 - 1e-9)
+    assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
+
+
+def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
+    """Two bounds at once, of which one binds."""
+    bounds = ["motion_deg <= 150", "velocity.max <= 0.8"]
+    _, design = best(tmp_path, "drive.A=-0.5:0.9", best="min:jerk.max", subject_to=bounds)
+    grid = request(SPEC, ["drive.A=-0.5:0.9:0.01"], pick="jerk.max", subject_to=bounds, jobs=1)
+    rows = [row for block in grid.chosen(grid.blocks()) for row in block]
+    at = grid.sweep.names.index("jerk.max")
+    assert design.peaks.jerk.max <= min(row[at] for row in rows)
+    assert design.timing.motion_deg <= 150 * (1 + 1e-9)
+    assert design.peaks.velocity.max <= 0.8 * (1 + 1e-9)
+
+
+def test_the_greatest_and_the_words(tmp_path):
+    _, design = best(
+        tmp_path,
+        "wheel.z=4,6,8",
+        "wheel.gearing=external,internal",
+        best="max:dwell_s",
+        random=None,
+    )
+    assert (design.spec.wheel.z, design.spec.wheel.NAME) == (4, "external")
+
+
+def test_a_title_with_quotation_marks_survives(tmp_path):
+    found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="jerk.max", jobs=1)
+    assert tomli.loads("\n".join(found.best(found.blocks())))["title"] == 'a "b" c'
+
+
+def test_a_front_within_bounds():
+    asked = request(
+        SPEC,
+        ["drive.A=-0.4:0.8:0.1", "wheel.z=5,6"],
+        pareto="min:acceleration.max,max:dwell_s",
+        subject_to=["motion_deg <= 150"],
+        jobs=1,
+    )
+    names = asked.sweep.names
+    cost = [names.index("acceleration.max"), names.index("timing.dwell_s")]
+    motion = names.index("timing.motion_deg")
+    every = [row for block in asked.blocks() for row in block]
+    kept = [r for r in every if r[motion] <= 150.0]
+
+    def beaten(r):
+        a, d = (r[i] for i in cost)
+        return any(
+            o[cost[0]] <= a and o[cost[1]] >= d and (o[cost[0]], o[cost[1]]) != (a, d) for o in kept
+        )
+
+    found = [row for block in asked.chosen(asked.blocks()) for row in block]
+    assert found == [r for r in kept if not beaten(r)]
+    assert len(found) > 3
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"best": "jerk.max", "subject_to": ["dwell_s >= 5"]}, "is kept by 0, the nearest being"),
+        ({"best": "jerk.mx"}, "did you mean"),
+        ({"best": "jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),
+        (
+            {"best": "jerk.max", "subject_to": ["dwell_s >= 2", "timing.dwell_s <= 1"]},
+            "nothing is both",
+        ),
+        ({"pareto": "jerk.max"}, "min:FIELD or max:FIELD"),
+        ({"pareto": "min:jerk.max", "shard": "1/2"}, "--shard"),
+        ({"best": "least:jerk.max"}, "--best least:jerk.max"),
+    ],
+)
+def test_what_has_no_best(asked, said):
+    with pytest.raises(GenevaError) as error:
+        found = request(SPEC, ["drive.A=0,0.5"], jobs=1, **asked)
+        found.best(found.blocks())
+    assert said in str(error.value)

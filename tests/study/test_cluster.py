@@ -1,0 +1,35 @@
+"""The README's way past one machine, run as it stands there on a local cluster."""
+
+import os
+import re
+import subprocess
+import sys
+
+import repo
+
+from geneva_cli.study.sweep.request import request
+
+
+def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
+    text = (repo.ROOT / "README.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    (example,) = [block for block in blocks if "dask" in block]
+    (tmp_path / "example.py").write_text(example)
+    wish = (repo.ROOT / "designs" / "side-crank-z6.toml").read_text(encoding="utf-8")
+    (tmp_path / "wish.toml").write_text(wish)
+    path = os.pathsep.join((os.path.dirname(sys.executable), os.environ["PATH"]))
+    # small workers that talk to nobody but each other
+    own = {"PATH": path, "DASK_DISTRIBUTED__DASHBOARD__LINK": "", "DASK_TEMPORARY_DIRECTORY": "."}
+    subprocess.run(
+        [sys.executable, "example.py"],
+        cwd=tmp_path,
+        env={**os.environ, **own},
+        timeout=120,
+        check=True,
+    )
+    asked = request(str(tmp_path / "wish.toml"), ["drive.A=0:0.9:0.01"], jobs=1)
+    lines = (tmp_path / "all.csv").read_text().splitlines()
+    assert lines[0] == ",".join(asked.sweep.names)
+    rows = [row for block in asked.blocks() for row in block]
+    assert [float(line.split(",")[0]) for line in lines[1:]] == [row[0] for row in rows]
+    assert len(rows) == 91

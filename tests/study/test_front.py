@@ -1,0 +1,39 @@
+"""Pareto fronts against the definition, pair by pair."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.study.sweep.front import Objective, best, front, objective
+
+
+def dominates(a, b):
+    return all(x <= y for x, y in zip(a, b, strict=True)) and a != b
+
+
+@given(
+    st.integers(1, 3).flatmap(lambda n: st.lists(st.tuples(*[st.integers(0, 6)] * n), min_size=1))
+)
+def test_no_other_row_beats_what_is_left_and_one_beats_the_rest(rows):
+    found = best(np.array(rows, dtype=float))
+    assert found == [i for i, a in enumerate(rows) if not any(dominates(b, a) for b in rows)]
+
+
+def test_rows_without_a_number_are_none_of_them():
+    rows = [(1.0, 2.0, "a"), (None, 0.0, "b"), (2.0, 1.0, "c"), (2.0, 2.0, "d")]
+    assert front(rows, (0, 1), (1.0, 1.0)) == [0, 2]
+    assert front(rows, (0,), (-1.0,)) == [2, 3]
+    assert front([(None,)], (0,), (1.0,)) == []
+
+
+def test_objectives():
+    assert objective("min:acceleration.max") == Objective(1.0, "acceleration.max")
+    assert objective(" max:dwell_s").sign == -1.0
+
+
+@pytest.mark.parametrize("text", ["acceleration.max", "least:a", "min:", ""])
+def test_no_objective(text):
+    with pytest.raises(GenevaError, match="min:FIELD or max:FIELD"):
+        objective(text)

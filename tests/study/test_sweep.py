@@ -1,0 +1,131 @@
+"""Sweeps: every row is the design's own, in any number of processes, shares and runs."""
+
+import csv
+import io
+import os
+import subprocess
+import sys
+
+import pytest
+
+from geneva_cli import GenevaError, load
+from geneva_cli.study.sweep.plan import Shard, plan
+from geneva_cli.study.sweep.run import blocks, sweep
+from geneva_cli.study.sweep.values import axis
+
+DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
+SPEC = os.path.join(DESIGNS, "side-crank-z6.toml")
+GRID = ["drive.A=-0.4,0,0.6,1", "wheel.z=5,6"]
+
+
+def geneva(*args):
+    run = [sys.executable, "-m", "geneva_cli", *args]
+    return subprocess.run(run, capture_output=True, text=True, timeout=60, check=False)
+
+
+def rows(found, **options):
+    return [row for block in blocks(found, **options) for row in block]
+
+
+def grid(*texts):
+    return plan([axis(t) for t in texts], None, 0)
+
+
+def test_each_row_is_the_designs_own():
+    picks = ["acceleration.max", "dwell_s", "sizes.rollers_max", "drive.kind"]
+    for A, z, *found, error in rows(sweep(SPEC, grid(*GRID), picks=picks), workers=1):
+        try:
+            design = load(SPEC, [f"drive.A={A}", f"wheel.z={z}"])
+        except GenevaError:
+            assert found == [None] * 4 and error.startswith(f"drive.A={A:g}: A = ")
+            continue
+        one = [design.peaks.acceleration.max, design.timing.dwell_s]
+        assert found == [*one, design.mechanism.rollers_max, "side-crank"]
+        assert error is None
+
+
+def test_words_and_kinds_vary_too():
+    found = sweep(SPEC, grid("wheel.gearing=external,internal"), picks=["dwell_deg"])
+    assert [row[1] for row in rows(found)] == [
+        load(SPEC, [f"wheel.gearing={g}"]).timing.dwell_deg for g in ("external", "internal")
+    ]
+
+
+def test_the_same_rows_whatever_the_processes_and_shares():
+    some = grid("drive.A=-0.9:0.9:0.05", "wheel.z=4,6")
+    alone = rows(sweep(SPEC, some), workers=1)
+    assert rows(sweep(SPEC, some), workers=2) == alone
+    shares = [sweep(SPEC, some, shard=Shard(i, 3)) for i in (1, 2, 3)]
+    assert [row for share in shares for row in rows(share, workers=1)] == alone
+
+
+def test_check_turns_the_parts():
+    found = sweep(SPEC, grid("limits.velocity_max=9,0.1"), picks=["ratio"], check=True)
+    assert found.names[-3:] == ("checks.passes", "checks.failed", "error")
+    good, bad = rows(found, workers=1)
+    assert good[2:] == [True, None, None]
+    assert bad[2:] == [False, "velocity_max", None]
+
+
+def test_shares_are_the_bytes_of_one_run():
+    arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", GRID[1]]
+    whole = geneva(*arguments).stdout
+    each = [geneva(*arguments, "--shard", f"{i}/3", "--jobs", "1").stdout for i in (1, 2, 3)]
+    assert "".join(each) == whole
+    found = list(csv.DictReader(io.StringIO(whole)))
+    assert len(found) == 8 and sum(bool(row["error"]) for row in found) == 2
+
+
+def test_a_stopped_sweep_goes_on(tmp_path):
+    """What a stopped run leaves is a beginning of the rows, maybe with half a line."""
+    arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", GRID[1]]
+    file = tmp_path / "rows.csv"
+    assert geneva(*arguments, "-o", str(file)).returncode == 0
+    whole = file.read_text()
+    assert os.listdir(tmp_path) == ["rows.csv"]
+    found = sweep(SPEC, grid(*GRID))
+    (tmp_path / "rows.csv.partial").write_text(whole[:300])
+    (tmp_path / "rows.csv.partial.key").write_text(found.key)
+    assert geneva(*arguments, "-o", str(file), "--resume").returncode == 0
+    assert file.read_text() == whole
+    (tmp_path / "rows.csv.partial").write_text(whole[:300])
+    (tmp_path / "rows.csv.partial.key").write_text(found.key)
+    other = geneva(*arguments, "--set", "wheel.z=7", "-o", str(file), "--resume")
+    assert other.returncode == 2 and "begun for something else" in other.stderr
+    assert file.read_text() == whole
+
+
+def test_parquet_holds_the_same(tmp_path):
+    from pyarrow import parquet
+
+    file = tmp_path / "rows.parquet"
+    arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", "motion.law=cycloidal,3-4-5"]
+    assert geneva(*arguments, "-o", str(file)).returncode == 0
+    found = parquet.read_table(file).to_pylist()
+    printed = list(csv.DictReader(io.StringIO(geneva(*arguments).stdout)))
+    assert len(found) == len(printed) == 8
+    for row, text in zip(found, printed, strict=True):
+        assert row["motion.law"] == text["motion.law"]
+        assert (row["velocity.max"] is None) == (text["velocity.max"] == "")
+        assert row["velocity.max"] is None or row["velocity.max"] == float(text["velocity.max"])
+    assert os.listdir(tmp_path) == ["rows.parquet"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--vary", "drive.A=0:1:0"], "a step of 0 never comes"),
+        (["--vary", "drive.B=1,2"], "drive.B=1: unknown key B in [drive]"),
+        (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
+        (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
+        (["--vary", "drive.A=0.1", "--resume"], "give -o FILE"),
+        (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
+        (["--vary", "drive.A=0.1", "--jobs", "0"], "--jobs 0"),
+        (["--vary", "drive.A=2,3"], "none of the first 2 designs can be built: drive.A=2"),
+        ([], "--vary is missing"),
+    ],
+)
+def test_errors_come_at_once(arguments, said, tmp_path):
+    found = geneva("sweep", SPEC, *arguments)
+    assert (found.returncode, found.stdout) == (2, "")
+    assert said in found.stderr and len(found.stderr.splitlines()) == 1

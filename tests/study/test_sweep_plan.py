@@ -1,0 +1,78 @@
+"""The designs of a sweep by their numbers: whole grids, clouds, and shares of both."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.study.sweep.plan import BLOCK, plan, shard
+from geneva_cli.study.sweep.values import Axis, axis
+
+GRID = [axis("wheel.z=3..7"), axis("drive.A=0,0.3"), axis("motion.law=cycloidal,3-4-5")]
+
+
+def test_a_grid_is_the_product_in_order():
+    found = plan(GRID, None, 0)
+    whole = list(itertools.product(*[a.values for a in GRID]))
+    assert found.rows(0, len(found)) == whole
+    assert found.rows(7, 11) == whole[7:11]
+
+
+def test_a_cloud_fills_its_box_and_takes_words_alike():
+    axes = [Axis("drive.A", (-0.5, 0.9), span=True), axis("wheel.z=3..6")]
+    rows = plan(axes, 4096, 7).rows(0, 4096)
+    A = np.array([a for a, _ in rows])
+    assert -0.5 <= A.min() < -0.49 and 0.89 < A.max() <= 0.9
+    # Sobol: each quarter of the second axis holds a quarter of a power of two, exactly
+    assert [sum(z == k for _, z in rows) for k in (3, 4, 5, 6)] == [1024] * 4
+
+
+def test_a_cloud_is_the_same_wherever_it_is_cut():
+    found = plan([Axis("drive.A", (0.0, 1.0), span=True), axis("wheel.z=3,4")], 2 * BLOCK + 9, 3)
+    whole = found.rows(0, len(found))
+    assert found.rows(BLOCK - 5, BLOCK + 5) == whole[BLOCK - 5 : BLOCK + 5]
+    assert found.rows(len(found) - 3, len(found)) == whole[-3:]
+    assert len(set(whole)) == len(whole)
+
+
+def test_another_seed_is_another_cloud():
+    axes = [Axis("drive.A", (0.0, 1.0), span=True)]
+    assert plan(axes, 8, 1).rows(0, 8) != plan(axes, 8, 2).rows(0, 8)
+
+
+@given(st.integers(0, 10**6), st.integers(1, 500))
+def test_shares_make_the_whole(length, of):
+    spans = [shard(f"{i}/{of}").span(length) for i in range(1, of + 1)]
+    assert spans[0][0] == 0 and spans[-1][1] == length
+    assert all(a[1] == b[0] for a, b in itertools.pairwise(spans))
+
+
+@pytest.mark.parametrize("text", ["0/4", "5/4", "3", "1/0", "a/b", "-1/4", "1/1e3", "/"])
+def test_no_share(text):
+    with pytest.raises(GenevaError, match="--shard"):
+        shard(text)
+
+
+@pytest.mark.parametrize(
+    ("axes", "random", "seed", "said"),
+    [
+        ([], None, 0, "--vary is missing"),
+        ([axis("wheel.z=3"), axis("wheel.z=4")], None, 0, "--vary wheel.z: given twice"),
+        (
+            [axis("wheel.z=3..9999")] * 1 + [axis("mass.0.count=1..99999")],
+            None,
+            0,
+            "in all; at most",
+        ),
+        ([axis("wheel.z=3")], 0, 0, "--random 0"),
+        ([axis("wheel.z=3")], 10**12, 0, "--random 1000000000000"),
+        ([axis("wheel.z=3")], 5, -1, "--seed -1"),
+    ],
+)
+def test_no_plan(axes, random, seed, said):
+    with pytest.raises(GenevaError) as error:
+        plan(axes, random, seed)
+    assert said in str(error.value)

@@ -1,0 +1,67 @@
+"""What --vary understands, and what it says of the rest."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.study.sweep.values import Axis, axis
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("wheel.z=4,6,8", (4, 6, 8)),
+        ("wheel.z=3..7", (3, 4, 5, 6, 7)),
+        ("drive.A=0:0.9:0.3", (0.0, 0.3, 0.6, 0.9)),
+        ("drive.A=0.9:0:-0.45", (0.9, 0.45, 0.0)),
+        ("drive.A=-.5,0", (-0.5, 0)),
+        ('motion.law="cycloidal,3-4-5"', ("cycloidal", "3-4-5")),
+        ("motion.law=cycloidal", ("cycloidal",)),
+        ("mass.0.count=1,2", (1, 2)),
+    ],
+)
+def test_values(text, values):
+    found = axis(text)
+    assert (found.key, tuple(found.values)) == (text.partition("=")[0], values)
+    assert [type(v) for v in found.values] == [type(v) for v in values]
+    assert found.values[0] == values[0] and list(found.values[1:]) == list(values[1:])
+
+
+@given(st.integers(-1000, 1000), st.integers(1, 2000), st.integers(1, 4))
+def test_a_range_is_its_decimals(low, count, digits):
+    """Each value is the double that its decimal numeral reads as, whatever sums would give."""
+    unit = 10**digits
+    text = f"size.x={low / unit}:{(low + count) / unit}:{1 / unit}"
+    assert tuple(axis(text).values) == tuple((low + i) / unit for i in range(count + 1))
+
+
+def test_a_span_is_for_random_draws_only():
+    assert axis("drive.A=0:0.9", random=True) == Axis("drive.A", (0.0, 0.9), span=True)
+    with pytest.raises(GenevaError, match="a range is LOW:HIGH:STEP"):
+        axis("drive.A=0:0.9")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("drive.A", "it must be TABLE.KEY=VALUES"),
+        ("A=1,2", "it must be TABLE.KEY=VALUES"),
+        ("drive.A=", "it must be TABLE.KEY=VALUES"),
+        ("drive.A=0:1:0", "a step of 0 never comes from 0 to 1"),
+        ("drive.A=0:1:-0.1", "a step of -0.1 never comes"),
+        ("drive.A=0:1:1e-12", "1e+12 values; at most 100,000,000"),
+        ("wheel.z=1..999999999", "values; at most"),
+        ("wheel.z=7..3", "no value at all"),
+        ("drive.A=1,,2", "neither a number nor a word"),
+        ("drive.A=nan,1", "no finite number"),
+        ("drive.A=inf:1:2", "no finite number"),
+        ("drive.A=0:x:2", "'x' is no number"),
+        ("drive.A=0:1:2:3", "a range is LOW:HIGH:STEP"),
+    ],
+)
+def test_what_is_none_is_refused(text, said):
+    with pytest.raises(GenevaError) as error:
+        axis(text)
+    assert said in str(error.value)
+    assert str(error.value).startswith("--vary ")
