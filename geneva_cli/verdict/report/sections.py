@@ -14,6 +14,7 @@ from geneva_cli.verdict.report import (
     slot,
     stations,
     strength,
+    tolerances,
     vibration,
 )
 from geneva_cli.verdict.report.values import Values
@@ -27,5 +28,6 @@ SECTIONS: tuple[Callable[[Proof], Values], ...] = (
     vibration.vibration,
     sizes.sizes,
     parts.parts,
+    tolerances.tolerances,
     strength.strong,
 )
