@@ -7,11 +7,13 @@ from geneva_cli.machine.spec import LOADED
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 
-LOADS = {"inertia_kgm2": 0.05, "torque_Nm": 3.0, "friction": 0.1}
+LOADS = {"inertia_kgm2": 0.05, "torque_Nm": 3.0, "dwell_torque_Nm": 3.0, "friction": 0.1}
+BEARS = {"dynamic_capacity_N": 5e3, "stress_max_MPa": 150.0}  # of [material.roller]
 LIMITS = {
     "velocity_max": 2.0, "acceleration_max": 4.0, "acceleration_entry_max": 1.0, "jerk_max": 30.0,
     "pin_force_max_N": 100.0, "input_torque_max_Nm": 5.0, "pressure_angle_max_deg": 25.0,
-    "contact_stress_max_MPa": 300.0,
+    "contact_stress_max_MPa": 300.0, "pv_max_W_m2": 1e8, "roller_life_min_h": 2e4,
+    "lock_stress_max_MPa": 800.0,
 }  # fmt: skip
 
 
@@ -36,6 +38,7 @@ LINKAGES = ("four-bar", "slider-crank")
 ONE_WAY = ("gear-sector", "geneva-pair", "epicyclic", *LINKAGES)
 
 
+WORDED = {"relief": ("arc", "sector"), "pin_held": ("cantilever", "supported", "fixed")}
 TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
 
 
@@ -54,8 +57,8 @@ def usual(rng, key, z, L, r, outside):
     R = L * math.sin(math.pi / z)
     if key in ("slot_clearance_mm", "lock_clearance_mm"):
         return clearance(rng, r)
-    if key == "relief":
-        return rng.choice(["arc", "sector"])
+    if key in WORDED:
+        return rng.choice(WORDED[key])
     of = {
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
         "wheel_outer_radius_mm": L + R + 2.0 * r,
@@ -68,6 +71,8 @@ def usual(rng, key, z, L, r, outside):
         "crank_bore_mm": 0.3 * R,
         "crank_hub_mm": 0.5 * R,
         "pin_mm": r,
+        "pin_gap_mm": 0.1 * r,
+        "lock_edge_mm": 0.05 * r,
     }
     return near(rng, of[key])
 
@@ -194,17 +199,18 @@ def machine_text(rng):
     for field in fields(Size):
         if field.key not in TAKEN and rng.random() < often:
             value = usual(rng, field.key, z, L, r, gearing == "external")
-            if field.key != "relief" and rng.random() < 0.03:
+            worded = field.key in WORDED
+            if not worded and rng.random() < 0.03:
                 value = in_range(rng, field.rule, False)
-            text.append(
-                f"{field.key} = " + (f'"{value}"' if field.key == "relief" else repr(value))
-            )
+            text.append(f"{field.key} = " + (f'"{value}"' if worded else repr(value)))
     given = {}
-    for about in (LOADS, LIMITS):
+    for about in (LOADS, BEARS, LIMITS):
         often = rng.choice([0.0, 0.3, 0.8])
         given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
     if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
         given.setdefault("inertia_kgm2", near(rng, LOADS["inertia_kgm2"], 0.5))
-    for table, about in (("load", LOADS), ("limits", LIMITS)):
+    if "roller_life_min_h" in given:
+        given.setdefault("dynamic_capacity_N", near(rng, BEARS["dynamic_capacity_N"]))
+    for table, about in (("load", LOADS), ("material.roller", BEARS), ("limits", LIMITS)):
         text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
     return "\n".join(text) + "\n"
