@@ -7,7 +7,6 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.analysis.strength import horn, lock, pin, roller, shafts
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import plane
@@ -16,7 +15,7 @@ from geneva_cli.parts.sizes import Sizes, sizes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from geneva_cli.analysis.loads.instant import Instant
+    from geneva_cli.analysis.loads.cycle import Quantity
     from geneva_cli.machine.mechanism import Mechanism
 
 WIDTH = "face_width_mm in [size]"
@@ -81,9 +80,11 @@ class Strength:
 
     @cached_property
     def _tops(self) -> list[float]:
-        """The greatest pin force and, with a face width, pressure times speed squared."""
-        wide = [_pressure_times_speed] if self._wide[0] else []
-        force, *rest = self.cycle.extremes(lambda i: i.pin_force, *wide)
+        """The greatest pin force and, with a face width, the square of pressure times speed."""
+        asked: list[Quantity] = [lambda i: i.pin_force]
+        if self._wide[0]:
+            asked.append(lambda i: i.pressure_speed)
+        force, *rest = self.cycle.extremes(*asked)
         return [max(force.max, -force.min), *[one.max for one in rest]]
 
     @cached_property
@@ -153,10 +154,14 @@ class Strength:
 
     @cached_property
     def crank_shaft(self) -> shafts.Turned | None:
-        """The shaft of a crank that carries the roller, on parallel shafts; None of others."""
-        if not (self.spec.drive.CRANKED and self.spec.wheel.FLAT):
+        """The shaft of the crank, where it is parallel to the wheel's; None of others.
+
+        On a sphere the roller's force has a moment about it that no overhang tells.
+        """
+        if not self.spec.wheel.FLAT:
             return None
-        return self._shaft("crank", shafts.crank_shaft(self.spec.shaft), shafts.on_crank)
+        on = shafts.on_driven_crank if self.spec.drive.CRANKED else shafts.on_crank
+        return self._shaft("crank", shafts.crank_shaft(self.spec.shaft), on)
 
     def _shaft(self, which: str, ends: shafts.Ends, loaded: shafts.On) -> shafts.Turned | None:
         name = f"{which}_shaft_stress_MPa"
@@ -188,7 +193,7 @@ class Strength:
         if math.isinf(most):
             self.needs["pv_max_W_m2"] = "a stress with a bound: see the warnings"
             return None
-        return 1e6 * math.sqrt(most)
+        return math.sqrt(most)
 
     @cached_property
     def friction_work_J(self) -> float | None:
@@ -243,11 +248,6 @@ class Strength:
             f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
             for keys, names in by_key.items()
         ]
-
-
-def _pressure_times_speed(i: Instant) -> Row:
-    assert i.stress_squared is not None  # there is a face width
-    return Row(i.stress_squared * i.sliding_m_s * i.sliding_m_s, i.edge)
 
 
 def margin(value: float | None, allowed: float | None) -> float | None:

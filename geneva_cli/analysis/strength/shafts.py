@@ -81,13 +81,17 @@ def on_wheel(i: Instant, at: Contact) -> tuple[Jet, Jet]:
 
 
 def on_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
-    """Force and torque on the shaft of a crank that carries the roller, on parallel shafts.
+    """Force and torque on a crank's shaft that is the input shaft, or turns with it."""
+    return i.crank_bearing_N, i.input_torque_Nm
 
-    A transmission before it turns the crank at another rate than the input, that of the roller's
-    body; the torque is as much less or more as the power asks.
+
+def on_driven_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
+    """Force and torque on the shaft of a crank with a transmission before it.
+
+    It turns at another rate than the input, that of the roller's body; the torque is as much less
+    or more as the power asks.
     """
-    rate = at.spin + at.velocity * at.arm
-    return i.wheel_bearing_N, i.input_torque_Nm / rate
+    return i.crank_bearing_N, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
 
 
 def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:

@@ -46,7 +46,7 @@ def wheel_shaft(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def crank_shaft(name: str, mechanism: Mechanism) -> Check | None:
-    """The crank shaft's, likewise, where the crank carries the roller."""
+    """The crank shaft's, likewise."""
     limit, of = mechanism.spec.shaft.shear_stress_max_MPa, strength(mechanism)
     if limit is None:
         return None
