@@ -81,15 +81,19 @@ class _Curve(NamedTuple):
 
 def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakOfMany]:
     """The greatest sizes over the motions of m designs, ends included, at their input angles."""
-    found, sought = {}, []
+    found: dict[str, PeakOfMany] = {}
     for name in quantities:
         known = motion.known(name)
-        if known is None:
-            sought.append(name)
-        else:
+        if known is not None:
             found[name] = PeakOfMany(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
+    sought = [name for name in quantities if name not in found]
     if sought:
         found |= _sought(motion, sought)
+    for name, peak in found.items():
+        open_ = np.flatnonzero(np.isnan(peak.max))
+        if len(open_):
+            rest = _sought(taken(motion, open_), [name])[name]
+            peak.max[open_], peak.at_deg[open_] = rest
     return found
 
 

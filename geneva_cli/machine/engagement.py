@@ -142,7 +142,10 @@ class Motion(ABC):
         return (self.entry_deg, 0.0, self.exit_deg)
 
     def known(self, quantity: str) -> Known | None:
-        """The greatest size of a quantity, where there is a closed form or a quicker way to it."""
+        """The greatest size of a quantity, where there is a closed form or a quicker way to it.
+
+        Of many designs NaN for those of which only a search tells.
+        """
         return None
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 from witness import SIGN, Geneva
 
+from geneva_cli.analysis.peaks import acceleration_peak as acceleration_search
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak, acceleration_peaks
+from geneva_cli.machine.wheels.side_crank_peaks import (
+    acceleration_peak,
+    acceleration_peaks,
+    velocity_peaks,
+)
 
 GEARINGS = ("external", "internal")
 # What it promises, relative to the true peak; and twice that between two that promise it.
@@ -48,6 +53,36 @@ def test_a_finer_scan_finds_no_more(monkeypatch):
     monkeypatch.setattr("geneva_cli.machine.wheels.side_crank_peaks.SCAN", 33)
     finer, _ = acceleration_peaks(z, internal, A)
     assert np.abs(size / finer - 1.0).max() <= 2 * EXACT
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_no_velocity_is_missed(engagement, part):
+    """Of 400 designs; inside, a crank that runs away puts a second peak near the ends."""
+    z, internal, A = designs(400, 4)
+    size, at_deg = velocity_peaks(z, internal, A)
+    for i in range(part, len(z), 4):
+        passage = engagement(int(z[i]), GEARINGS[int(internal[i])], float(A[i]))
+        found = peak(passage.motion, "velocity")
+        assert size[i] == pytest.approx(found.max, rel=2 * EXACT), i
+        assert at_deg[i] == pytest.approx(found.at_deg, abs=1e-4), i
+
+
+def test_a_finer_scan_finds_no_more_velocity(monkeypatch):
+    z, internal, A = designs(200_000, 2)
+    size, _ = velocity_peaks(z, internal, A)
+    monkeypatch.setattr("geneva_cli.machine.wheels.side_crank_peaks.SCAN", 33)
+    finer, _ = velocity_peaks(z, internal, A)
+    assert np.abs(size / finer - 1.0).max() <= 2 * EXACT
+
+
+@pytest.mark.parametrize("z", [120, 221])
+def test_beyond_what_the_quick_way_is_sure_of(engagement, z):
+    """Near |A| = 1 a peak is a sliver that 16 intervals step over: it is searched for."""
+    passage = engagement(z, "external", 0.9999988390361856)
+    found = acceleration_search(passage)
+    assert found.max == pytest.approx(peak(passage.motion, "acceleration").max, rel=1e-15)
+    exact, _ = Geneva(z, "external", 0.9999988390361856).peak("acceleration")
+    assert found.max == pytest.approx(float(exact), rel=1e-12)  # A is so near to 1
 
 
 @pytest.mark.parametrize("gearing", GEARINGS)

@@ -7,18 +7,24 @@ coulisse's. A = a/r. With the input at phi the coulisse points along the vector
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, cast
+import math
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.transmission import About
 from geneva_cli.machine.engagement import Known
 from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peak, acceleration_peaks
+from geneva_cli.machine.wheels.side_crank_peaks import (
+    acceleration_peak,
+    acceleration_peaks,
+    velocity_peaks,
+)
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
+A_SURE = 0.999  # up to it the quicker ways to the peaks miss none
 
 
 def refuse_rounding(A: Coefficient) -> None:
@@ -40,13 +46,17 @@ class PeakOf(NamedTuple):
     sign: float
 
     def __call__(self, quantity: str) -> Known | None:
-        """The peak of a quantity, if it is this one."""
-        if quantity != "acceleration":
-            return None
+        """The peak of a quantity, if it is this one; of many designs the velocity's too."""
         if isinstance(self.A, float) and isinstance(self.z, int):
+            if quantity != "acceleration" or abs(self.A) > A_SURE:
+                return None
             return Known(*acceleration_peak(self.z, self.sign, self.A))
-        size, at_deg = acceleration_peaks(self.z, self.sign < 0.0, self.A)
-        return Known(*cast("tuple[float, float]", (size, at_deg)))
+        peaks = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}.get(quantity)
+        if peaks is None:
+            return None
+        size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
+        sure = abs(self.A) <= A_SURE
+        return Known(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
 def known(A: Coefficient, wheel: Gearing, place: Place) -> PeakOf | None:

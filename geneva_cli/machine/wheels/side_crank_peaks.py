@@ -1,5 +1,5 @@
-"""Peak acceleration of very many wheels at once, or of one in plain Python: straight slots behind
-a side-crank (A = 0: a plain crank).
+"""Peak velocity and acceleration of very many wheels at once, or the latter of one in plain
+Python: straight slots behind a side-crank (A = 0: a plain crank).
 
 With f the crank's angle from mid-motion, C = sqrt(1 - A² sin² f) and rho = C + A cos f,
 
@@ -12,6 +12,14 @@ A cos f < 0, so nothing cancels. The slope over f, divided by f1² and the wheel
 scanned for changes of sign, each is refined by Newton kept in its bracket, and the end of the
 motion competes.
 
+The velocity is greatest where the acceleration, without what vanishes with sin f, is zero:
+
+    h = (1-l²) C² rho - g (c - g l) D A (1-A²)        (g = 1 outside, -1 inside; c = cos f)
+
+Outside it has no zero, and the peak is at mid-motion: D <= 1 - l² and c - l <= c for c >= l, and
+C² >= 1 - A², so that h >= (1-l²) (1-A²) (rho - A c) > 0 for A > 0, and a sum of positive terms for
+A < 0. Inside it has none for A <= 0.
+
 Source: theory of the side-crank, f = atan2(sin phi, A + cos phi) and its derivatives, with the
 triangle of base, crank and coulisse put in for phi.
 """
@@ -19,6 +27,7 @@ triangle of base, crank and coulisse put in for phi.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -29,8 +38,9 @@ from geneva_cli.spec.rules import Z_MAX
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SCAN = 16  # intervals of the scan; 8 miss none of a million designs, 6 miss twelve
-BLOCK = 2048  # designs at a time: what the scan works on stays in the processor's cache
+SCAN = 10  # intervals of the scan; 8 miss none of a million designs, 6 miss twelve
+SCAN_ONE = 16  # of one design
+BLOCK = 8192  # designs at a time: what the scan works on stays in the processor's cache
 CLOSE = 1e-7  # a Newton step this short has converged: the next error is its square
 STEPS = 60
 EXACT_Z = 64  # from here on, rounding pi/z costs less than half a unit in the last place
@@ -136,6 +146,35 @@ def _slopes(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
     return g3 + 3.0 * g2 * f2 + g1 * f2_f, g4 + 5.0 * g3 * f2 + 4.0 * g2 * f2_f + g1 * f2_ff
 
 
+def _rest(m: Any, w: Wheel, s: Any, c: Any, v: Any) -> Any:
+    """h: the acceleration without what vanishes with sin f."""
+    C, rho = _front(m, w, s, c)
+    D = w.rest2 + 2.0 * w.l * v
+    return w.rest * (1.0 + w.l) * C * C * rho - w.sign * (w.rest - v) * D * w.A * w.minus
+
+
+def _rests(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
+    """h and its slope over f."""
+    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
+    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+    v = _versine(m, w, sine, cosine)
+    C, rho = _front(m, w, s, c)
+    D = w.rest2 + 2.0 * w.l * v
+    own, front = w.rest * (1.0 + w.l), w.A * w.minus
+    slope = front * (D - 2.0 * w.l * (w.rest - v)) - own * w.A * rho * (2.0 * w.A * c + C)
+    return own * C * C * rho - w.sign * (w.rest - v) * D * front, s * slope
+
+
+def _velocity(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
+    """The velocity at the crank angle f, and the input angle there."""
+    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
+    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+    v = _versine(m, w, sine, cosine)
+    C, rho = _front(m, w, s, c)
+    D = w.rest2 + 2.0 * w.l * v
+    return w.sign * w.l * (w.rest - v) / D * (C / rho), _input(m, w, s, c, C, rho)
+
+
 def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     """Peak |acceleration| of one design (invariant) and its signed input angle, degrees.
 
@@ -146,11 +185,11 @@ def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     half = half_motion_deg(sign, 1, z) * DEGREE
     w = _wheel(sign, l, one_minus_sin_pi(1, z), cos_b, half, A)
     best = _end(math, w)
-    step = half / SCAN
+    step = half / SCAN_ONE
     s, c, before = 0.0, 1.0, 0.0
     sin_d, cos_d = math.sin(step), math.cos(step)
-    for i in range(SCAN + 1):
-        at = (s, c) if i < SCAN else w.end
+    for i in range(SCAN_ONE + 1):
+        at = (s, c) if i < SCAN_ONE else w.end
         here = _slope(math, w, at[0], at[1], 1.0 - w.sign * at[1])
         if before * here < 0.0:
             best = max(best, _value(math, w, _root(w, (i - 1) * step, i * step, before)))
@@ -189,20 +228,52 @@ def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     """
     import numpy as np
 
+    w, shape = _designs(z, internal, A)
+    size, at = np.empty(len(w.l)), np.empty(len(w.l))
+    for start in range(0, len(w.l), BLOCK):
+        part = _take(w, slice(start, start + BLOCK))
+        found = _greatest(part, *_end(np, part), ACCELERATION)
+        size[start : start + BLOCK], at[start : start + BLOCK] = found
+    at /= -DEGREE
+    return size.reshape(shape), at.reshape(shape)
+
+
+def velocity_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
+    """Peak velocity of many designs (invariant) and its signed input angle, degrees.
+
+    Everything as of ``acceleration_peaks``.
+
+    >>> velocity_peaks(6, [False, True], 0.6)[0]
+    array([0.625     , 0.21186864])
+    """
+    import numpy as np
+
+    w, shape = _designs(z, internal, A)
+    size = w.l / (np.where(w.sign > 0.0, w.rest, 1.0 + w.l) * (1.0 + w.A))
+    at = np.zeros(len(size))
+    several = np.flatnonzero((w.sign < 0.0) & (w.A > 0.0))
+    for start in range(0, len(several), BLOCK):
+        which = several[start : start + BLOCK]
+        some = _take(w, which)
+        # where h has two zeros, they lie on both sides of c = 0
+        one = np.ones(len(which))
+        right = some._replace(half=0.5 * np.pi * one, end=(one, 0.0 * one))
+        found = _greatest(right, size[which], at[which], VELOCITY)
+        size[which], at[which] = _greatest(some, *found, VELOCITY, 0.5 * np.pi)
+    at /= -DEGREE
+    return size.reshape(shape), (at + 0.0).reshape(shape)
+
+
+def _designs(z: Any, internal: Any, A: Any) -> tuple[Wheel, tuple[int, ...]]:
+    import numpy as np
+
     z, internal, A = np.broadcast_arrays(np.atleast_1d(z), internal, np.asarray(A, dtype=float))
-    shape = z.shape
-    z, internal, A = z.ravel(), internal.ravel(), A.ravel()
     _refuse(
         bool(((z >= 3) & (z <= Z_MAX) & (z == np.floor(z))).all()),
         internal.dtype == bool,
         bool((np.abs(A) < 1.0).all()),
     )
-    size, at = np.empty(len(z)), np.empty(len(z))
-    for start in range(0, len(z), BLOCK):
-        part = slice(start, start + BLOCK)
-        size[part], at[part] = _block(_wheels(z[part], internal[part], A[part]))
-    at /= -DEGREE
-    return size.reshape(shape), at.reshape(shape)
+    return _wheels(z.ravel(), internal.ravel(), A.ravel()), z.shape
 
 
 def _refuse(z: bool, gearing: bool, A: bool) -> None:
@@ -220,37 +291,52 @@ def _wheels(z: Any, internal: Any, A: Any) -> Wheel:
     b = np.pi / z
     l, cos_b = np.sin(b), np.cos(b)
     rest = 1.0 - l
-    for few in np.unique(z[z < EXACT_Z]):
-        same = z == few
-        l[same], cos_b[same] = sin_cos_pi(1, int(few))
-        rest[same] = one_minus_sin_pi(1, int(few))
+    few = np.arange(3, EXACT_Z)
+    exact = np.array([(*sin_cos_pi(1, int(n)), one_minus_sin_pi(1, int(n))) for n in few])
+    small = np.flatnonzero(z < EXACT_Z)
+    l[small], cos_b[small], rest[small] = exact[z[small].astype(int) - 3].T
     sign = np.where(internal, -1.0, 1.0)
     return _wheel(sign, l, rest, cos_b, 0.5 * np.pi - sign * b, A)
 
 
-def _block(w: Wheel) -> tuple[Any, Any]:
+class Search(NamedTuple):
+    """A quantity: what is zero where it may be greatest, that with its slope, and its size."""
+
+    zero: Callable[..., Any]  # module, wheel, sin f, cos f, 1 - cos f (inside 1 + cos f)
+    slopes: Callable[..., tuple[Any, Any]]  # module, wheel, f
+    value: Callable[..., tuple[Any, Any]]  # module, wheel, f: size and input angle
+    close: float = CLOSE  # h may be all but flat where it is zero
+
+
+ACCELERATION = Search(_slope, _slopes, _value)
+VELOCITY = Search(_rest, _rests, _velocity, 1e-11)
+
+
+def _greatest(w: Wheel, size: Any, at: Any, search: Search, start: float = 0.0) -> tuple[Any, Any]:
+    """The greatest sizes and their places from ``start`` on, or those that are known already."""
     import numpy as np
 
-    size, at = _end(np, w)
-    step = w.half / SCAN
-    s, c = np.zeros(len(step)), np.ones(len(step))
+    step = (w.half - start) / SCAN
+    s, c = np.full(len(step), math.sin(start)), np.full(len(step), math.cos(start))
     sin_d, cos_d = np.sin(step), np.cos(step)
     before = np.zeros(len(step))
     brackets = []
     for i in range(SCAN + 1):
         if i == SCAN:
             s, c = w.end
-        here = _slope(np, w, s, c, 1.0 - w.sign * c)
+        here = search.zero(np, w, s, c, 1.0 - w.sign * c)
         changed = np.flatnonzero(before * here < 0.0)
         if len(changed):
-            brackets.append((changed, np.full(len(changed), i), before[changed] > 0.0))
+            left, right = before[changed], here[changed]
+            brackets.append((changed, i - 1.0 + left / (left - right), left > 0.0))
         before = here
         s, c = s * cos_d + c * sin_d, c * cos_d - s * sin_d
     if brackets:
         which, node, rising = (np.concatenate(parts) for parts in zip(*brackets, strict=True))
-        found = _take(w, which)
-        f = _roots(found, (node - 1) * step[which], node * step[which], rising)
-        value, where = _value(np, found, f)
+        found, near = _take(w, which), step[which]
+        low = start + np.floor(node) * near
+        f = _roots(search, found, (low, start + node * near, low + near), rising)
+        value, where = search.value(np, found, f)
         # A design may have several roots: the greatest is written last.
         order = np.argsort(value)
         order = order[value[order] > size[which[order]]]
@@ -262,21 +348,21 @@ def _take(w: Wheel, which: Any) -> Wheel:
     return Wheel(*[tuple(p[which] for p in v) if isinstance(v, tuple) else v[which] for v in w])
 
 
-def _roots(w: Wheel, a: Any, b: Any, rising: Any) -> Any:
-    """Newton from the middle of each bracket; those that have converged drop out."""
+def _roots(search: Search, w: Wheel, places: tuple[Any, Any, Any], rising: Any) -> Any:
+    """Newton from a place inside each bracket; those that have converged drop out."""
     import numpy as np
 
-    out = 0.5 * (a + b)
-    x, live = out.copy(), np.arange(len(out))
+    a, x, b = places
+    out, live = x.copy(), np.arange(len(x))
     for _ in range(STEPS):
-        slope, bend = _slopes(np, w, x)
+        slope, bend = search.slopes(np, w, x)
         left = (slope > 0.0) == rising
         a, b = np.where(left, x, a), np.where(left, b, x)
         with np.errstate(divide="ignore", invalid="ignore"):
             new = x - slope / bend
         new = np.where((new > a) & (new < b), new, 0.5 * (a + b))
         out[live] = new
-        far = np.flatnonzero(np.abs(new - x) >= CLOSE)
+        far = np.flatnonzero(np.abs(new - x) >= search.close)
         if not len(far):
             break
         if len(far) < len(live):
