@@ -11,10 +11,12 @@ import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
 
 if TYPE_CHECKING:
@@ -29,6 +31,8 @@ DOUBTFUL = 1e-5  # radians of the index angle: nearer than that without a root, 
 
 BLOCK = 64  # designs whose grid is looked at together: it stays in the processor's cache
 
+LONG_PI = np.longdouble(str(PI))
+
 
 class Way(Protocol):
     """The pin's way since a moment."""
@@ -37,24 +41,41 @@ class Way(Protocol):
         """(x, y), from sin d and 1 - cos d of the crank's angle d since then."""
 
 
+def rounded(x: Any) -> Any:
+    """A Decimal, or long doubles, rounded to doubles; one number as a float."""
+    if isinstance(x, Decimal) or not np.ndim(x):
+        return float(x)
+    return np.asarray(x, dtype=np.float64)
+
+
 class Path(ABC):
     """A roller's closed path about the crank's axis, in millimetres.
 
-    ``rough`` are its numbers: floats, or arrays (n, 1) of many designs.
+    ``rough`` are its numbers: floats, or arrays (n, 1) of many designs. ``exact`` are the same as
+    Decimals of 50 digits, or of many designs as long doubles.
     """
 
     rough: Any
+    exact: Any
 
     def of(self, which: Any) -> Path:
         """The paths of some of the designs."""
         some = copy.copy(self)
-        numbers = (x if isinstance(x, float) else x[which] for x in self.rough)
-        some.rough = type(self.rough)(*numbers)
+        for name in ("rough", "exact"):
+            numbers = (x[which] if np.ndim(x) else x for x in vars(self)[name])
+            vars(some)[name] = type(self.rough)(*numbers)
+        return some
+
+    def in_long_doubles(self) -> Path:
+        """The path with long doubles for exact numbers, as for many designs."""
+        some = copy.copy(self)
+        long = (np.longdouble(str(x)) if isinstance(x, Decimal) else x for x in self.exact)
+        some.exact = type(self.exact)(*long)
         return some
 
     @abstractmethod
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """A unit vector on the link that carries the roller; exact: jets of 50 digits."""
+        """A unit vector on the link that carries the roller; exact: jets of such numbers."""
 
     @abstractmethod
     def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
@@ -71,7 +92,7 @@ class Path(ABC):
     @abstractmethod
     def about(self, sine: Any, cosine: Any) -> Way:
         """The pin's way since the crank stood there, written so that it vanishes there; sine and
-        cosine are Decimals of 50 digits, or numbers of many designs.
+        cosine are exact.
         """
 
     def at(self, phi: Coefficient, order: int) -> tuple[Jet, Jet]:

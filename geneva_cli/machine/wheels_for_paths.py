@@ -15,8 +15,19 @@ import numpy as np
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.engagement import Anchor, Engagement
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
-from geneva_cli.machine.path_pairs import Ends, Path, on_grid, pairs, residual, taken
+from geneva_cli.machine.path_pairs import (
+    LONG_PI,
+    Ends,
+    Path,
+    ends_at,
+    on_grid,
+    pairs,
+    residual,
+    rounded,
+    taken,
+)
 from geneva_cli.machine.wheel_for_path import ANCHORS, DOUBLE_SLOPE, Link, LinkJoints, along_ray
+from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
@@ -25,6 +36,7 @@ if TYPE_CHECKING:
 FINE = 180  # places between entry and exit, and between exit and entry, that are checked
 SAME = 1e-6  # radians: entries nearer to each other are one
 BLOCK = 64  # wheels that are checked together
+POLISHINGS = 3  # steps of Newton: each leaves some millionth of the error
 GROUP = 2048  # designs at a time
 
 
@@ -40,38 +52,79 @@ class Fits(NamedTuple):
     alone: Any
 
 
-def engagement_many(path: Path, found: Fits, b: Any) -> tuple[Engagement, float]:
-    """The engagements of the wheels that fit, and their centre distances, (n, 1)."""
-    entry, exit_, sense = found[:3]
-    middle = 0.5 * (entry + exit_)
-    phi = [middle + (exit_ - middle) * (i / ANCHORS) for i in range(-ANCHORS, ANCHORS + 1)]
-    turned = [(np.sin(x), np.cos(x)) for x in phi]
-    places = [path.place(Jet((s, c)), Jet((c, -s))) for s, c in turned]
-    p, v = ([x.c[k] + 1j * y.c[k] for x, y in places] for k in (0, 1))
-    t, u = v[0] / np.abs(v[0]), v[-1] / np.abs(v[-1])
-    rho = np.abs(p[-1] - p[0]) / np.abs(t + u)
-    centre = 0.5 * ((p[0] + rho * t) + (p[-1] - rho * u))
-    rays: list[Any] = [place - centre for place in p]
+def engagement_many(path: Path, found: Fits, step: Step) -> tuple[Engagement, float]:
+    """The engagements of the wheels that fit, and their centre distances, (n, 1).
+
+    Every place is worked out in long doubles, where the computer has them, and rounded once.
+    """
+    b, sense = step.b, found.sense
+    with np.errstate(all="ignore"):
+        entry, exit_ = _polished(path, found, step)
+    middle = (entry + exit_) / 2
+    phi = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
+    places = [_place(path, x) for x in phi]
+    (p, t), (q, u) = places[0], places[-1]
+    rho = np.abs(q - p) / np.abs(t + u)
+    centre = ((p + rho * t) + (q - rho * u)) / 2
+    rays: list[Any] = [place - centre for place, _ in places]
     L: Any = np.abs(centre)
     half_way = rays[0] / np.abs(rays[0]) + rays[-1] / np.abs(rays[-1])
-    inside = [sense * np.angle(ray * half_way.conj()) for ray in rays[1:-1]]
+    inside = [sense * rounded(np.angle(ray * half_way.conj())) for ray in rays[1:-1]]
     ends = (-1.0, *[0.0] * len(inside), 1.0)
+    distance = rounded(L)
     anchors = tuple(
         Anchor(
-            np.degrees(x - middle),
+            rounded((x - middle) * (180 / LONG_PI)),
             wheel,
-            np.abs(ray) / L,
-            along_ray(path.about(*sin_cos), (ray.real, ray.imag), sense, L, end),
+            rounded(np.abs(ray) / L),
+            along_ray(
+                path.about(np.sin(x), np.cos(x)),
+                (rounded(ray.real), rounded(ray.imag)),
+                sense,
+                distance,
+                end,
+            ),
         )
-        for x, sin_cos, ray, wheel, end in zip(
-            phi, turned, rays, (-b, *inside, b), ends, strict=True
-        )
+        for x, ray, wheel, end in zip(phi, rays, (-b, *inside, b), ends, strict=True)
     )
-    anchored = AnchoredPath(anchors, sense * np.angle(-rays[ANCHORS] * centre.conj()))
+    ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
+    anchored = AnchoredPath(anchors, ahead)
     motion = Followed(anchored, b, mirrored=False)
-    body = Link(path, middle, sense)
-    joints = LinkJoints(path, middle, sense, L, -centre.real / L, -centre.imag / L)
-    return path_and_slot.engagement(0.0, anchored, motion, -sense, body, joints), L
+    mid = rounded(middle)
+    line = rounded(-centre.real / L), rounded(-centre.imag / L)
+    joints = LinkJoints(path, mid, sense, distance, *line)
+    body = Link(path, mid, sense)
+    return path_and_slot.engagement(0.0, anchored, motion, -sense, body, joints), distance
+
+
+def _place(path: Path, phi: Any) -> tuple[Any, Any]:
+    """Place and unit tangent at an angle in long doubles, as complex numbers."""
+    s, c = np.sin(phi), np.cos(phi)
+    x, y = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
+    v = x.c[1] + 1j * y.c[1]
+    return x.c[0] + 1j * y.c[0], v / np.abs(v)
+
+
+def _polished(path: Path, found: Fits, step: Step) -> tuple[Any, Any]:
+    """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles."""
+    every = np.arange(len(found.entry))
+    ends = ends_at(path, every, np.hstack((found.entry, found.exit)))
+    rest = residual(ends, np.broadcast_to(step.b, found.entry.shape))
+    by_entry, by_exit = rest.by_entry[:, None], rest.by_exit[:, None]
+    turn, turn_out = ends.turn[:, :1], ends.turn[:, 1:]
+    det = rest.det[:, None]
+    double = np.abs(det) < DOUBLE_SLOPE * np.abs(by_exit)
+    wanted = 2 * LONG_PI * step.p / step.q
+    entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in found[:2])
+    for _ in range(POLISHINGS):
+        (p, t), (q, u) = _place(path, entry), _place(path, exit_)
+        away = ((q - p) * (t + u).conj()).imag
+        index = -u * t.conj()
+        excess = index.imag * np.cos(wanted) - found.sense * index.real * np.sin(wanted)
+        entry = entry - np.where(double, 0.0, (away * turn_out - excess * by_exit) / det)
+        both = np.where(double, away / by_exit, (by_entry * excess + turn * away) / det)
+        exit_ = exit_ - both
+    return entry, exit_
 
 
 def fits_many(path: Path, b: Any, wanted: float | None) -> Fits:

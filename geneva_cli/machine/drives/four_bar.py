@@ -8,14 +8,13 @@ not given but solved for.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
 from functools import reduce
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example
-from geneva_cli.machine.drives.linkage import Linkage, exactly, refuse_proportions, roughly
-from geneva_cli.machine.path_pairs import Path, Way
+from geneva_cli.machine.drives.linkage import Linkage, exactly, of_many, refuse_proportions
+from geneva_cli.machine.path_pairs import Path, Way, rounded
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
@@ -115,11 +114,9 @@ class CouplerPath(Path):
     def __init__(self, keys: FourBar) -> None:
         lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
         point = {"reach_mm": keys.point_mm, "angle_deg": keys.point_deg}
-        if keys.varies:
-            self.rough = _Links(*roughly(*lengths, **point))
-        else:
-            self.exact = _Links(*exactly(*lengths, **point))
-            self.rough = _Links._make(float(x) for x in self.exact)
+        numbers = of_many if keys.varies else exactly
+        self.exact = _Links(*numbers(*lengths, **point))
+        self.rough = _Links._make(rounded(x) for x in self.exact)
         self.side = 1 if keys.branch == "+" else -1
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
@@ -150,9 +147,7 @@ class CouplerPath(Path):
 
     def about(self, sine: Any, cosine: Any) -> Way:
         """The change of each of A, D, 1/D, N, k and e, from the one before it."""
-        exact = isinstance(sine, Decimal)
-        rounded: Any = float if exact else lambda x: x
-        a, g, b, c, p, q = self.exact if exact else self.rough
+        a, g, b, c, p, q = self.exact
         D0 = g * g + a * a - 2 * g * a * cosine
         above, below = (b + c) ** 2 - D0, D0 - (b - c) ** 2
         N0, m = sqrt(Jet((above * below,))).c[0], (b - c) * (b + c)

@@ -8,7 +8,7 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import reduce
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import numpy as np
 
@@ -16,11 +16,11 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import wheel_for_path, wheels_for_paths
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.path_pairs import Path
+from geneva_cli.machine.path_pairs import LONG_PI, Path
 from geneva_cli.machine.wheel_for_path import Fit
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
-from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, smaller
 from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
@@ -96,7 +96,8 @@ class Linkage(PinPath):
     def _of_many(self, step: Step) -> tuple[Engagement, float]:
         """The engagements and the centre distances of many designs; those without are marked."""
         wanted = None if self.entry_deg is None else radians(self.entry_deg)
-        found = wheels_for_paths.fits_many(self.roller_path, step.b, wanted)
+        path = self.roller_path.in_long_doubles()
+        found = wheels_for_paths.fits_many(path, step.b, wanted)
         for i in found.alone:
             p, q = (int(np.broadcast_to(x, found.entry.shape)[i, 0]) for x in step)
             try:
@@ -108,7 +109,7 @@ class Linkage(PinPath):
             for array, value in zip(found[:3], values, strict=True):
                 array[i, 0] = value
         refuse(found.entry != found.entry, lambda: _none_fits(step.q))
-        return wheels_for_paths.engagement_many(self.roller_path, found, step.b)
+        return wheels_for_paths.engagement_many(path, found, step)
 
 
 def _none_fits(z: int) -> GenevaError:
@@ -145,7 +146,8 @@ def exactly(*lengths: float, reach_mm: float, angle_deg: float) -> list[Decimal]
         return [*(Decimal(x) for x in lengths), *point]
 
 
-def roughly(*lengths: float, reach_mm: float, angle_deg: float) -> list[float]:
-    """The same in doubles, for arrays of designs too."""
-    sine, cosine = sin_cos_deg(angle_deg)
-    return [*lengths, reach_mm * cosine, reach_mm * sine]
+def of_many(*lengths: float, reach_mm: float, angle_deg: float) -> list[Any]:
+    """The same for arrays of designs, in the longest floating-point numbers that there are."""
+    turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
+    point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)
+    return [np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point)]

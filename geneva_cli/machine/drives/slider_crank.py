@@ -8,13 +8,12 @@ centre is not given but solved for.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example
-from geneva_cli.machine.drives.linkage import Linkage, exactly, refuse_proportions, roughly
-from geneva_cli.machine.path_pairs import Path, Way
+from geneva_cli.machine.drives.linkage import Linkage, exactly, of_many, refuse_proportions
+from geneva_cli.machine.path_pairs import Path, Way, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
@@ -83,11 +82,9 @@ class RodPath(Path):
     def __init__(self, keys: SliderCrank) -> None:
         lengths = (keys.crank_mm, keys.rod_mm, keys.height_mm)
         point = {"reach_mm": keys.point_mm, "angle_deg": keys.point_deg}
-        if keys.varies:
-            self.rough = _Rod(*roughly(*lengths, **point))
-        else:
-            self.exact = _Rod(*exactly(*lengths, **point))
-            self.rough = _Rod._make(float(x) for x in self.exact)
+        numbers = of_many if keys.varies else exactly
+        self.exact = _Rod(*numbers(*lengths, **point))
+        self.rough = _Rod._make(rounded(x) for x in self.exact)
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """The rod's unit vector, from A towards B."""
@@ -111,9 +108,7 @@ class RodPath(Path):
 
     def about(self, sine: Any, cosine: Any) -> Way:
         """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
-        exact = isinstance(sine, Decimal)
-        rounded: Any = float if exact else lambda x: x
-        a, b, h, _, _ = self.exact if exact else self.rough
+        a, b, h, _, _ = self.exact
         level = (h - sine * a) / b
         less, more = 1 - level, 1 + level
         ex = sqrt(Jet((less * more,))).c[0]
