@@ -92,6 +92,23 @@ MACHINES = {
         machine(3, "gear-sector", sector_deg=60.0, gear_ratio=0.8),
         [("drive.sector_deg", 0.0, 130.0), ("drive.gear_ratio", 0.1, 3.0)],
     ),
+    "four-bar": (
+        machine(
+            4,
+            "four-bar",
+            crank_mm=40.0,
+            ground_mm=90.0,
+            coupler_mm=100.0,
+            rocker_mm=100.0,
+            point_mm=160.0,
+            point_deg=-36.0,
+        ),
+        [("drive.crank_mm", 30.0, 50.0), ("drive.point_deg", -60.0, -20.0)],
+    ),
+    "slider-crank": (
+        machine(8, "slider-crank", crank_mm=40.0, rod_mm=100.0, point_mm=80.0, point_deg=90.0),
+        [("drive.rod_mm", 30.0, 200.0), ("drive.height_mm", -50.0, 50.0), SLOTS],
+    ),
     "tilted law": (
         machine(6, "side-crank", Motion("sine-group", 0.1), A=0.3),
         [("motion.lambda", -0.2, 0.2), ("drive.A", -0.9, 0.9)],
