@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from typing import Any
 
@@ -77,5 +76,7 @@ def quoted(value: Any) -> str:
     """A value as TOML has it."""
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(quoted(v) for v in value)}]"
-    # what JSON writes of a text TOML reads, quotation marks in it too
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)
+    if not isinstance(value, str):
+        return repr(value)
+    text = value.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{text}"'
