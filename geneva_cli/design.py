@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.wheel_inertia import Plate
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -266,7 +267,27 @@ class Design:
         # without a load all need one, and that is said already
         needed = self.strength.missing(LIFE[:7]) if self.cycle.is_loaded else []
         said = (*self.warnings, *self.load_warnings, *needed)
-        return loads_table(self.cycle, life, said, for_people)
+        own = self.wheel_plate and self.wheel_plate.inertia_kgm2
+        return loads_table(self.cycle, life, own, said, for_people)
+
+    @answer
+    def wheel_plate(self) -> Plate | None:
+        """The wheel's own mass and inertia, from its outline; None without ``face_width_mm``.
+
+        None also where there are no flat parts.
+
+        >>> wheel = Design(External(6), size=Size(face_width_mm=20)).wheel_plate
+        >>> round(wheel.mass_kg, 3), round(1e3 * wheel.inertia_kgm2, 3)
+        (2.083, 5.157)
+        """
+        from geneva_cli.parts.wheel_inertia import wheel_plate
+
+        if self.spec.size.face_width_mm is None:
+            return None
+        try:
+            return wheel_plate(self.proof.found)
+        except GenevaError:
+            return None
 
     @answer
     def strength(self) -> Strength:
@@ -299,9 +320,11 @@ class Design:
         'contact_stress_MPa: needs face_width_mm in [size]'
         """
         from geneva_cli.analysis.loads.summary import missing
+        from geneva_cli.verdict.carried_cautions import carried_cautions
         from geneva_cli.verdict.load_cautions import load_cautions
 
-        return [*load_cautions(self.mechanism), *missing(self.cycle)]
+        carried = carried_cautions(self.spec, self.wheel_plate)
+        return [*load_cautions(self.mechanism), *carried, *missing(self.cycle)]
 
     def load_cycle(self, samples: int = 361) -> Table:
         """``samples`` rows of the loads over a period, evenly in the input angle, dwells too.

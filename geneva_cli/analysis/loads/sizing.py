@@ -21,6 +21,7 @@ class Sizing(NamedTuple):
     """None where a value needs what is not given, or nothing bounds the input's torque."""
 
     inertia_kgm2: float | None = None  # of all that the wheel turns, at its shaft
+    wheel_inertia_kgm2: float | None = None  # of the wheel itself, from its outline
     # the makers' form, of the engagement that asks most of the input
     acceleration_rad_s2: float | None = None
     inertia_torque_Nm: float | None = None
@@ -84,7 +85,7 @@ def _form(cycle: Cycle) -> Sizing:
             best = form, factors
     assert best is not None  # a machine has engagements
     form, factors = best
-    out = Sizing(None, form.alpha, **factors._asdict())
+    out = Sizing(acceleration_rad_s2=form.alpha, **factors._asdict())
     if not cycle.is_loaded:
         return out
     lost = spec.load.efficiency * spec.motor.gear_efficiency

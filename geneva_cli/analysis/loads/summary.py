@@ -180,12 +180,14 @@ def reversals_deg(cycle: Cycle) -> list[float]:
 def loads_table(
     cycle: Cycle,
     life: Mapping[str, float | None],
+    wheel_inertia_kgm2: float | None,
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
     """The summary, with what must be bought, how long it lasts, and what else is to be said.
 
-    For people the quantities that have a value are the rows of a table.
+    ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
+    have a value are the rows of a table.
     """
     spec = cycle.mechanism.spec
     values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
@@ -198,6 +200,7 @@ def loads_table(
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
     bought, needed = sizing(cycle)
+    bought["wheel_inertia_kgm2"] = wheel_inertia_kgm2
     for group, answers in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)

@@ -1,0 +1,56 @@
+"""What a designer must be told about what the wheel carries: itself, and what hangs to one side."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.wheel_inertia import Plate
+
+NAME = "wheel"  # of the [[mass]] that is the wheel itself
+SHOWN = 0.01  # share of the inertia that is given
+FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
+
+
+def carried_cautions(spec: Spec, plate: Plate | None) -> list[str]:
+    """Cautions about inertia that may be left out, and weight that turns with the table."""
+    return [*_itself(spec, plate), *_to_one_side(spec)]
+
+
+def _itself(spec: Spec, plate: Plate | None) -> list[str]:
+    given = inertia_kgm2(spec)
+    if plate is None or not given or any(mass.name == NAME for mass in spec.mass):
+        return []
+    own = plate.inertia_kgm2
+    if own <= SHOWN * given:
+        return []
+    across = 1e3 * math.sqrt(8.0 * own / plate.mass_kg)
+    helps = (
+        f'[[mass]] with name = "{NAME}", shape = "disc", mass_kg = {plate.mass_kg:.4g} and '
+        f"diameter_mm = {across:.4g}"
+        if spec.support.gear_ratio == 1.0  # masses are on the table, behind its gears
+        else f"{own:.4g} on inertia_kgm2 in [load]"
+    )
+    return [
+        f"the wheel's own inertia, {own:.4g} kg m2 of a plate as thick as face_width_mm, is "
+        f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it out, "
+        f"add {helps}"
+    ]
+
+
+def _to_one_side(spec: Spec) -> list[str]:
+    """On a horizontal axis a body to one side takes a torque of gravity, which is not counted."""
+    if spec.support.axis != "horizontal":
+        return []
+    out = []
+    for mass in spec.mass:
+        if mass.radius_mm and mass.count < FULL_CIRCLE:
+            torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
+            out.append(
+                f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal axis: "
+                f"its weight takes up to {torque:.4g} N m at the wheel, one way and the other as "
+                "it turns, which is not counted; set a body against it (count = 2), or add the "
+                "torque to torque_Nm in [load]"
+            )
+    return out

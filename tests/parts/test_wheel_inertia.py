@@ -1,0 +1,84 @@
+"""The wheel's own inertia from its outline, against a polygon of it; what is said about it."""
+
+import math
+
+import pytest
+import repo
+from drawing_witness import vertices
+
+from geneva_cli import Design, External, Internal, Load, Mass, Size, Support, load
+from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.wheel_inertia import Plate
+from geneva_cli.verdict.carried_cautions import carried_cautions
+
+
+def polygon(points):
+    """Area and polar moment of a polygon about the origin, by its triangles."""
+    area = polar = 0.0
+    for (a, b), (c, d) in zip(points, points[1:], strict=False):
+        cross = a * d - b * c
+        area += cross / 2
+        polar += cross * (a * a + a * c + c * c + b * b + b * d + d * d) / 12
+    return area, polar
+
+
+@pytest.mark.parametrize("name", ["limits", "internal-z6", "press-curved", "offset-slots"])
+def test_the_plate_of_a_wheel_by_its_polygon(name):
+    design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.face_width_mm", 20.0)
+    design = design.with_("material.wheel.density_kgm3", 2700.0)
+    sizes = design.parts.sizes
+    area, polar = polygon(vertices(design.parts.wheel, 1e-5))
+    discs = [(sizes.outer, 1.0 if sizes.outer else 0.0), (sizes.wheel_bore, -1.0)]
+    if sizes.outer:
+        area, polar = -area, -polar  # the contour is the opening
+    area += sum(sign * math.pi * r**2 for r, sign in discs)
+    polar += sum(sign * math.pi * r**4 / 2 for r, sign in discs)
+    # 1e-6: chords within 1e-5 mm of the arcs
+    assert design.wheel_plate.mass_kg == pytest.approx(2700 * 0.02 * area * 1e-6, rel=1e-6)
+    assert design.wheel_plate.inertia_kgm2 == pytest.approx(2700 * 0.02 * polar * 1e-12, rel=1e-6)
+
+
+def test_the_mass_that_is_suggested_adds_the_wheel():
+    """Taken at its word, the warning is gone, and the wheel's inertia is counted."""
+    size = Size(face_width_mm=20.0)
+    design = Design(External(6), size=size, load=Load(inertia_kgm2=0.1))
+    (said,) = carried_cautions(design.spec, design.wheel_plate)
+    words = said.replace(",", "").split()
+    found = {key: float(words[words.index(key) + 2]) for key in ("mass_kg", "diameter_mm")}
+    wheel = Mass("disc", name="wheel", **found)
+    with_it = Design(External(6), size=size, load=Load(inertia_kgm2=0.1), mass=[wheel])
+    assert not carried_cautions(with_it.spec, with_it.wheel_plate)
+    own = design.wheel_plate.inertia_kgm2
+    # 1e-3: four digits are said
+    counted = with_it.loads_table.to_dict()["sizing.inertia_kgm2"]
+    assert counted == pytest.approx(0.1 + own, abs=1e-3 * own)
+    assert design.loads_table.to_dict()["sizing.wheel_inertia_kgm2"] == own
+
+
+def test_behind_gears_the_wheel_is_no_mass_on_the_table():
+    spec = Spec(External(6), load=Load(inertia_kgm2=0.1), support=Support(gear_ratio=2.0))
+    (said,) = carried_cautions(spec, Plate(2.0, 0.005))
+    assert "add 0.005 on inertia_kgm2 in [load]" in said
+
+
+def test_a_wheel_that_hardly_counts_is_not_mentioned():
+    spec = Spec(External(6), load=Load(inertia_kgm2=0.6))
+    assert not carried_cautions(spec, Plate(2.0, 0.005))
+    assert not carried_cautions(Spec(External(6)), Plate(2.0, 0.005))
+
+
+def test_without_a_thickness_or_flat_parts_nothing_is_known():
+    assert Design(Internal(6)).wheel_plate is None
+    sphere = load(str(repo.DESIGNS / "spherical-z6.toml"))
+    assert sphere.with_("size.face_width_mm", 20.0).wheel_plate is None
+
+
+def test_a_weight_to_one_side_of_a_horizontal_axis():
+    """m g e, there and back in a turn."""
+    one = Mass("point", mass_kg=2.0, radius_mm=100.0, name="drum")
+    spec = Spec(External(6), mass=(one,), support=Support(axis="horizontal"))
+    (said,) = carried_cautions(spec, None)
+    assert said.startswith("drum stands 100 mm off a horizontal axis: its weight takes up to 1.961")
+    assert not carried_cautions(spec.with_("support.axis", "vertical"), None)
+    four = Mass("point", mass_kg=2.0, radius_mm=100.0, count=4)
+    assert not carried_cautions(Spec(External(6), mass=(four,), support=spec.support), None)
