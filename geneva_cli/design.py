@@ -321,10 +321,12 @@ class Design:
         """
         from geneva_cli.analysis.loads.summary import missing
         from geneva_cli.verdict.carried_cautions import carried_cautions
+        from geneva_cli.verdict.cycle_cautions import cycle_cautions
         from geneva_cli.verdict.load_cautions import load_cautions
 
         carried = carried_cautions(self.spec, self.wheel_plate)
-        return [*load_cautions(self.mechanism), *carried, *missing(self.cycle)]
+        of_cycle = cycle_cautions(self.cycle, self.loads)
+        return [*load_cautions(self.mechanism), *of_cycle, *carried, *missing(self.cycle)]
 
     def load_cycle(self, samples: int = 361) -> Table:
         """``samples`` rows of the loads over a period, evenly in the input angle, dwells too.

@@ -116,7 +116,7 @@ def known(cycle: Cycle) -> list[str]:
 
 
 def summaries(cycle: Cycle) -> dict[str, Summary]:
-    """The summary of each quantity, by its name."""
+    """The summary of each quantity, by its name; None for each value that is not known."""
     names = known(cycle)
     found = cycle.extremes(*[QUANTITIES[name] for name in names])
 

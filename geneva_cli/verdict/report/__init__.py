@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks.check import Check, all_pass
+from geneva_cli.verdict.cycle_cautions import cycle_cautions
 from geneva_cli.verdict.load_cautions import load_cautions
 from geneva_cli.verdict.report.sections import SECTIONS
 from geneva_cli.verdict.report.values import Values
@@ -38,7 +41,13 @@ def report(
     """
     proof = proof or Proof(mechanism)
     rows = judged(mechanism, proof) if rows is None else rows
-    told = (*cautions(mechanism), *load_cautions(mechanism), *turn_cautions(proof))
+    cycle = Cycle(mechanism)
+    told = (
+        *cautions(mechanism),
+        *load_cautions(mechanism),
+        *cycle_cautions(cycle, summaries(cycle)),
+        *turn_cautions(proof),
+    )
     passes = all_pass(rows)
     title = mechanism.spec.title
     values: Values = {

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report import (
+    cycle,
     inputs,
     loads,
     parts,
@@ -23,6 +24,7 @@ SECTIONS: tuple[Callable[[Proof], Values], ...] = (
     inputs.inputs,
     stations.stations,
     loads.greatest,
+    cycle.cycle,
     shocks.shocks,
     slot.driven,
     vibration.vibration,

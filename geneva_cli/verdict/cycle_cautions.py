@@ -1,0 +1,86 @@
+"""What a designer must be told about a cycle: where the wheel drives the motor, and numbers whose
+size says that another unit was meant.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.summary import Summary
+from geneva_cli.machine.mechanism import Mechanism
+
+SOUND_M_S = 343.0
+STEEL_KGM3 = 7850.0
+# The largest table that a wheel of centre distance L may be thought to turn: solid steel, six L
+# across and half of one thick. What is heavier is nearly always kg cm2.
+ACROSS, THICK = 6.0, 0.5
+BRIEF = 1e-4  # share of a motion: at rest, before and after it, signs are rounding
+ROUNDING = 1e-9  # share of the greatest torque
+
+
+def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[str]:
+    """The cautions, for the summaries of a cycle's loads."""
+    return [*_back_driven(cycle, loads), *_heavy(cycle), *_fast(cycle.mechanism, loads)]
+
+
+def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
+    """Input angles from and to which the wheel drives the input, within one motion each."""
+    shown, out = cycle.mechanism.shown_deg, list[tuple[float, float]]()
+    last = None
+    for engagement, stretch in cycle.stretches:
+        a, b = (engagement.mid_deg + x for x in stretch[:2])
+        driven = stretch.pays < 0.0 and b - a > BRIEF * engagement.motion_deg
+        if driven and last == a:
+            out[-1] = out[-1][0], shown(b)
+        elif driven:
+            out.append((shown(a), shown(b)))
+        last = b if driven else None
+    return out
+
+
+def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[str]:
+    torque, alpha = loads["input_torque_Nm"], loads["alpha_rad_s2"]
+    least, most = torque.min, torque.max
+    if least is None or alpha.min is None or not least < -ROUNDING * abs(most or least):
+        return []
+    where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in back_driven_deg(cycle))
+    # All that brakes the wheel at its greatest deceleration: the input then never has to.
+    inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
+    drag = -inertia * alpha.min
+    return [
+        f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the input: "
+        "the play of slot and reducer changes sides there, and a self-locking worm jams; it takes "
+        "a brake or a motor that brakes, or a drag on the wheel: with a resisting torque of "
+        f"{drag:.4g} N m in all the input always drives"
+    ]
+
+
+def _heavy(cycle: Cycle) -> list[str]:
+    L = cycle.given.L
+    inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
+    # a disc's J = pi rho h D^4 / 32
+    most = math.pi * STEEL_KGM3 * THICK * L * (ACROSS * L) ** 4 / 32.0
+    if not inertia > most:
+        return []
+    return [
+        f"an inertia of {inertia:.4g} kg m2 is more than that of a solid steel table "
+        f"{1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} thick ({most:.3g} kg m2), on "
+        f"a wheel of {1e3 * L:.4g} mm centre distance: {inertia:.4g} kg cm2 would be "
+        f"{1e-4 * inertia:.4g} kg m2"
+    ]
+
+
+def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[str]:
+    engagement = mechanism.engagements[0]
+    x, y = engagement.path(engagement.entry_deg, 0)
+    rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
+    speed = rim * (loads["omega_rad_s"].max or 0.0)
+    if not speed > SOUND_M_S:
+        return []
+    n = mechanism.spec.drive.n_rpm
+    return [
+        f"the wheel's rim runs at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} m/s): "
+        f"n_rpm = {n:g} is meant in turns of the input a minute"
+    ]

@@ -1,0 +1,21 @@
+"""What the input has to give over a period: the cycle's torque and power, with their signs."""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.summary import reversals_deg, summaries
+from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.report.values import Values
+
+FIELDS = ("max", "min", "mean", "rms")
+
+
+def cycle(proof: Proof) -> Values:
+    """Greatest and least over the motions, mean and rms over the period; None without a load."""
+    of = Cycle(proof.mechanism)
+    found = summaries(of)
+    values: Values = {}
+    for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
+        values |= {f"cycle.{name}.{key}": found[name]._asdict()[key] for key in FIELDS}
+    values["cycle.reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
+    return values
