@@ -36,6 +36,7 @@ COMMANDS = {
     "laws": "The motion laws and their characteristic values.",
     "synth": "From a wish (tau, k, angle, time, acceleration) to machines for it.",
     "new": "Write a commented spec to start from.",
+    "keys": "Every key of a spec: unit, range, default, and what it goes with.",
     "bench": "Run time against error: ours beside what else is in use.",
 }
 

@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from geneva_cli import GenevaError, load
+from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.plan import Shard, plan
 from geneva_cli.study.sweep.run import blocks, sweep
 from geneva_cli.study.sweep.values import axis
@@ -33,7 +34,7 @@ def grid(*texts):
 
 def test_each_row_is_the_designs_own():
     picks = ["acceleration.max", "dwell_s", "sizes.rollers_max", "drive.kind"]
-    for A, z, *found, error in rows(sweep(SPEC, grid(*GRID), picks=picks), workers=1):
+    for A, z, *found, error in rows(sweep(read(SPEC), grid(*GRID), picks=picks), workers=1):
         try:
             design = load(SPEC, [f"drive.A={A}", f"wheel.z={z}"])
         except GenevaError:
@@ -45,7 +46,7 @@ def test_each_row_is_the_designs_own():
 
 
 def test_words_and_kinds_vary_too():
-    found = sweep(SPEC, grid("wheel.gearing=external,internal"), picks=["dwell_deg"])
+    found = sweep(read(SPEC), grid("wheel.gearing=external,internal"), picks=["dwell_deg"])
     assert [row[1] for row in rows(found)] == [
         load(SPEC, [f"wheel.gearing={g}"]).timing.dwell_deg for g in ("external", "internal")
     ]
@@ -53,14 +54,14 @@ def test_words_and_kinds_vary_too():
 
 def test_the_same_rows_whatever_the_processes_and_shares():
     some = grid("drive.A=-0.9:0.9:0.05", "wheel.z=4,6")
-    alone = rows(sweep(SPEC, some), workers=1)
-    assert rows(sweep(SPEC, some), workers=2) == alone
-    shares = [sweep(SPEC, some, shard=Shard(i, 3)) for i in (1, 2, 3)]
+    alone = rows(sweep(read(SPEC), some), workers=1)
+    assert rows(sweep(read(SPEC), some), workers=2) == alone
+    shares = [sweep(read(SPEC), some, shard=Shard(i, 3)) for i in (1, 2, 3)]
     assert [row for share in shares for row in rows(share, workers=1)] == alone
 
 
 def test_check_turns_the_parts():
-    found = sweep(SPEC, grid("limits.velocity_max=9,0.1"), picks=["ratio"], check=True)
+    found = sweep(read(SPEC), grid("limits.velocity_max=9,0.1"), picks=["ratio"], check=True)
     assert found.names[-3:] == ("checks.passes", "checks.failed", "error")
     good, bad = rows(found, workers=1)
     assert good[2:] == [True, None, None]
@@ -83,7 +84,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert geneva(*arguments, "-o", str(file)).returncode == 0
     whole = file.read_text()
     assert os.listdir(tmp_path) == ["rows.csv"]
-    found = sweep(SPEC, grid(*GRID))
+    found = sweep(read(SPEC), grid(*GRID))
     (tmp_path / "rows.csv.partial").write_text(whole[:300])
     (tmp_path / "rows.csv.partial.key").write_text(found.key)
     assert geneva(*arguments, "-o", str(file), "--resume").returncode == 0
@@ -109,6 +110,19 @@ def test_parquet_holds_the_same(tmp_path):
         assert (row["velocity.max"] is None) == (text["velocity.max"] == "")
         assert row["velocity.max"] is None or row["velocity.max"] == float(text["velocity.max"])
     assert os.listdir(tmp_path) == ["rows.parquet"]
+
+
+def test_the_spec_may_come_from_a_pipe():
+    with open(SPEC, encoding="utf-8") as file:
+        found = subprocess.run(
+            [sys.executable, "-m", "geneva_cli", "sweep", "-", "--vary", "drive.A=0,0.5"],
+            stdin=file,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=True,
+        )
+    assert len(found.stdout.splitlines()) == 3
 
 
 @pytest.mark.parametrize(

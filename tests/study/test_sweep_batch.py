@@ -4,6 +4,7 @@ import os
 
 import pytest
 
+from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import plan
 from geneva_cli.study.sweep.run import Sweep, sweep
@@ -21,7 +22,7 @@ CLOSE, PLACE = 1e-13, 1e-6
 
 def rows(spec, vary, picks, random=None):
     found = sweep(
-        os.path.join(DESIGNS, spec),
+        read(os.path.join(DESIGNS, spec)),
         plan([axis(v, random is not None) for v in vary], random, 5),
         picks=picks,
     )

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
 from geneva_cli.study.sweep.front import Objective, objective
@@ -82,6 +83,8 @@ def request(
     """What these options ask for. Raises GenevaError, naming the option, for what cannot be."""
     if jobs is not None and jobs < 1:
         raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
+    text = read(path, given)
+    text.spec()  # what is wrong with the file is said before what is asked of it
     axes = [axis(text, random is not None or bool(best)) for text in vary]
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
@@ -94,7 +97,7 @@ def request(
     if not names and not wanted:
         names = list(DEFAULT)
     asked = [o.name for o in wanted] + [c.name for c in bounds]
-    found = sweep(path, plan(axes, random, seed), given, [*asked, *names], check, part)
+    found = sweep(text, plan(axes, random, seed), [*asked, *names], check, part)
     whole = dict(zip([*asked, *names], found.asked, strict=False))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)

@@ -11,7 +11,7 @@ from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
@@ -88,20 +88,17 @@ class Sweep(NamedTuple):
 
 
 def sweep(
-    path: str,
+    text: Text,
     plan: Plan,
-    given: Sequence[str] = (),
     picks: Sequence[str] = DEFAULT,
     check: bool = False,
     shard: Shard = WHOLE,
 ) -> Sweep:
     """The sweep of a spec. ``check`` adds whether each design passes every check.
 
-    Raises GenevaError for a spec that cannot be read, a quantity that does not exist, and where
-    none of the first designs can be built.
+    Raises GenevaError for a quantity that does not exist, and where none of the first designs can
+    be built.
     """
-    text = read(path, given)
-    text.spec()  # what is wrong with the file is said of the file
     asked = [*picks, *(CHECKED if check else ())]
     return Sweep(text, plan, pick(asked, _first(text, plan)), shard)
 

@@ -1,0 +1,24 @@
+"""``geneva keys``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Format, Output
+
+
+def run(
+    word: Annotated[
+        str, typer.Argument(metavar="[TABLE|KEY]", help="drive, drive.A or A; all without.")
+    ] = "",
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """Every key of a spec: its unit, what it may be, its default, and the machines it goes with."""
+    from geneva_cli.output import show
+    from geneva_cli.specfile.keys import Key, about
+    from geneva_cli.table import rows_table
+
+    show(rows_table(Key._fields, about(word)), output, format)

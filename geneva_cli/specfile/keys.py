@@ -1,0 +1,134 @@
+"""Every key that a spec may have: its unit, what it may be, its default, and what it goes with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.machine import registry
+from geneva_cli.machine.spec import Motion
+from geneva_cli.spec.rules import Csv
+from geneva_cli.spec.schema import LIST, REQUIRED, Field, Table, fields
+from geneva_cli.spec.tables import LISTS, PLAIN
+from geneva_cli.specfile.writer import GEARING, KIND, LAW, quoted
+
+# What a key's ending says of its unit.
+UNITS = {
+    "_kgm2": "kg m²",
+    "_kgm3": "kg/m³",
+    "_Nm_rad": "N m/rad",
+    "_W_m2": "W/m²",
+    "_mm": "mm",
+    "_deg": "deg",
+    "_rpm": "1/min",
+    "_Nm": "N m",
+    "_MPa": "MPa",
+    "_GPa": "GPa",
+    "_kg": "kg",
+    "_N": "N",
+    "_h": "h",
+    "_s": "s",
+}
+TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
+
+
+class Key(NamedTuple):
+    """One key, as a person reads of it; ``goes_with`` names the kinds that have it."""
+
+    table: str
+    key: str
+    unit: str | None
+    type: str
+    range: str | None
+    default: str | None  # None: it follows from the rest; or it must be given
+    required: bool
+    goes_with: str | None  # None: any machine
+    meaning: str
+
+
+def every() -> list[Key]:
+    """All keys, table by table in the order of a file."""
+    title = Key("", "title", None, "word", None, None, False, None, "free text")
+    return [title, *_wheel(), *_drive(), *_motion(), *_plain()]
+
+
+def about(word: str) -> list[Key]:
+    """The keys of a table (``drive``), or of a name (``drive.A``, ``A``); all for no word.
+
+    Raises GenevaError, with the nearest name, for what is neither.
+
+    >>> [(k.table, k.key, k.range) for k in about("drive.A")]
+    [('drive', 'A', 'above -1, below 1'), ('drive', 'A', 'above 0, below 1')]
+    """
+    found = every()
+    if not word:
+        return found
+    some = [k for k in found if word in (_bare(k), _bare(k).partition(".")[0])]
+    some = some or [k for k in found if word in (k.key, f"{_bare(k)}.{k.key}")]
+    if not some:
+        known = {_bare(k) for k in found} | {k.key for k in found}
+        whole = {f"{_bare(k)}.{k.key}" for k in found}
+        raise GenevaError(
+            f"{cut(word)}: no table or key of a spec{nearest(word, sorted(known | whole))}; "
+            "`geneva keys` lists all"
+        )
+    return some
+
+
+def _bare(key: Key) -> str:
+    return key.table.strip("[]")
+
+
+def _wheel() -> Iterator[Key]:
+    yield _key("wheel", GEARING)
+    kinds = {name: registry.gearing(name) for name in registry.GEARINGS}
+    yield from _of_kinds("wheel", "gearing", kinds)
+
+
+def _drive() -> Iterator[Key]:
+    yield _key("drive", KIND)
+    kinds = {name: registry.drive(name) for name in registry.DRIVES}
+    yield from _of_kinds("drive", "kind", kinds)
+
+
+def _motion() -> Iterator[Key]:
+    yield _key("motion", LAW)
+    kinds = {name: registry.law(name) for name in registry.LAWS}
+    yield from _of_kinds("motion", "law", kinds)
+    for field in fields(Motion):
+        yield _key("motion", field, "with a law")
+
+
+def _plain() -> Iterator[Key]:
+    for name, table in PLAIN.items():
+        for field in fields(table):
+            yield _key(name, field)
+
+
+def _of_kinds(table: str, word: str, kinds: Mapping[str, type[Table]]) -> Iterator[Key]:
+    """The keys of several kinds: one that all have is of any, others say of which."""
+    having: dict[Field, list[str]] = {}
+    for name, kind in kinds.items():
+        for field in fields(kind):
+            having.setdefault(field, []).append(name)
+    for field, names in having.items():
+        of = None if len(names) == len(kinds) else f"{word} = {', '.join(names)}"
+        yield _key(table, field, of)
+
+
+def _key(table: str, field: Field, of: str | None = None) -> Key:
+    unit = next((u for end, u in UNITS.items() if field.key.endswith(end)), None)
+    types = " or ".join(TYPES[t] for t in field.types if t in TYPES)
+    given = field.default not in (None, REQUIRED)
+    return Key(
+        f"[{table}]" if table in LISTS else table,
+        field.key,
+        unit,
+        "a file" if isinstance(field.rule, Csv) else types,
+        None if field.rule is None else str(field.rule),
+        quoted(field.default) if given else None,
+        field.default is REQUIRED,
+        of,
+        field.meaning,
+    )
