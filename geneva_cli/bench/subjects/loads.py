@@ -1,0 +1,107 @@
+"""Torque, pin force and input torque of a wheel over a motion, with friction."""
+
+from __future__ import annotations
+
+import math
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.truth import digits, motion
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.spec.tables import Load, Size
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+Z = 8
+COUNT = 360
+GIVEN = Spec(External(Z), size=Size(250.0, 12.0), load=Load(1.2, 20.0, friction=0.05))
+L, RADIUS, FRICTION = 0.25, 0.012, 0.05
+SPEED = 2.0 * math.pi
+
+
+def script(x: Array) -> tuple[Array, ...]:
+    """What a handbook's formulas make of it; x in radians."""
+    l = math.sin(math.pi / Z)
+    sine, cosine = np.sin(x), np.cos(x)
+    D = 1.0 - 2.0 * l * cosine + l * l
+    velocity = l * (cosine - l) / D
+    torque = 1.2 * SPEED**2 * (-l * (1.0 - l * l) * sine / D**2) + 20.0
+    rho, along = L * np.sqrt(D), L * l * sine / np.sqrt(D)
+    rubs = along + np.sign(torque) * (1.0 + velocity) * RADIUS
+    force = np.abs(torque) / (rho - RADIUS * FRICTION * np.sign(rubs))
+    return torque, force, torque * velocity + FRICTION * force * np.abs(rubs)
+
+
+def differences(x: Array) -> tuple[Array, ...]:
+    """The same with np.gradient of the wheel's angle for velocity and acceleration."""
+    l = math.sin(math.pi / Z)
+    sine, cosine = np.sin(x), np.cos(x)
+    velocity = np.gradient(np.arctan2(l * sine, 1.0 - l * cosine), x)
+    torque = 1.2 * SPEED**2 * np.gradient(velocity, x) + 20.0
+    rho = L * np.sqrt(1.0 - 2.0 * l * cosine + l * l)
+    rubs = np.gradient(rho, x) + np.sign(torque) * (1.0 + velocity) * RADIUS
+    force = np.abs(torque) / (rho - RADIUS * FRICTION * np.sign(rubs))
+    return torque, force, torque * velocity + FRICTION * force * np.abs(rubs)
+
+
+def subject(quick: bool) -> Subject:
+    """The handbook's formulas for this one wheel, beside the cycle of any machine."""
+    cycle = Cycle(build(GIVEN))
+    (engagement,) = cycle.mechanism.engagements
+    degrees = np.linspace(engagement.entry_deg, engagement.exit_deg, COUNT)
+    x = np.radians(degrees)
+
+    def ours() -> tuple[Array, ...]:
+        found = cycle.moving(engagement, degrees)
+        return found.wheel_torque_Nm, abs(found.pin_force_N), found.input_torque_Nm
+
+    task = Task(
+        f"torque, force and input torque at {COUNT} angles",
+        f"one np.sin + np.cos over {COUNT} angles",
+        lambda: (np.sin(x), np.cos(x)),
+        partial(_error, x=x),
+        [
+            Method("handbook's formulas, one wheel", COUNT, partial(script, x)),
+            Method("numerical differentiation", COUNT, partial(differences, x)),
+            Method("ours, any machine, all quantities", COUNT, ours, True),
+        ],
+    )
+    return Subject(
+        f"Loads over a motion of a wheel of {Z} slots",
+        "greatest error, in units of each quantity's peak",
+        [task],
+    )
+
+
+def _error(found: Any, x: Array) -> float:
+    worst = 0.0
+    exact = [_exact(float(a)) for a in x[:: COUNT // 40]]
+    for i, values in enumerate(found):
+        peak = max(abs(row[i]) for row in exact)
+        for value, row in zip(values[:: COUNT // 40], exact, strict=True):
+            worst = max(worst, float(abs(digits().mpf(float(value)) - row[i]) / peak))
+    return worst
+
+
+@cache
+def _exact(angle: float) -> tuple[Any, ...]:
+    """By 50 digits; the distance of the pin from the wheel's axis as a complex number's size."""
+    mp = digits()
+    a = mp.mpf(angle)
+    l = mp.sin(mp.pi / Z)
+    _, velocity, acceleration, _ = motion(Z, "external", 0.0, a)
+    torque = mp.mpf(1.2) * (2 * mp.pi) ** 2 * acceleration + 20
+    length, radius, friction = mp.mpf(L), mp.mpf(RADIUS), mp.mpf(FRICTION)
+    pin = 1 - l * mp.expj(-a)
+    rho = length * abs(pin)
+    along = length * (1j * l * mp.expj(-a) * mp.conj(pin)).real / abs(pin)
+    rubs = along + mp.sign(torque) * (1 + velocity) * radius
+    force = abs(torque) / (rho - radius * friction * mp.sign(rubs))
+    return torque, force, torque * velocity + friction * force * abs(rubs)
