@@ -324,7 +324,7 @@ class Design:
         from geneva_cli.verdict.cycle_cautions import cycle_cautions
         from geneva_cli.verdict.load_cautions import load_cautions
 
-        carried = carried_cautions(self.spec, self.wheel_plate)
+        carried = carried_cautions(self.mechanism, self.wheel_plate)
         of_cycle = cycle_cautions(self.cycle, self.loads)
         return [*load_cautions(self.mechanism), *of_cycle, *carried, *missing(self.cycle)]
 

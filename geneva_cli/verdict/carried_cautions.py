@@ -1,21 +1,28 @@
-"""What a designer must be told about what the wheel carries: itself, and what hangs to one side."""
+"""What a designer must be told about what the wheel carries and what drives it.
+
+The wheel itself, weight to one side or out of reach, and keys with nothing to act on.
+"""
 
 from __future__ import annotations
 
 import math
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.wheel_inertia import Plate
+from geneva_cli.spec.tables import Motor
 
 NAME = "wheel"  # of the [[mass]] that is the wheel itself
 SHOWN = 0.01  # share of the inertia that is given
+FAR = 20.0  # centre distances to a body, beyond any table
 FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
 
 
-def carried_cautions(spec: Spec, plate: Plate | None) -> list[str]:
-    """Cautions about inertia that may be left out, and weight that turns with the table."""
-    return [*_itself(spec, plate), *_to_one_side(spec)]
+def carried_cautions(mechanism: Mechanism, plate: Plate | None) -> list[str]:
+    """Cautions about inertia left out, weight to one side, and keys for nothing; ``plate`` is the wheel."""
+    spec = mechanism.spec
+    return [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_for_nothing(spec)]
 
 
 def _itself(spec: Spec, plate: Plate | None) -> list[str]:
@@ -53,4 +60,40 @@ def _to_one_side(spec: Spec) -> list[str]:
                 "it turns, which is not counted; set a body against it (count = 2), or add the "
                 "torque to torque_Nm in [load]"
             )
+    return out
+
+
+def _far(mechanism: Mechanism) -> list[str]:
+    """A body where no table reaches."""
+    far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
+    share = far / mechanism.center_distance_mm
+    if share <= FAR:
+        return []
+    return [
+        f"radius_mm = {far:g} of a [[mass]] is {share:.3g} centre distances from the wheel's axis, "
+        "out of its reach: is it in mm?"
+    ]
+
+
+def _for_nothing(spec: Spec) -> list[str]:
+    """Keys that have nothing to act on."""
+    out = []
+    if not spec.is_loaded and spec.motor != Motor():
+        out.append(
+            "[motor] has nothing to drive: without inertia_kgm2 or torque_Nm in [load], or a "
+            "[[mass]], neither service factor nor flywheel has a torque to go by"
+        )
+    support = spec.support
+    if bool(support.friction) != bool(support.radius_mm):
+        given, lacking = (
+            ("friction", "radius_mm") if support.friction else ("radius_mm", "friction")
+        )
+        out.append(
+            f"{given} in [support] takes no torque without {lacking}: set it, or remove both"
+        )
+    elif support.friction and not (spec.mass or support.force_N):
+        out.append(
+            "friction in [support] takes no torque: nothing presses on it; set force_N there, or "
+            "give the weight as [[mass]]"
+        )
     return out

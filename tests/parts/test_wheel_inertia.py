@@ -6,10 +6,25 @@ import pytest
 import repo
 from drawing_witness import vertices
 
-from geneva_cli import Design, External, Internal, Load, Mass, Size, Support, load
+from geneva_cli import (
+    Design,
+    External,
+    Internal,
+    Load,
+    Mass,
+    Motor,
+    Size,
+    Support,
+    load,
+)
+from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.wheel_inertia import Plate
 from geneva_cli.verdict.carried_cautions import carried_cautions
+
+
+def told(spec, plate):
+    return carried_cautions(build(spec), plate)
 
 
 def polygon(points):
@@ -42,12 +57,12 @@ def test_the_mass_that_is_suggested_adds_the_wheel():
     """Taken at its word, the warning is gone, and the wheel's inertia is counted."""
     size = Size(face_width_mm=20.0)
     design = Design(External(6), size=size, load=Load(inertia_kgm2=0.1))
-    (said,) = carried_cautions(design.spec, design.wheel_plate)
+    (said,) = told(design.spec, design.wheel_plate)
     words = said.replace(",", "").split()
     found = {key: float(words[words.index(key) + 2]) for key in ("mass_kg", "diameter_mm")}
     wheel = Mass("disc", name="wheel", **found)
     with_it = Design(External(6), size=size, load=Load(inertia_kgm2=0.1), mass=[wheel])
-    assert not carried_cautions(with_it.spec, with_it.wheel_plate)
+    assert not told(with_it.spec, with_it.wheel_plate)
     own = design.wheel_plate.inertia_kgm2
     # 1e-3: four digits are said
     counted = with_it.loads_table.to_dict()["sizing.inertia_kgm2"]
@@ -57,14 +72,14 @@ def test_the_mass_that_is_suggested_adds_the_wheel():
 
 def test_behind_gears_the_wheel_is_no_mass_on_the_table():
     spec = Spec(External(6), load=Load(inertia_kgm2=0.1), support=Support(gear_ratio=2.0))
-    (said,) = carried_cautions(spec, Plate(2.0, 0.005))
+    (said,) = told(spec, Plate(2.0, 0.005))
     assert "add 0.005 on inertia_kgm2 in [load]" in said
 
 
 def test_a_wheel_that_hardly_counts_is_not_mentioned():
     spec = Spec(External(6), load=Load(inertia_kgm2=0.6))
-    assert not carried_cautions(spec, Plate(2.0, 0.005))
-    assert not carried_cautions(Spec(External(6)), Plate(2.0, 0.005))
+    assert not told(spec, Plate(2.0, 0.005))
+    assert not told(Spec(External(6)), Plate(2.0, 0.005))
 
 
 def test_without_a_thickness_or_flat_parts_nothing_is_known():
@@ -77,8 +92,36 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
     """m g e, there and back in a turn."""
     one = Mass("point", mass_kg=2.0, radius_mm=100.0, name="drum")
     spec = Spec(External(6), mass=(one,), support=Support(axis="horizontal"))
-    (said,) = carried_cautions(spec, None)
+    (said,) = told(spec, None)
     assert said.startswith("drum stands 100 mm off a horizontal axis: its weight takes up to 1.961")
-    assert not carried_cautions(spec.with_("support.axis", "vertical"), None)
+    assert not told(spec.with_("support.axis", "vertical"), None)
     four = Mass("point", mass_kg=2.0, radius_mm=100.0, count=4)
-    assert not carried_cautions(Spec(External(6), mass=(four,), support=spec.support), None)
+    assert not told(Spec(External(6), mass=(four,), support=spec.support), None)
+
+
+@pytest.mark.parametrize(
+    ("spec", "said"),
+    [
+        (
+            Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=9000.0),)),
+            "radius_mm = 9000 of a [[mass]] is 90 centre distances",
+        ),
+        (Spec(External(6), motor=Motor(service_factor=2.0)), "[motor] has nothing to drive"),
+        (
+            Spec(External(6), load=Load(0.1), support=Support(friction=0.1)),
+            "friction in [support] takes no torque without radius_mm",
+        ),
+        (
+            Spec(External(6), load=Load(0.1), support=Support(friction=0.1, radius_mm=50.0)),
+            "nothing presses on it",
+        ),
+    ],
+)
+def test_what_contradicts_itself_is_said(spec, said):
+    (text,) = told(spec, None)
+    assert said in text
+
+
+def test_no_design_of_ours_is_out_of_all_measure():
+    for file in repo.DESIGNS.glob("*.toml"):
+        assert not carried_cautions(load(str(file)).mechanism, None), file.stem
