@@ -201,6 +201,8 @@ def loads_table(
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
     bought, needed = sizing(cycle)
     bought["wheel_inertia_kgm2"] = wheel_inertia_kgm2
+    if cycle.is_loaded and spec.is_flat and spec.size.face_width_mm is None:
+        needed = [*needed, "wheel_inertia_kgm2: needs face_width_mm in [size]"]
     for group, answers in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
