@@ -3,10 +3,13 @@
 import csv
 import io
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
+from repo import heed_signals
 
 from geneva_cli import GenevaError, load
 from geneva_cli.specfile.reader import read
@@ -94,6 +97,31 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     other = geneva(*arguments, "--set", "wheel.z=7", "-o", str(file), "--resume")
     assert other.returncode == 2 and "begun for something else" in other.stderr
     assert file.read_text() == whole
+
+
+def test_ctrl_c_leaves_what_was_done(tmp_path):
+    """One design after the other, so slowly that the run is stopped among them."""
+    file, part = tmp_path / "rows.csv", tmp_path / "rows.csv.partial"
+    slow = ["--vary", "drive.A=0:0.5:0.0025", "--pick", "sizes.ratio,jerk.max", "--jobs", "2"]
+    command = [sys.executable, "-m", "geneva_cli", "sweep", SPEC, *slow, "-o", str(file)]
+    run = subprocess.Popen(command, preexec_fn=heed_signals)
+    try:
+        end = time.monotonic() + 30.0
+        while not (part.exists() and part.read_text().count("\n") > 1):
+            assert time.monotonic() < end and run.poll() is None
+            time.sleep(0.01)
+        run.send_signal(signal.SIGINT)
+        assert run.wait(timeout=30) == 130
+    finally:
+        run.kill()
+    assert not file.exists()
+    done = part.read_text().count("\n") - 1
+    assert 0 < done < 201
+    found = subprocess.run([*command, "--resume"], timeout=60, check=False)
+    assert found.returncode == 0
+    assert [float(line.split(",")[0]) for line in file.read_text().splitlines()[1:]] == [
+        i / 400 for i in range(201)
+    ]
 
 
 def test_parquet_holds_the_same(tmp_path):

@@ -71,6 +71,8 @@ def winner(found: Sweep, rows: Sequence[Row], asked: Asked) -> Winner:
         raise GenevaError(_none(found, rows, asked))
     kept.sort(key=search.cost)  # the first of equals stays first
     best = min((search.refined(row) for row in kept[:STARTS]), key=search.cost)
+    best = found.row(search.keys(best))  # built alone, which is what counts
+    assert search.keeps(best), best
     values = dict(zip(found.names, best, strict=True))
     numbers = {name: float(v) for name, v in values.items() if is_number(v)}
     binding = tuple(c for c in asked.constraints if c.binds(numbers[c.name]))
