@@ -20,7 +20,7 @@ FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly 
 
 
 def carried_cautions(mechanism: Mechanism, plate: Plate | None) -> list[str]:
-    """Cautions about inertia left out, bodies off the axis, keys for nothing; of the wheel's plate."""
+    """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
     spec = mechanism.spec
     return [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_for_nothing(spec)]
 
