@@ -89,6 +89,8 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: Any) -> list[Any]:
     """
     import numpy as np
 
+    # one number of NumPy's is a Python number too
+    numbers = tuple(x if np.ndim(x) else np.asarray(x).item() for x in numbers)
     shaped = np.broadcast_arrays(*numbers)
     varied = [i for i, x in enumerate(numbers) if np.ndim(x)]
     flat = [shaped[i].ravel() for i in varied]

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 BLOCK = 512  # designs scanned at a time: 17 places of each are 70 kB a number of a formula
 GROUP = 16 * BLOCK  # designs refined together
 CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a Newton step, the last bit
+FALSI = 0.02  # of a bracket: the next place is no nearer to its ends
 ROUNDING = 1e-13  # share of a value that no sampling makes any surer
 _UNIT = np.arange(SCAN + 1) / SCAN
 
@@ -119,6 +120,45 @@ def peaks_many(f: Curves, a: Array, b: Array) -> Greatest:
             np.fmin.at(first, here[near], x[near])
             size[part], at[part] = most, np.where(sizes[:, 0] >= bar, a[part, 0], first)
     return Greatest(size, at)
+
+
+class End(NamedTuple):
+    """Places of designs, and what is left of a limit there."""
+
+    x: Array
+    left: Array
+
+
+def boundary_many(
+    left: Callable[[Whole, Array, float], Array],
+    good: End,
+    bad: End,
+    enough: Callable[[Array], Array],
+) -> Array:
+    """The last places from ``good`` up to ``bad`` where something is left of a limit: (n,).
+
+    Regula falsi as of ``roots.Falsi``, until a bracket is no wider than ``enough`` of its end.
+    ``left(which, x, width)`` tells what is left for the designs ``which`` at x, of brackets that
+    are no wider than ``width``.
+    """
+    (low, f_low), (high, f_high) = ([part.copy() for part in end] for end in (good, bad))
+    kept = np.zeros(len(low), dtype=int)
+    here = np.arange(len(low))
+    for _ in range(STEPS):
+        here = here[high[here] - low[here] > enough(high[here])]
+        if not len(here):
+            break
+        a, b = low[here], high[here]
+        share = np.clip(f_low[here] / (f_low[here] - f_high[here]), FALSI, 1.0 - FALSI)
+        x = a + (b - a) * share
+        f = left(here, x, float((b - a).max()))
+        holds = f >= 0.0
+        f_high[here[holds & (kept[here] == 1)]] *= 0.5
+        f_low[here[~holds & (kept[here] == -1)]] *= 0.5
+        kept[here] = np.where(holds, 1, -1)
+        low[here[holds]], f_low[here[holds]] = x[holds], f[holds]
+        high[here[~holds]], f_high[here[~holds]] = x[~holds], f[~holds]
+    return low
 
 
 def _blocks(start: int, stop: int, size: int) -> list[slice]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.roots_many import End, boundary_many
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.gaps import Pose, turned_points
 
@@ -29,7 +30,6 @@ MOTION = 15  # in the rest of a motion; odd, so that mid-motion is one
 STEP = 1e-3  # radians, of the wheel: a roller of r mm reaches (L STEP)^2 / (8 r) into such a step
 EXACT = 1e-10  # radians: a play is found to this,
 SHARE = 1e-7  # or to this share of it
-ROUNDS = 40  # in which it is found
 AROUND = 5  # parts into which an interval is cut about a peak
 CLOSER = 9  # times; 5**-9 of some degrees is a millionth
 SMALL = 1e-3  # degrees: over which a roller's speed is taken
@@ -254,24 +254,14 @@ def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
         low[here[free]], g_low[here[free]] = x[free], g[free]
         high[here[~free]], g_high[here[~free]] = x[~free], g[~free]
         here = here[free & (x < most)]
-    # Illinois' rule: the secant, and half the value of an end that stays.
     here = np.flatnonzero((high < np.inf) & (high > 0.0))
-    kept = np.zeros(count, dtype=int)
-    for _ in range(ROUNDS):
-        width = high[here] - low[here]
-        here = here[width > np.maximum(EXACT, SHARE * high[here])]
-        if not len(here):
-            break
-        a, b = low[here], high[here]
-        x = a + (b - a) * np.clip(g_low[here] / (g_low[here] - g_high[here]), 0.02, 0.98)
-        near = min(_reach(outlines) * float((b - a).max()), clash.near)
-        g = clash.gap(pose.at(here), way[here] * x, near) + close
-        free = g >= 0.0
-        g_high[here[free & (kept[here] == 1)]] *= 0.5
-        g_low[here[~free & (kept[here] == -1)]] *= 0.5
-        kept[here] = np.where(free, 1, -1)
-        low[here[free]], g_low[here[free]] = x[free], g[free]
-        high[here[~free]], g_high[here[~free]] = x[~free], g[~free]
+
+    def left(which: NDArray[np.intp], x: Array, width: float) -> Array:
+        near = min(_reach(outlines) * width, clash.near)
+        return clash.gap(pose.at(here[which]), way[here[which]] * x, near) + close
+
+    good, bad = End(low[here], g_low[here]), End(high[here], g_high[here])
+    low[here] = boundary_many(left, good, bad, lambda x: np.maximum(EXACT, SHARE * x))
     return low
 
 
