@@ -111,10 +111,8 @@ class _Pieces:
 class Column:
     """One column of such a table: it has a length, and gives slices within a piece."""
 
-    dtype = "float64"
-
-    def __init__(self, pieces: _Pieces, number: int) -> None:
-        self.pieces, self.number = pieces, number
+    def __init__(self, pieces: _Pieces, number: int, dtype: str = "float64") -> None:
+        self.pieces, self.number, self.dtype = pieces, number, dtype
 
     def __len__(self) -> int:
         return self.pieces.length
@@ -124,13 +122,16 @@ class Column:
         return self.pieces.at(start)[self.number][rows.start - start : rows.stop - start]
 
 
-def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -> list[Column]:
+def pieces(
+    length: int, count: int, make: Callable[[int, int], Sequence[Any]], dtype: str = "float64"
+) -> list[Column]:
     """``count`` columns of numbers of which ``make(start, stop)`` gives the rows, as arrays.
 
-    A table of them takes the memory of one piece, however many rows are written.
+    ``dtype`` is "object" where some may be lists with None among the numbers. A table of them
+    takes the memory of one piece, however many rows are written.
     """
     made = _Pieces(length, make)
-    return [Column(made, number) for number in range(count)]
+    return [Column(made, number, dtype) for number in range(count)]
 
 
 def is_floats(column: Any) -> bool:

@@ -32,7 +32,7 @@ def checked(table: Table, progress: Callable[[int, int], None]) -> Table:
         progress(stop, source.length)
         return found
 
-    columns = pieces(source.length, len(table.columns), make)
+    columns = pieces(source.length, len(table.columns), make, first.dtype)
     return Table(table.names, columns, False, table.title, table.prose)
 
 

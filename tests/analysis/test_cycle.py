@@ -207,6 +207,16 @@ def test_without_a_load_no_force_is_0():
     assert ",," in row
 
 
+def test_a_table_that_is_made_while_it_is_written_has_empty_fields(tmp_path):
+    path = tmp_path / "cycle.csv"
+    assert run("--samples", "100002", "-o", str(path), text=WHEEL).exit_code == 0
+    with open(path) as file:
+        head = next(file).rstrip().split(",")
+        row = next(file).rstrip("\n").split(",")
+    assert row[head.index("pin_force_N")] == ""
+    assert float(row[head.index("omega_rad_s")]) == 0.0
+
+
 def test_each_null_names_its_key():
     tree = json.loads(run("--format", "json", text=WHEEL + "[load]\ntorque_Nm = 3\n").stdout)
     assert tree["contact_stress_MPa"]["max"] is None

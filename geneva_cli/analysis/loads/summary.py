@@ -237,7 +237,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
         return _rows(cycle, samples, begin, end)
 
     if samples > HELD:
-        return Table(names, pieces(samples, len(names), rows))
+        return Table(names, pieces(samples, len(names), rows, "object"))
     return Table(names, rows(0, samples))
 
 
