@@ -30,6 +30,10 @@ def run(
     The pin force is positive on the wall that drives the wheel, negative on the one that holds it
     back; the input's torque and power are negative where the wheel drives the input. In a dwell
     the lock holds the wheel and all is 0.
+
+    Bearings carry rigid links without mass or weight: what turns the crank (motor, gears, coulisse)
+    gives it a couple alone. The guide is what holds the roller's body besides the crank: rocker,
+    slider, groove or fixed gear. p v is the greatest Hertz pressure times the speed of sliding.
     """
     from geneva_cli.design import load
     from geneva_cli.output import format_of, show
