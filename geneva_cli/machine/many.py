@@ -16,14 +16,14 @@ numbers that vary in it are arrays (m, 1); what follows from them is (m, 1) too,
 angles (k,) or (m, k) it is (m, k). ``found.spread`` puts (m, 1) back among the n designs as (n,).
 Why a design is refused, it says itself when it is built alone.
 
-``groups`` takes the designs apart whose differing keys are no numbers (words, lists, rollers),
-and gives each group to ``many``.
+Keys that are no numbers (words, lists), and the number of rollers, are one for all of a machine:
+whoever varies them takes the designs apart first, and asks ``may_vary`` which keys may stay.
 """
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -72,7 +72,7 @@ def many(spec: Spec, varied: Mapping[str, Any]) -> Many:
         raise ValueError("keys must vary in arrays (n,) of one length")
     wrong = [key for key in arrays if not may_vary(spec, key)]
     if wrong:
-        raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine; see groups")
+        raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine")
     (n,) = lengths
     given = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
@@ -86,39 +86,6 @@ def many(spec: Spec, varied: Mapping[str, Any]) -> Many:
     if machine is None or refused.all():
         return Many(None, np.full(n, True))
     return Many(taken(machine, ~refused) if refused.any() else machine, refused)
-
-
-def groups(
-    spec: Spec, varied: Mapping[str, Sequence[Any]]
-) -> Iterator[tuple[Any, dict[str, Any], Many | GenevaError]]:
-    """The designs of a spec with its keys varied, those together that one machine can be.
-
-    ``varied`` has keys as in the file with sequences of n values of any kind. Each group is the
-    numbers of its designs, the values that they share, and what was built of them: a ``Many``; of
-    a machine that cannot be an array the designs one by one, each a ``Many`` of one; or, where
-    what they share is refused already, the error that says why.
-    """
-    n = len(next(iter(varied.values())))
-    wide = [key for key in varied if may_vary(spec, key)]
-    shared = [key for key in varied if key not in wide]
-    together: dict[tuple[Any, ...], list[int]] = {}
-    for i in range(n):
-        together.setdefault(tuple(varied[key][i] for key in shared), []).append(i)
-    for values, members in together.items():
-        which = np.array(members)
-        common = dict(zip(shared, values, strict=True))
-        if not wide:
-            yield which, common, _one(spec, common, len(which))
-            continue
-        arrays = {key: np.asarray(varied[key])[which] for key in wide}
-        yield which, common, many(spec, {**common, **arrays})
-
-
-def _one(spec: Spec, common: Mapping[str, Any], n: int) -> Many | GenevaError:
-    try:
-        return Many(build(changed(spec, common)), np.full(n, False))
-    except GenevaError as error:
-        return error
 
 
 def may_vary(spec: Spec, key: str) -> bool:

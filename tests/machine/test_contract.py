@@ -15,7 +15,7 @@ from machine_witness import motions
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.many import groups, many, may_vary, taken
+from geneva_cli.machine.many import many, may_vary, taken
 from geneva_cli.machine.wheels.external import External
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so
@@ -190,30 +190,3 @@ def test_keys_that_cannot_vary():
 def test_an_array_needs_the_door():
     with pytest.raises(GenevaError, match="many"):
         External(np.array([[4], [5]]))
-
-
-def test_groups_of_words_and_rollers():
-    spec = machine(6, "elliptical-gears", eccentricity=0.1)
-    phase, rollers = ["slow", "quick", "slow", "odd", "slow"], [1, 1, 2, 1, 1]
-    e = [0.1, 0.2, 0.3, 0.4, 1.5]
-    found = {
-        tuple(which.tolist()): (common, built)
-        for which, common, built in groups(
-            spec,
-            {"drive.phase": phase, "drive.rollers": rollers, "drive.eccentricity": e},
-        )
-    }
-    assert set(found) == {(0, 4), (1,), (2,), (3,)}
-    common, built = found[0, 4]
-    assert common == {"drive.phase": "slow", "drive.rollers": 1}
-    assert built.refused.tolist() == [False, True]
-    assert len(found[2,][1].machine.engagements) == 2
-    assert found[3,][1].refused.all()
-
-
-def test_groups_of_a_machine_that_no_array_can_be():
-    spec = machine(6, rollers=1)
-    found = list(groups(spec, {"drive.rollers": [1, 2, 9]}))
-    assert [which.tolist() for which, _, _ in found] == [[0], [1], [2]]
-    assert found[1][2].machine.spec.drive.rollers == 2
-    assert "jam" in str(found[2][2])

@@ -85,3 +85,23 @@ def test_peaks_together_as_alone(spec, vary):
         for name, a, b in zip(PEAKS, one[keys:-1], other[keys:-1], strict=True):
             near = {"abs": PLACE} if name.endswith("at_deg") else {"rel": CLOSE}
             assert a == b or a == pytest.approx(b, **near), name
+
+
+def test_loads_together_as_alone(tmp_path):
+    """Straight slots without friction together; with friction, or without a load, one by one."""
+    picks = [
+        f"loads.{load}.{what}"
+        for load in ("torque_Nm", "pin_force_N", "input_torque_Nm")
+        for what in ("max", "at_deg")
+    ]
+    vary = ["drive.A=-0.6:0.6:0.3", "load.inertia_kgm2=1,3", "load.friction=0,0.1"]
+    together, alone, found = rows("side-crank-z6.toml", vary, picks)
+    keys = [a.key for a in found.plan.axes]
+    every = found.plan.rows(0, len(alone))
+    smooth = [row for row in every if row[keys.index("load.friction")] == 0.0]
+    assert len(batch.table(smooth, keys, found.pick.names, found._spec)) == len(smooth) == 10
+    for one, other in zip(together, alone, strict=True):
+        assert one[-1] == other[-1] is None
+        for name, a, b in zip(picks, one[len(keys) : -1], other[len(keys) : -1], strict=True):
+            near = {"abs": PLACE} if name.endswith("at_deg") else {"rel": CLOSE}
+            assert a == b or a == pytest.approx(b, **near), name

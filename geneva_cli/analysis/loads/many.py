@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import Setting, setting
+from geneva_cli.analysis.peaks_many import PeakOfMany
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
@@ -131,6 +132,21 @@ class _Curve(NamedTuple):
             some, rates = self.kept[which.start]
         values = FORMULAS[self.load](some, angles, rates).derivatives()
         return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(values)]
+
+
+def greatest_of_many(mechanism: Mechanism, names: Sequence[str] = LOADS) -> dict[str, PeakOfMany]:
+    """The greatest sizes of some of ``LOADS``, and the first input angles that have them: (m,).
+
+    As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is the wheel's.
+    """
+    out = {}
+    for name, found in extremes_of_many(mechanism, names).items():
+        least = -found.min > found.max * (1.0 + TIE)
+        even = np.abs(found.min) >= found.max / (1.0 + TIE)
+        first = np.where(even, np.fmin(found.max_at_deg, found.min_at_deg), found.max_at_deg)
+        at_deg = np.where(least, found.min_at_deg, first)
+        out[name] = PeakOfMany(np.maximum(found.max, -found.min), at_deg)
+    return out
 
 
 def _extremes(

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.many import LOADS, are_smooth, greatest_of_many
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.mechanism import Mechanism
@@ -24,6 +26,8 @@ RATES = {
     "jerk": (3, "rad_s3"),
     "power": (3, "rad2_s3"),
 }
+# what the report calls the loads whose greatest size it tells
+SIZED = {name.removeprefix("wheel_"): name for name in LOADS}
 ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
@@ -33,7 +37,14 @@ def known(names: Sequence[str]) -> bool:
     >>> known(["timing.dwell_s", "jerk.max"]), known(["sizes.ratio"])
     (True, False)
     """
-    return all(_group(name) in ("timing", *QUANTITIES) for name in names)
+    return all(_group(name) in ("timing", *QUANTITIES) or _load(name) for name in names)
+
+
+def _load(name: str) -> str | None:
+    """The load whose greatest size, or its place, is meant."""
+    words = name.split(".")
+    told = len(words) == 3 and words[0] == "loads" and words[2] in ("max", "at_deg")
+    return SIZED.get(words[1]) if told else None
 
 
 def _group(name: str) -> str:
@@ -49,6 +60,9 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     sought = [name for name in QUANTITIES if name in groups]
     if sought:
         found |= _peaks(machine, sought)
+    carried = list(dict.fromkeys(load for name in names if (load := _load(name))))
+    if carried:
+        found |= _loads(machine, carried)
     out = []
     for name in names:
         value = found.get(name)
@@ -56,6 +70,20 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
             return None
         out.append(np.broadcast_to(np.reshape(value, -1), (count,)))
     return out
+
+
+def _loads(machine: Mechanism, carried: Sequence[str]) -> Columns:
+    """Of straight slots without friction, and designs that all have a load."""
+    given = setting(machine)
+    if not (are_smooth(machine) and np.all(given.inertia_Nm + given.resists_Nm > 0.0)):
+        return {}
+    found = greatest_of_many(machine, carried)
+    values: Columns = {}
+    for short, name in SIZED.items():
+        if name in found:
+            values[f"loads.{short}.max"] = found[name].max
+            values[f"loads.{short}.at_deg"] = found[name].at_deg
+    return values
 
 
 def _timing(machine: Mechanism) -> Columns:
