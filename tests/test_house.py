@@ -45,7 +45,13 @@ STREAMS = {"app", "streams", "__main__", "specfile", "output", "commands"}
 TYPER = {"app", "streams", "__main__", "commands"}
 # What commands know besides designs and studies: laws alone, templates, units and the names of
 # parts; there is no machine yet.
-ALONE = {"analysis.law_values", "specfile.template", "curves.pieces", "parts.catalogue"}
+ALONE = {
+    "analysis.law_values",
+    "specfile.template",
+    "specfile.keys",
+    "curves.pieces",
+    "parts.catalogue",
+}
 # A kind's names; "table" is a law, and also what people are shown.
 NAMES = {*registry.DRIVES, *registry.GEARINGS, *registry.LAWS} - {"table"}
 

@@ -59,7 +59,7 @@ def about(word: str) -> list[Key]:
     Raises GenevaError, with the nearest name, for what is neither.
 
     >>> [(k.table, k.key, k.range) for k in about("drive.A")]
-    [('drive', 'A', 'above -1, below 1'), ('drive', 'A', 'above 0, below 1')]
+    [('drive', 'A', 'above -1, below 1'), ('drive', 'A', 'above -1, below 1')]
     """
     found = every()
     if not word:

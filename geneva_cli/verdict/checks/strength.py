@@ -2,86 +2,110 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
+
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, held
-from geneva_cli.verdict.strength import Strength, strength
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.strength import Strength
+
+# a value, and its input angle where it is of one place; None for what is not known
+Found: TypeAlias = tuple[float | None, float | None]
 
 
 def pin(name: str, mechanism: Mechanism) -> Check | None:
     """The pin's equivalent stress."""
-    limit, of = mechanism.spec.material_roller.stress_max_MPa, strength(mechanism)
-    return None if limit is None else _most(of, name, of.pin_stress_MPa, limit)
+    limit = mechanism.spec.material_roller.stress_max_MPa
+    return _checked(name, mechanism, limit, lambda of: (of.pin_stress_MPa, None))
 
 
 def horn(name: str, mechanism: Mechanism) -> Check | None:
     """The horn's bending stress under the roller."""
-    limit, of = mechanism.spec.material_wheel.stress_max_MPa, strength(mechanism)
-    if limit is None:
-        return None
-    found = of.horn
-    return _most(of, name, found and found.stress_MPa, limit, found and found.at_deg)
+    limit = mechanism.spec.material_wheel.stress_max_MPa
+    return _checked(
+        name,
+        mechanism,
+        limit,
+        lambda of: (of.horn.stress_MPa, of.horn.at_deg) if of.horn else (None, None),
+    )
 
 
 def lock_horn(name: str, mechanism: Mechanism) -> Check | None:
     """The horn's bending stress under the torque that the lock holds."""
-    limit, of = mechanism.spec.material_wheel.stress_max_MPa, strength(mechanism)
-    if limit is None or of.lock is None:
-        return None
-    return held(name, of.lock.horn_stress_MPa, "at most", limit)
+    limit = mechanism.spec.material_wheel.stress_max_MPa
+    return _checked(
+        name, mechanism, limit, lambda of: (of.lock.horn_stress_MPa if of.lock else None, None)
+    )
 
 
 def lock(name: str, mechanism: Mechanism) -> Check | None:
     """The stress between disc and recess: on the recess's end, or as the arcs lie."""
-    limit, of = mechanism.spec.limits.lock_stress_max_MPa, strength(mechanism)
-    return None if limit is None else _most(of, name, of.lock_stress_max_MPa, limit)
+    limit = mechanism.spec.limits.lock_stress_max_MPa
+    return _checked(name, mechanism, limit, lambda of: (of.lock_stress_max_MPa, None))
 
 
 def wheel_shaft(name: str, mechanism: Mechanism) -> Check | None:
     """The wheel shaft's shear stress, by the ASME code."""
-    limit, of = mechanism.spec.shaft.shear_stress_max_MPa, strength(mechanism)
-    if limit is None:
-        return None
-    found = of.wheel_shaft
-    return _most(of, name, found and found.stress_MPa, limit, found and found.at_deg)
+    limit = mechanism.spec.shaft.shear_stress_max_MPa
+
+    def found(of: Strength) -> Found:
+        shaft = of.wheel_shaft
+        return (shaft.stress_MPa, shaft.at_deg) if shaft else (None, None)
+
+    return _checked(name, mechanism, limit, found)
 
 
 def crank_shaft(name: str, mechanism: Mechanism) -> Check | None:
     """The crank shaft's, likewise."""
-    limit, of = mechanism.spec.shaft.shear_stress_max_MPa, strength(mechanism)
-    if limit is None:
-        return None
-    found = of.crank_shaft
-    return _most(of, name, found and found.stress_MPa, limit, found and found.at_deg)
+    limit = mechanism.spec.shaft.shear_stress_max_MPa
+
+    def found(of: Strength) -> Found:
+        shaft = of.crank_shaft
+        return (shaft.stress_MPa, shaft.at_deg) if shaft else (None, None)
+
+    return _checked(name, mechanism, limit, found)
 
 
 def pv(name: str, mechanism: Mechanism) -> Check | None:
     """Contact stress times sliding speed."""
-    limit, of = mechanism.spec.limits.pv_max_W_m2, strength(mechanism)
-    return None if limit is None else _most(of, name, of.pv_max_W_m2, limit)
+    limit = mechanism.spec.limits.pv_max_W_m2
+    return _checked(name, mechanism, limit, lambda of: (of.pv_max_W_m2, None))
 
 
 def roller_life(name: str, mechanism: Mechanism) -> Check | None:
     """The L10 of the roller, hours."""
-    limit, of = mechanism.spec.limits.roller_life_min_h, strength(mechanism)
+    limit = mechanism.spec.limits.roller_life_min_h
+    return _checked(
+        name,
+        mechanism,
+        limit,
+        lambda of: (of.roller.hours if of.roller else None, None),
+        "at least",
+    )
+
+
+def _checked(
+    name: str,
+    mechanism: Mechanism,
+    limit: float | None,
+    found: Callable[[Strength], Found],
+    must_be: str = "at most",
+) -> Check | None:
+    """A value held to its limit; none without a limit, or of what the machine has not.
+
+    It cannot be told where a key is missing.
+    """
     if limit is None:
         return None
-    hours = of.roller and of.roller.hours
-    if hours is None:
-        return _unknown(of, name, "at least", limit)
-    return held(name, hours, "at least", limit)
+    # A spec that says nothing of what its parts may bear is checked without NumPy.
+    from geneva_cli.verdict.strength import strength
 
-
-def _most(
-    of: Strength, name: str, value: float | None, limit: float, at_deg: float | None = None
-) -> Check | None:
-    """A value held to its limit."""
-    if value is None:
-        return _unknown(of, name, "at most", limit)
-    return held(name, value, "at most", limit, at_deg)
-
-
-def _unknown(of: Strength, name: str, must_be: str, limit: float) -> Check | None:
-    """A check that cannot be told where a key is missing; none of what a machine has not."""
+    of = strength(mechanism)
+    value, at_deg = found(of)
+    if value is not None:
+        return held(name, value, must_be, limit, at_deg)
     if name not in of.needs:
         return None
     return Check(name, None, must_be, limit, None, f"not known: it needs {of.needs[name]}")
