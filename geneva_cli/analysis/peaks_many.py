@@ -98,6 +98,7 @@ def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dic
 
 
 def _sought(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
+    # mid-motion, where wheels have their narrowest peaks, is among them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = np.size(motion(motion.entry_deg, 1).c[1] + motion.entry_deg)
     places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])

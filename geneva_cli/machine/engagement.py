@@ -159,11 +159,6 @@ class Motion(ABC):
         values = self(first, max(orders)).derivatives()
         return [mirror(values[k], len(input_deg), k) if mirrored else values[k] for k in orders]
 
-    @property
-    def pieces_deg(self) -> tuple[float, ...]:
-        """Places, entry and exit among them, between which one formula holds; not all breaks."""
-        return self.breaks_deg
-
 
 def is_mirrored(input_deg: Array) -> bool:
     """Whether the angles lie symmetrically about mid-motion."""

@@ -131,11 +131,6 @@ class Followed(Motion):
         """Whether path and slot have a mirror image about mid-motion."""
         return self.mirrored and super().symmetric
 
-    @property
-    def pieces_deg(self) -> tuple[float, ...]:
-        """Each anchor's part."""
-        return (self.entry_deg, *self.path.cuts, self.exit_deg)
-
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""
 

@@ -49,9 +49,9 @@ def chosen(x: Any, cuts: Sequence[Any], records: Sequence[Any]) -> Any:
     out = records[0]
     for cut, record in zip(cuts, records[1:], strict=True):
         past = x > cut
-        if past.all():
+        if all_true(past):
             out = record
-        elif past.any():
+        elif not isinstance(past, bool) and past.any():
             out = choose(past, record, out)
         else:
             break

@@ -168,8 +168,8 @@ def piecewise(
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
     Of one design each piece sees only its own part of an array of angles. Of many designs, whose
-    cuts may differ, each piece that holds anywhere sees all of it, and its own part is chosen: so
-    it pays to ask for angles that lie in one piece.
+    cuts may differ, each piece that holds anywhere sees all of it once, and its own part is chosen:
+    so it pays to ask for angles that lie in one piece.
     """
     if isinstance(x, float) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[bisect_left(cuts, x)](x)
@@ -183,11 +183,14 @@ def piecewise(
     if first >= last:
         return pieces[last](x)
     with np.errstate(all="ignore"):  # outside their own part formulas may have no value
-        out = list(pieces[first](x).c)
+        found = {pieces[first]: pieces[first](x).c}
+        out = list(found[pieces[first]])
         for i in range(first + 1, last + 1):
-            here = index == i
+            here, piece = index == i, pieces[i]
             if here.any():
-                out = [np.where(here, b, a) for a, b in zip(out, pieces[i](x).c, strict=True)]
+                if piece not in found:
+                    found[piece] = piece(x).c
+                out = [np.where(here, b, a) for a, b in zip(out, found[piece], strict=True)]
     return Jet(out)
 
 

@@ -21,7 +21,7 @@ from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import ascending, larger, library, smaller
+from geneva_cli.numerics.arrays import larger, library, smaller
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
@@ -124,21 +124,8 @@ class SectorMotion(Motion):
 
     def slot_deg(self, input_deg: Coefficient) -> Coefficient:
         """The crank angle of the roller in its slot; in the gears, the one at handover."""
-        return self._moved(input_deg, -self.half_sector, self.handover_deg)
-
-    def _moved(self, x: Coefficient, inwards: float, outwards: float) -> Coefficient:
-        """Angles moved towards 0 by one amount, but not beyond it, and then away by another."""
-        out = larger(abs(x) + inwards, 0.0) + outwards
-        return library(out, x).copysign(out, x)
-
-    @property
-    def pieces_deg(self) -> tuple[float, ...]:
-        """The breaks, and the slot's pieces."""
-        inside = [
-            self._moved(x, -self.handover_deg, self.half_sector)
-            for x in self.inner.pieces_deg[1:-1]
-        ]
-        return (self.entry_deg, *ascending([*self.breaks_deg[1:-1], *inside]), self.exit_deg)
+        out = larger(abs(input_deg) - self.half_sector, 0.0) + self.handover_deg
+        return library(out, input_deg).copysign(out, input_deg)
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The slot's motion, moved out by the gears' in between."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from geneva_cli.machine.engagement import Anchor, Axis, Slot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
 from geneva_cli.machine.wheels.skew import Skew
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import are_designs, chosen, library
 from geneva_cli.numerics.jet import Coefficient, Jet, integral, piecewise, sqrt
 
 
@@ -40,8 +40,12 @@ class OffsetFollowed(Followed):
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The slot's direction, taken from the nearest anchor: exactly at rest at both ends."""
-        anchors, cuts = self.path.anchors, self.path.cuts
-        first, last = (self._from_end(anchors[i], order) for i in (0, -1))
+        (entry, mid, exit_), cuts = self.path.anchors, self.path.cuts
+        if are_designs(input_deg, *cuts):  # one formula serves both ends
+            end = chosen(input_deg, (mid.input_deg,), (entry, exit_))
+            first = last = self._from_end(end, order)
+        else:
+            first, last = (self._from_end(end, order) for end in (entry, exit_))
         return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order), last])
 
     def _from_end(self, anchor: Anchor, order: int) -> Callable[[Coefficient], Jet]:
