@@ -8,7 +8,7 @@
     >>> found = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
     >>> found.refused
     array([False, False,  True])
-    >>> found.spread(found.machine.ratio * np.ones(2))
+    >>> found.spread(found.machine.ratio)
     array([0.5, 0.5, nan])
 
 ``found.machine`` is a machine like any other, of the designs that can be built, in their order. The
