@@ -4,7 +4,8 @@ import numpy as np
 from words import Motion, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.machine import registry, spec
+from geneva_cli.machine.laws.table import TableLaw
 from geneva_cli.machine.many import changed
 from geneva_cli.machine.mechanism import build
 
@@ -16,6 +17,7 @@ def machine(wheel, kind="crank", motion=None, gearing="external", own=(), **keys
     return Spec(Wheel(wheel, gearing, **dict(own)), drive, motion=motion)
 
 
+POINTS = tuple((u / 11, (u / 11) ** 2 * (3.0 - 2.0 * u / 11)) for u in range(12))
 SLOTS = ("wheel.z", 1, 16)  # whole numbers; the others are any
 # every kind of drive, gearing and law, and what varies: key, least, greatest; some of it refused
 MACHINES = {
@@ -112,6 +114,10 @@ MACHINES = {
     "tilted law": (
         machine(6, "side-crank", Motion("sine-group", 0.1), A=0.3),
         [("motion.lambda", -0.2, 0.2), ("drive.A", -0.9, 0.9)],
+    ),
+    "points of a law": (
+        machine(6, motion=spec.Motion(TableLaw(points=POINTS))),
+        [("motion.alpha0_deg", -40.0, 40.0), SLOTS],
     ),
     "matched": (
         machine(6, motion=Motion("cycloidal", ratio="matched"), gearing="internal"),
