@@ -17,7 +17,18 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.table import Table, rows_table
 
 # The registry: a subject is a module ``bench_<name>`` with ``subject(quick)``.
-SUBJECTS = ("peaks", "many", "motion", "loads", "slot", "tolerance", "vibration", "start", "export")
+SUBJECTS = (
+    "peaks",
+    "many",
+    "family",
+    "motion",
+    "loads",
+    "slot",
+    "tolerance",
+    "vibration",
+    "start",
+    "export",
+)
 SECONDS = 1.0  # of a method's own time, at least one run
 QUICK_SECONDS = 0.01
 
