@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, held
@@ -24,12 +24,7 @@ def pin(name: str, mechanism: Mechanism) -> Check | None:
 def horn(name: str, mechanism: Mechanism) -> Check | None:
     """The horn's bending stress under the roller."""
     limit = mechanism.spec.material_wheel.stress_max_MPa
-    return _checked(
-        name,
-        mechanism,
-        limit,
-        lambda of: (of.horn.stress_MPa, of.horn.at_deg) if of.horn else (None, None),
-    )
+    return _checked(name, mechanism, limit, lambda of: _placed(of.horn))
 
 
 def lock_horn(name: str, mechanism: Mechanism) -> Check | None:
@@ -49,23 +44,13 @@ def lock(name: str, mechanism: Mechanism) -> Check | None:
 def wheel_shaft(name: str, mechanism: Mechanism) -> Check | None:
     """The wheel shaft's shear stress, by the ASME code."""
     limit = mechanism.spec.shaft.shear_stress_max_MPa
-
-    def found(of: Strength) -> Found:
-        shaft = of.wheel_shaft
-        return (shaft.stress_MPa, shaft.at_deg) if shaft else (None, None)
-
-    return _checked(name, mechanism, limit, found)
+    return _checked(name, mechanism, limit, lambda of: _placed(of.wheel_shaft))
 
 
 def crank_shaft(name: str, mechanism: Mechanism) -> Check | None:
     """The crank shaft's, likewise."""
     limit = mechanism.spec.shaft.shear_stress_max_MPa
-
-    def found(of: Strength) -> Found:
-        shaft = of.crank_shaft
-        return (shaft.stress_MPa, shaft.at_deg) if shaft else (None, None)
-
-    return _checked(name, mechanism, limit, found)
+    return _checked(name, mechanism, limit, lambda of: _placed(of.crank_shaft))
 
 
 def pv(name: str, mechanism: Mechanism) -> Check | None:
@@ -84,6 +69,19 @@ def roller_life(name: str, mechanism: Mechanism) -> Check | None:
         lambda of: (of.roller.hours if of.roller else None, None),
         "at least",
     )
+
+
+class _Placed(Protocol):
+    """A stress at an input angle."""
+
+    @property
+    def stress_MPa(self) -> float: ...
+    @property
+    def at_deg(self) -> float | None: ...
+
+
+def _placed(found: _Placed | None) -> Found:
+    return (found.stress_MPa, found.at_deg) if found else (None, None)
 
 
 def _checked(
