@@ -1,6 +1,7 @@
 """Every command on every design of the folder, in every format."""
 
 import csv
+import functools
 import io
 import json
 import math
@@ -11,9 +12,10 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
+from geneva_cli import load
 from geneva_cli.app import app
 
-pytestmark = pytest.mark.usefixtures("made_once")
+pytestmark = pytest.mark.usefixtures("made_once", "read_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
 COMMANDS = {
     "peaks": [],
@@ -24,6 +26,14 @@ COMMANDS = {
     "report": [],
     "check": [],
 }
+
+
+@pytest.fixture(scope="module")
+def read_once() -> Iterator[None]:
+    """A file's design, read once: what it has worked out for one format it has for all."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("geneva_cli.design.load", functools.cache(load))
+        yield
 
 
 def numbers(value: object) -> list[float]:

@@ -10,8 +10,10 @@ import time
 
 import pytest
 from repo import heed_signals
+from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
+from geneva_cli.app import app
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.plan import Shard, plan
 from geneva_cli.study.sweep.run import blocks, sweep
@@ -23,8 +25,8 @@ GRID = ["drive.A=-0.4,0,0.6,1", "wheel.z=5,6"]
 
 
 def geneva(*args):
-    run = [sys.executable, "-m", "geneva_cli", *args]
-    return subprocess.run(run, capture_output=True, text=True, timeout=60, check=False)
+    """A run of the program, in this process; where the process matters, tests start their own."""
+    return CliRunner().invoke(app, args)
 
 
 def rows(found, **options):
@@ -84,18 +86,18 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     """What a stopped run leaves is a beginning of the rows, maybe with half a line."""
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", GRID[1]]
     file = tmp_path / "rows.csv"
-    assert geneva(*arguments, "-o", str(file)).returncode == 0
+    assert geneva(*arguments, "-o", str(file)).exit_code == 0
     whole = file.read_text()
     assert os.listdir(tmp_path) == ["rows.csv"]
     found = sweep(read(SPEC), grid(*GRID))
     (tmp_path / "rows.csv.partial").write_text(whole[:300])
     (tmp_path / "rows.csv.partial.key").write_text(found.key)
-    assert geneva(*arguments, "-o", str(file), "--resume").returncode == 0
+    assert geneva(*arguments, "-o", str(file), "--resume").exit_code == 0
     assert file.read_text() == whole
     (tmp_path / "rows.csv.partial").write_text(whole[:300])
     (tmp_path / "rows.csv.partial.key").write_text(found.key)
     other = geneva(*arguments, "--set", "wheel.z=7", "-o", str(file), "--resume")
-    assert other.returncode == 2 and "begun for something else" in other.stderr
+    assert other.exit_code == 2 and "begun for something else" in other.stderr
     assert file.read_text() == whole
 
 
@@ -129,7 +131,7 @@ def test_parquet_holds_the_same(tmp_path):
 
     file = tmp_path / "rows.parquet"
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", "motion.law=cycloidal,3-4-5"]
-    assert geneva(*arguments, "-o", str(file)).returncode == 0
+    assert geneva(*arguments, "-o", str(file)).exit_code == 0
     found = parquet.read_table(file).to_pylist()
     printed = list(csv.DictReader(io.StringIO(geneva(*arguments).stdout)))
     assert len(found) == len(printed) == 8
@@ -169,5 +171,5 @@ def test_the_spec_may_come_from_a_pipe():
 )
 def test_errors_come_at_once(arguments, said, tmp_path):
     found = geneva("sweep", SPEC, *arguments)
-    assert (found.returncode, found.stdout) == (2, "")
+    assert (found.exit_code, found.stdout) == (2, "")
     assert said in found.stderr and len(found.stderr.splitlines()) == 1
