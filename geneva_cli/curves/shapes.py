@@ -76,11 +76,16 @@ Shape: TypeAlias = Contour | Circle
 
 
 class Drawing(NamedTuple):
-    """Shapes and a title; ``scale_bar`` asks for one beside them, where the format has one."""
+    """Shapes and a title.
+
+    ``scale_bar`` asks for one beside them, ``tinted`` names layers whose outlines are to be filled
+    lightly: where the format has such.
+    """
 
     title: str
     shapes: tuple[Shape, ...]
     scale_bar: bool = False
+    tinted: tuple[str, ...] = ()
 
     @property
     def layers(self) -> tuple[str, ...]:

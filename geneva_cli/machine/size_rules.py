@@ -74,6 +74,12 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
         ("crank_bore_mm", 2.0 * short, "twice the roller's way"),
         ("crank_hub_mm", 2.0 * short, "twice the roller's way"),
         ("pin_mm", 2.0 * r, "the roller's diameter"),
+        ("press_fit_mm", 2.0 * r, "the roller's diameter"),
+        ("arm_bore_mm", 2.0 * short, "twice the roller's way"),
+        ("arm_hub_mm", 2.0 * L, "twice the centre distance"),
+        ("arm_eye_mm", 2.0 * L, "twice the centre distance"),
+        ("lock_bolt_mm", 2.0 * short, "twice the roller's way"),
+        ("lock_bolt_circle_mm", 2.0 * short, "twice the roller's way"),
     ]
     for key, below, what in given:
         value = getattr(size, key)

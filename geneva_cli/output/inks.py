@@ -16,6 +16,7 @@ class Ink(NamedTuple):
 INKS = {
     "WHEEL": Ink(142, "#007ca5"),
     "CRANK": Ink(94, "#007f00"),
+    "ARM": Ink(23, "#a56752"),
     "ROLLER": Ink(200, "#bf00ff"),
     "BORE": Ink(1, "#ff0000"),
     "PITCH": Ink(8, "#808080"),

@@ -40,6 +40,7 @@ TEXT = 3.5  # height of letters
 TICK = 1.0  # half a scale bar's end mark
 LETTER = 0.62  # width of a letter beside the height, with some to spare
 GREY = "#757575"
+TINT = 0.15  # how opaque a layer is filled that is to be seen as a plate
 
 
 class _Sheet(NamedTuple):
@@ -82,7 +83,10 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
         if layer in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(_number(sheet.mm(d)) for d in DASHES)}"'
         stroke = _number(sheet.mm(STROKE))
-        yield f'<g id={quoteattr(layer)} stroke="{ink.rgb}" stroke-width="{stroke}"{dashes}>\n'
+        tint = f' fill="{ink.rgb}" fill-opacity="{TINT}"' if layer in drawing.tinted else ""
+        yield (
+            f'<g id={quoteattr(layer)} stroke="{ink.rgb}" stroke-width="{stroke}"{dashes}{tint}>\n'
+        )
         for shape in drawing.shapes:
             if shape.layer == layer:
                 yield _shape(shape)

@@ -29,6 +29,7 @@ PARTS = {
     "slot": Part("slot_profile:profile_table", "drawings:slot"),
     "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table"),
     "crank": Part(drawing="drawings:crank"),
+    "arm": Part(drawing="drawings:arm"),
     "assembly": Part(drawing="drawings:assembly"),
     "gears": Part("gear_curves:gears_table"),
     "groove": Part("groove:groove_table", "drawings:groove"),

@@ -12,9 +12,20 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Segment, about, closed
+from geneva_cli.curves.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    about,
+    closed,
+)
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
@@ -198,20 +209,38 @@ def _merged(around: list[Relief]) -> list[Relief]:
     return found
 
 
-def crank_circles(plane: Plane, sizes: Sizes) -> list[Circle]:
-    """Rollers, pins and bore."""
+def crank_circles(plane: Plane, sizes: Sizes) -> list[Shape]:
+    """Rollers, pins and bore, which may have a keyway."""
+    found: list[Shape] = []
+    for centre in roller_centres(plane):
+        found += [Circle("ROLLER", centre, sizes.roller)]
+        found += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
+    if sizes.crank_bore:
+        fitted = key(plane.mechanism.spec.size.crank_keyway, sizes.crank_bore)
+        found.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(plane)))
+    return found
+
+
+def roller_centres(plane: Plane) -> list[Point]:
+    """The rollers on the crank at the mid-motion of each."""
     found = []
     for number, (_, behind) in enumerate(plane.rollers):
         at = np.array([behind])
         x, y = (plane.pin(number, at) - (plane.L, 0.0))[0]
         angle = math.atan2(y, x) - float(plane.crank(at)[0])
         reach = math.hypot(x, y)
-        centre = reach * math.cos(angle), reach * math.sin(angle)
-        found += [Circle("ROLLER", centre, sizes.roller)]
-        found += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
-    if sizes.crank_bore:
-        found.append(Circle("BORE", (0.0, 0.0), sizes.crank_bore))
+        found.append((reach * math.cos(angle), reach * math.sin(angle)))
     return found
+
+
+def sectors(plane: Plane) -> list[tuple[float, float]]:
+    """Where the disc locks: directions on the crank, radians, from and to."""
+    return [(one.end, after) for one, after in _followed(reliefs(plane)) if after - one.end > SAME]
+
+
+def keyway_direction(plane: Plane) -> float:
+    """Where the crank's keyway stands: amid a locking sector, away from reliefs and rollers."""
+    return next((0.5 * (start + end) for start, end in sectors(plane)), math.pi)
 
 
 def _arc(plane: Plane, sizes: Sizes, relief: Relief) -> list[Segment]:

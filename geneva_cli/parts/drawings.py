@@ -1,6 +1,6 @@
 """Drawings of the parts, each in its own frame, and of the machine put together.
 
-Layers: WHEEL, CRANK, GROOVE are cut; ROLLER and BORE are circles; PITCH is where rollers run.
+Layers: WHEEL, CRANK, ARM, GROOVE and BORE are cut; ROLLER is a circle; PITCH is where rollers run.
 """
 
 from __future__ import annotations
@@ -24,6 +24,8 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.parts.arm import LAYER as ARM
+from geneva_cli.parts.arm import bolts, crank_arm, has_arm
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.crank import crank_circles
 from geneva_cli.parts.outlines import Outlines, slot_walls
@@ -41,6 +43,12 @@ def wheel(found: Outlines, tolerance: float, curves: str) -> Drawing:
 def crank(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The crank: its axis the origin, the first roller ahead; what lies in the wheel's plane."""
     return Drawing(_title(found, "crank"), tuple(_crank(found)))
+
+
+def arm(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The crank arm below the wheel's plane: outline, bore, and holes for pins and bolts."""
+    made = crank_arm(found)
+    return Drawing(_title(found, "arm"), (made.outline, made.bore, *made.pins, *made.bolts))
 
 
 def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
@@ -61,9 +69,10 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
     at = np.zeros(1)
     psi, angle = float(plane.wheel(at)[0]), float(plane.crank(at)[0])
     shapes: list[Shape] = [turned(s, psi) for s in _wheel(found, tolerance, curves)]
-    shapes += [mapped(turned(s, angle), lambda p: (p[0] + plane.L, p[1])) for s in _crank(found)]
+    carried = [*_crank(found), *_arm(found)]
+    shapes += [mapped(turned(s, angle), lambda p: (p[0] + plane.L, p[1])) for s in carried]
     shapes += _ways(found, psi, tolerance, curves)
-    return Drawing(_title(found, ""), tuple(shapes), scale_bar=True)
+    return Drawing(_title(found, ""), tuple(shapes), scale_bar=True, tinted=(ARM,))
 
 
 def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
@@ -106,7 +115,16 @@ def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
 
 
 def _crank(found: Outlines) -> list[Shape]:
-    return [*found.crank, *crank_circles(found.plane, found.sizes)]
+    return [*found.crank, *crank_circles(found.plane, found.sizes), *bolts(found)]
+
+
+def _arm(found: Outlines) -> list[Shape]:
+    """What is seen of the crank arm: its outline, and its bore where the disc has none."""
+    if not has_arm(found):
+        return []
+    made = crank_arm(found)
+    through = found.sizes.crank_bore > 0.0
+    return [made.outline] if through else [made.outline, made.bore._replace(layer=ARM)]
 
 
 def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:

@@ -83,9 +83,9 @@ def sizes(plane: Plane) -> Sizes:
         relief=relief,
         wall_min=wall_min,
         wheel_bore=wheel_bore,
-        wheel_hub=_or(_half(given.wheel_hub_mm), _even(min(1.6 * wheel_bore, 0.75 * end))),
+        wheel_hub=_or(_half(given.wheel_hub_mm), even(min(1.6 * wheel_bore, 0.75 * end))),
         crank_bore=bore,
-        crank_hub=_or(_half(given.crank_hub_mm), _even(1.5 * bore)),
+        crank_hub=_or(_half(given.crank_hub_mm), even(1.5 * bore)),
         pin=_or(_half(given.pin_mm), r / 2.0),
     )
     _refuse(plane, out)
@@ -129,7 +129,7 @@ def _half(diameter: float | None) -> float | None:
 
 def _bore(end: float, wall: float, hub: float | None, L: float) -> float:
     """A bore of the wheel that leaves a wall to the slots' ends, inside a hub that is given."""
-    return _even(min(L / 12.0, 0.4 * end, end - wall, *([0.4 * hub] if hub else [])))
+    return even(min(L / 12.0, 0.4 * end, end - wall, *([0.4 * hub] if hub else [])))
 
 
 def _crank_bore(given: Size, room: float, L: float) -> float:
@@ -137,10 +137,10 @@ def _crank_bore(given: Size, room: float, L: float) -> float:
     if given.crank_bore_mm is not None:
         return 0.5 * given.crank_bore_mm
     within = 0.4 * given.crank_hub_mm if given.crank_hub_mm else math.inf
-    return _even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
+    return even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
 
 
-def _even(radius: float) -> float:
+def even(radius: float) -> float:
     """A radius of which the diameter has two digits, rounded down; 0 where nothing is left."""
     if radius <= 0.0:
         return 0.0

@@ -78,6 +78,28 @@ class Size(Table):
         float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
     ] = None
     pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; r"] = None
+    press_fit_mm: Annotated[
+        float, NOT_NEGATIVE, "pin's diameter less that of its hole in the crank arm"
+    ] = 0.0
+    arm_bore_mm: Annotated[
+        float | None, POSITIVE, "diameter of the crank arm's bore; crank_bore_mm if there is one"
+    ] = None
+    arm_hub_mm: Annotated[
+        float | None, POSITIVE, "width of the crank arm round its bore; 1.6 bores"
+    ] = None
+    arm_eye_mm: Annotated[
+        float | None, POSITIVE, "width of the crank arm round a pin; 2 pins where the hub lets it"
+    ] = None
+    crank_keyway: Annotated[
+        str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
+    ] = None
+    lock_bolts: Annotated[
+        int, Range(0, 100), "bolts or dowels through each sector of the locking disc and the arm"
+    ] = 0
+    lock_bolt_mm: Annotated[float | None, POSITIVE, "diameter of their holes; L/40"] = None
+    lock_bolt_circle_mm: Annotated[
+        float | None, POSITIVE, "diameter of the circle they stand on; where the disc is widest"
+    ] = None
     pin_held: Annotated[
         str,
         OneOf(("cantilever", "supported", "fixed")),

@@ -24,6 +24,12 @@ HUGE = [
     "crank_bore_mm",
     "crank_hub_mm",
     "pin_mm",
+    "press_fit_mm",
+    "arm_bore_mm",
+    "arm_hub_mm",
+    "arm_eye_mm",
+    "lock_bolt_mm",
+    "lock_bolt_circle_mm",
 ]
 
 

@@ -38,7 +38,11 @@ LINKAGES = ("four-bar", "slider-crank")
 ONE_WAY = ("gear-sector", "geneva-pair", "epicyclic", *LINKAGES)
 
 
-WORDED = {"relief": ("arc", "sector"), "pin_held": ("cantilever", "supported", "fixed")}
+WORDED = {
+    "relief": ("arc", "sector"),
+    "pin_held": ("cantilever", "supported", "fixed"),
+    "crank_keyway": ("DIN 6885-1",),
+}
 TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
 
 
@@ -59,6 +63,8 @@ def usual(rng, key, z, L, r, outside):
         return clearance(rng, r)
     if key in WORDED:
         return rng.choice(WORDED[key])
+    if key == "lock_bolts":
+        return rng.choice([0, 1, 2, 3])
     of = {
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
         "wheel_outer_radius_mm": L + R + 2.0 * r,
@@ -71,6 +77,12 @@ def usual(rng, key, z, L, r, outside):
         "crank_bore_mm": 0.3 * R,
         "crank_hub_mm": 0.5 * R,
         "pin_mm": r,
+        "press_fit_mm": 0.01 * r,
+        "arm_bore_mm": 0.2 * R,
+        "arm_hub_mm": 0.4 * R,
+        "arm_eye_mm": 2.0 * r,
+        "lock_bolt_mm": L / 40.0,
+        "lock_bolt_circle_mm": R,
         "pin_gap_mm": 0.1 * r,
         "lock_edge_mm": 0.05 * r,
     }

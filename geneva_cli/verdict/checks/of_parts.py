@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.full_turn import FullTurn
-from geneva_cli.verdict.checks import branches, play, shafts, touching, walls
+from geneva_cli.verdict.checks import arm, branches, play, shafts, touching, walls
 from geneva_cli.verdict.checks.check import Check
 
 # A check by its name; None where these parts have nothing of the kind.
@@ -23,6 +23,8 @@ STANDING: dict[str, OfParts] = {
     "crank_shaft_mm": shafts.crank_shaft,
     "crank_hub_mm": shafts.crank_hub,
     "wheel_shaft_mm": shafts.wheel_shaft,
+    "arm_wall_mm": arm.arm_wall,
+    "arm_to_hub_mm": arm.arm_to_hub,
     "branches_apart_mm": branches.apart,
     "branches_crossed_mm": branches.crossed,
 }

@@ -1,0 +1,64 @@
+"""The belt round some circles: the shortest outline that holds them all, of tangents and arcs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from geneva_cli.curves.shapes import Circle, Contour, Line, Segment, about, closed
+
+SAME = 1e-12  # radians: directions nearer to each other are one
+
+
+def belt(layer: str, circles: Sequence[Circle]) -> Contour:
+    """The convex hull of circles, counterclockwise: an arc on each that it touches, lines between.
+
+    A circle touches it in the directions in which it reaches farther than any other: going round,
+    the next one takes over where both reach equally far, on their common tangent.
+
+    >>> two = belt("ARM", [Circle("ARM", (0.0, 0.0), 1.0), Circle("ARM", (4.0, 0.0), 1.0)])
+    >>> [type(piece).__name__ for piece in two.segments]
+    ['Arc', 'Line', 'Arc', 'Line']
+    """
+    order = sorted(circles, key=lambda c: (c.centre[0] + c.radius, c.centre[1]))
+    here, turned = order[-1], 0.0  # the farthest along x
+    arcs: list[tuple[Circle, float, float]] = []
+    while turned < math.tau:
+        step, after = _next(here, turned, circles)
+        step = min(step, math.tau - turned)
+        if arcs and turned + step == math.tau and arcs[0][0] == here:
+            first, _, sweep = arcs[0]
+            arcs[0] = first, turned - math.tau, step + sweep  # it began amid this arc
+        else:
+            arcs.append((here, turned, step))
+        turned += step
+        here = after
+    found: list[Segment] = []
+    for circle, start, sweep in arcs:
+        arc = about(circle.centre, circle.radius, start, sweep)
+        if found and math.dist(found[-1].end, arc.start) > SAME:
+            found.append(Line(found[-1].end, arc.start))
+        if len(arcs) == 1:
+            found += [
+                about(circle.centre, circle.radius, at, math.pi) for at in (start, start + math.pi)
+            ]
+        elif sweep > SAME:
+            found.append(arc)
+    if len(arcs) > 1 and math.dist(found[-1].end, found[0].start) > SAME:
+        found.append(Line(found[-1].end, found[0].start))
+    return closed(layer, found)
+
+
+def _next(here: Circle, turned: float, circles: Sequence[Circle]) -> tuple[float, Circle]:
+    """How far on the next circle takes over, radians, and which; a whole turn where none does."""
+    best = (math.tau, 0.0, here)
+    for other in circles:
+        x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
+        apart, less = math.hypot(x, y), here.radius - other.radius
+        if apart <= abs(less) * (1.0 + SAME) or other == here:
+            continue  # one holds the other
+        at = math.atan2(y, x) - math.acos(less / apart)
+        step = max((at - turned + SAME) % math.tau - SAME, 0.0)
+        if step < best[0] - SAME or (step < best[0] + SAME and apart > best[1]):
+            best = step, apart, other
+    return best[0], best[2]

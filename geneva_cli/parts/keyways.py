@@ -1,0 +1,96 @@
+"""Bores with a keyway, by a standard's table of the shaft's diameter."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, about, closed
+from geneva_cli.errors import GenevaError
+
+
+class Key(NamedTuple):
+    """A parallel key for shafts above one diameter and up to another, all in mm."""
+
+    above: float
+    up_to: float
+    width: float  # b
+    height: float  # h
+    in_shaft: float  # t1, the keyway's depth below the shaft's circle
+    in_hub: float  # t2, above it
+
+
+# DIN 6885-1 (ISO/R 773 has the same): parallel keys, deep pattern.
+DIN_6885_1 = [
+    Key(*row)
+    for row in (
+        (6, 8, 2, 2, 1.2, 1.0),
+        (8, 10, 3, 3, 1.8, 1.4),
+        (10, 12, 4, 4, 2.5, 1.8),
+        (12, 17, 5, 5, 3.0, 2.3),
+        (17, 22, 6, 6, 3.5, 2.8),
+        (22, 30, 8, 7, 4.0, 3.3),
+        (30, 38, 10, 8, 5.0, 3.3),
+        (38, 44, 12, 8, 5.0, 3.3),
+        (44, 50, 14, 9, 5.5, 3.8),
+        (50, 58, 16, 10, 6.0, 4.3),
+        (58, 65, 18, 11, 7.0, 4.4),
+        (65, 75, 20, 12, 7.5, 4.9),
+        (75, 85, 22, 14, 9.0, 5.4),
+        (85, 95, 25, 14, 9.0, 5.4),
+        (95, 110, 28, 16, 10.0, 6.4),
+        (110, 130, 32, 18, 11.0, 7.4),
+        (130, 150, 36, 20, 12.0, 8.4),
+        (150, 170, 40, 22, 13.0, 9.4),
+        (170, 200, 45, 25, 15.0, 10.4),
+        (200, 230, 50, 28, 17.0, 11.4),
+    )
+]
+TABLES = {"DIN 6885-1": DIN_6885_1}
+
+
+def key(standard: str | None, radius: float) -> Key | None:
+    """The key of a bore by a standard's name; None for no standard.
+
+    Raises GenevaError for a bore that the table does not have.
+
+    >>> key("DIN 6885-1", 10.0).width
+    6
+    """
+    if standard is None:
+        return None
+    table, diameter = TABLES[standard], 2.0 * radius
+    for row in table:
+        if row.above < diameter <= row.up_to:
+            return row
+    raise GenevaError(
+        f'crank_keyway = "{standard}": its table has shafts above {table[0].above:g} mm and up to '
+        f"{table[-1].up_to:g}, and the crank's bore is {diameter:g}; give crank_bore_mm or "
+        "arm_bore_mm there, or remove crank_keyway",
+        ("size", "crank_keyway"),
+    )
+
+
+def bore(layer: str, radius: float, fitted: Key | None, direction: float) -> Shape:
+    """A bore about the origin, with its keyway in a direction, radians, where it has one."""
+    if fitted is None:
+        return Circle(layer, (0.0, 0.0), radius)
+    c, s = math.cos(direction), math.sin(direction)
+    half = math.asin(0.5 * fitted.width / radius)
+    # most of the circle, from one flank of the keyway round to the other
+    most = math.tau - 2.0 * half
+    first = about((0.0, 0.0), radius, direction + half, 0.5 * most)
+    second = about((0.0, 0.0), radius, direction + half + 0.5 * most, 0.5 * most)
+    top = radius + fitted.in_hub
+    low, high = (
+        (top * c - y * s, top * s + y * c) for y in (-0.5 * fitted.width, 0.5 * fitted.width)
+    )
+    return closed(
+        layer,
+        [first, second, Line(second.end, low), Line(low, high), Line(high, first.start)],
+    )
+
+
+def is_contour(shape: Shape) -> bool:
+    """Whether a bore has a keyway."""
+    return isinstance(shape, Contour)

@@ -1,0 +1,44 @@
+"""Does the crank arm keep its walls, and clear the wheel's hub? Asked where the spec names it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm, walls
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.verdict.checks.check import Check, held
+
+KEYS = (
+    "arm_bore_mm",
+    "arm_hub_mm",
+    "arm_eye_mm",
+    "press_fit_mm",
+    "crank_keyway",
+    "lock_bolts",
+)
+
+
+def arm_wall(name: str, found: Outlines) -> Check | None:
+    """The least wall round the arm's holes, and round bolts and keyway in the locking disc."""
+    return _asked(name, found, lambda made: walls(made, found), found.sizes.wall_min)
+
+
+def arm_to_hub(name: str, found: Outlines) -> Check | None:
+    """Between the arm's end, as it passes below the wheel, and the wheel's shaft or hub."""
+    inside = found.plane.sign < 0.0  # where the wheel is open in the middle
+    return None if inside else _asked(name, found, lambda made: made.room, 0.0)
+
+
+def _asked(
+    name: str, found: Outlines, value: Callable[[CrankArm], float], limit: float
+) -> Check | None:
+    """The check, where a key of the arm is given: by default it has its walls and its room."""
+    size = found.plane.mechanism.spec.size
+    if not (any(vars(size)[key] for key in KEYS) and has_arm(found)):
+        return None
+    try:
+        made = crank_arm(found)
+    except GenevaError as error:
+        return Check(name, None, "at least", limit, False, str(error))
+    return held(name, value(made), "at least", limit)

@@ -1,0 +1,223 @@
+"""The crank arm: its outline, its holes, and what fixes the locking disc to it."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely.geometry import Point, Polygon
+from typer.testing import CliRunner
+from words import Drive, Motion, Spec, Wheel
+
+from geneva_cli.app import app
+from geneva_cli.curves.belt import belt
+from geneva_cli.curves.measure import segment_length
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line
+from geneva_cli.design import Design, load
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.arm import crank_arm, walls
+from geneva_cli.parts.keyways import DIN_6885_1, TABLES, key
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Size
+
+ROOT = Path(__file__).parents[2] / "designs"
+LAW = Motion("modified-sine", ratio="matched")
+
+
+def polygon(shape, each=256):
+    """A contour or circle as a polygon, inside the true one by a sagitta."""
+    if isinstance(shape, Circle):
+        return Point(shape.centre).buffer(shape.radius, each)
+    points = []
+    for piece in shape.segments:
+        if isinstance(piece, Line):
+            points.append(piece.start)
+            continue
+        (x, y), r = piece.centre, piece.radius
+        start = math.atan2(piece.start[1] - y, piece.start[0] - x)
+        for t in np.arange(each) / each:
+            at = start + t * piece.sweep
+            points.append((x + r * math.cos(at), y + r * math.sin(at)))
+    return Polygon(points)
+
+
+def of(wheel, motion=None, drive=None, **size):
+    return Design.of(Spec(wheel, drive, None, motion, size=Size(**size)))
+
+
+CIRCLE = st.builds(
+    lambda x, y, r: Circle("ARM", (round(x, 2), round(y, 2)), round(r, 2)),
+    st.floats(-9, 9),
+    st.floats(-9, 9),
+    st.floats(0.1, 4),
+)
+
+
+@settings(max_examples=150)
+@given(st.lists(CIRCLE, min_size=1, max_size=7, unique=True))
+def test_the_belt_is_the_convex_hull(circles):
+    """Its length is the mean of its width times pi (Cauchy), the width from the circles alone."""
+    found = belt("ARM", circles)
+    turn = np.arange(20000) * (math.tau / 20000)
+    reach = [c.centre[0] * np.cos(turn) + c.centre[1] * np.sin(turn) + c.radius for c in circles]
+    length = math.tau * np.max(reach, axis=0).mean()
+    # the mean of a function with corners over n points misses by about its bend / n²
+    assert math.fsum(map(segment_length, found.segments)) == pytest.approx(length, rel=1e-6)
+    assert math.fsum(s.sweep for s in found.segments if isinstance(s, Arc)) == pytest.approx(
+        math.tau, abs=1e-9
+    )
+    ends = [*found.segments[1:], found.segments[0]]
+    assert all(a.end == b.start for a, b in zip(found.segments, ends, strict=True))
+
+
+@pytest.mark.parametrize("rollers", [1, 2, 3])
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("z", [*range(3, 13), 16, 20, 24])
+def test_defaults_work(z, gearing, rollers):
+    """From 3 to 24 slots: walls all round, and clear of the wheel's hub, below the wheel."""
+    try:
+        found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts
+    except GenevaError:
+        pytest.skip("so many rollers leave no machine")
+    made = crank_arm(found)
+    outline, holes = polygon(made.outline), [polygon(h) for h in (made.bore, *made.pins)]
+    wall = found.sizes.wall_min
+    assert outline.is_valid and len(made.pins) == rollers
+    for i, hole in enumerate(holes):
+        assert outline.contains(hole)
+        assert hole.distance(outline.exterior) > 0.999 * wall
+        assert all(hole.distance(other) > wall for other in holes[:i])
+    # chords of the witness's polygons lie inside their arcs by less than 1e-4 of the radius
+    least = min(hole.distance(outline.exterior) for hole in holes)
+    assert walls(made, found) <= least + 1e-3 * found.plane.L
+    if gearing == "external":
+        axis = Point(-found.plane.L, 0.0)  # of the wheel, seen from the crank, in any position
+        reach = max(math.hypot(*c.centre) for c in made.pins) + made.eye
+        assert found.plane.L - reach - found.sizes.wheel_hub == pytest.approx(made.room)
+        assert made.room > -1e-9
+        assert outline.distance(axis) > found.sizes.wheel_hub - 1e-9
+
+
+@pytest.mark.parametrize(
+    ("z", "gearing", "motion"), [(6, "external", LAW), (8, "internal", None), (3, "external", None)]
+)
+def test_pins_are_pressed_in(z, gearing, motion):
+    """Each hole is the pin less the fit, where the crank's drawing has the pin."""
+    design = of(Wheel(z, gearing), motion, press_fit_mm=0.03, pin_mm=3.0)
+    arm, crank = design.drawing("arm"), design.drawing("crank")
+    pins = {s.centre for s in crank.shapes if s.layer == "ROLLER" and s.radius == 1.5}
+    holes = [s for s in arm.shapes if isinstance(s, Circle) and s.centre != (0.0, 0.0)]
+    assert {s.centre for s in holes} == pins and pins
+    assert {round(2.0 * s.radius, 12) for s in holes} == {2.97}
+    assert arm.layers == ("ARM", "BORE")
+    assert {c.name for c in design.checks} >= {"arm_wall_mm"}
+    assert all(c.passes for c in design.checks if c.name.startswith("arm_"))
+
+
+def test_the_disc_is_fixed_to_the_arm():
+    """Two dowels in each sector, the same holes in both parts, with walls."""
+    design = of(Wheel(4), drive=Drive(rollers=3), lock_bolts=2, lock_bolt_mm=3.0)
+    crank, arm = design.drawing("crank"), design.drawing("arm")
+    bolts = {s for s in arm.shapes if isinstance(s, Circle) and s.radius == 1.5}
+    assert len(bolts) == 6 and bolts <= set(crank.shapes)
+    (disc,) = [polygon(s) for s in crank.shapes if s.layer == "CRANK"]
+    plate = polygon(arm.shapes[0])
+    for bolt in bolts:
+        hole = polygon(bolt)
+        for part in (disc, plate):
+            assert part.contains(hole) and hole.distance(part.exterior) > 0.5
+    (check,) = [c for c in design.checks if c.name == "arm_wall_mm"]
+    inside = min(polygon(b).distance(disc.exterior) for b in bolts)
+    assert check.passes and check.value <= inside + 1e-3
+
+
+def test_sectors_stand_on_the_hub():
+    """Inside the locking sectors hang together by the arm alone, which is below them all."""
+    found = of(Wheel(6, "internal"), lock_bolts=2).parts
+    made = crank_arm(found)
+    plate = polygon(made.outline, 4096).buffer(1e-5)
+    assert not found.sizes.crank_bore  # overhung: no shaft goes through the wheel's plane
+    assert all(plate.contains(polygon(sector)) for sector in found.crank)
+    assert all(any(polygon(s).contains(polygon(b)) for s in found.crank) for b in made.bolts)
+
+
+def test_keyways_of_the_standard():
+    """DIN 6885-1: b = 6, t2 = 2.8 for a shaft of 20 mm; b = 14, t2 = 3.8 for one of 50."""
+    assert [(row.width, row.in_hub) for row in DIN_6885_1 if 20 <= row.up_to <= 22] == [(6, 2.8)]
+    assert key("DIN 6885-1", 25.0)[2:] == (14, 9, 5.5, 3.8)
+    assert all(a.up_to == b.above for a, b in zip(DIN_6885_1, DIN_6885_1[1:], strict=False))
+    for row in DIN_6885_1:  # some play is left over the key, and none is deeper than half the shaft
+        assert 0.0 < row.in_shaft + row.in_hub - row.height < 1.0
+    (field,) = [f for f in fields(Size) if f.key == "crank_keyway"]
+    assert set(field.rule) == set(TABLES)
+
+    design = of(Wheel(4), center_distance_mm=200.0, crank_bore_mm=20.0, crank_keyway="DIN 6885-1")
+    for part in ("crank", "arm"):
+        (bore,) = [s for s in design.drawing(part).shapes if isinstance(s, Contour)][1:]
+        shape = polygon(bore, 2000)
+        # the keyway points away from the roller: from its top to the far side is d + t2
+        low, bottom, high, top = shape.bounds
+        assert (high - low, top - bottom) == (pytest.approx(22.8), pytest.approx(20.0, abs=1e-5))
+        assert low == pytest.approx(-12.8) and bore.layer == "BORE"
+        slit = [p.start[1] for p in bore.segments if isinstance(p, Line)]
+        assert max(slit) - min(slit) == pytest.approx(6.0)
+    assert all(c.passes for c in design.checks)
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        ({"crank_keyway": "DIN 6885-1", "crank_bore_mm": 5.0}, "above 6 mm and up to 230"),
+        ({"arm_eye_mm": 4.0}, "arm_eye_mm = 4: the eye must be above 5, the pin's hole"),
+        ({"arm_hub_mm": 5.0, "arm_bore_mm": 5.5}, "arm_hub_mm = 5: the hub must be above 5.5"),
+        ({"arm_bore_mm": 96.0, "arm_hub_mm": 99.0}, "runs into the pin's hole; with its keyway"),
+        ({"press_fit_mm": 5.0}, "no hole for a pin of pin_mm = 5 with press_fit_mm = 5"),
+        ({"pin_mm": 0.0}, "no hole for a pin of pin_mm = 0"),
+        ({"lock_bolts": 2, "lock_radius_mm": 0.0}, "no locking disc to fix"),
+    ],
+)
+def test_what_leaves_no_arm_is_refused(size, said):
+    design = of(Wheel(6), **size)
+    with pytest.raises(GenevaError, match=said) as caught:
+        design.drawing("arm")
+    assert caught.value.key[0] == "size"
+    rows = [c for c in design.checks if c.name.startswith("arm_")]
+    assert all(c.passes is False and said in c.nearest for c in rows)
+    assert rows or "pin_mm" in size
+
+
+def test_machines_without_a_crank_have_no_arm():
+    for name in ("cam-geneva", "four-bar-z4", "epicyclic-z4"):
+        with pytest.raises(GenevaError, match="carries its roller on no crank arm"):
+            load(str(ROOT / f"{name}.toml")).drawing("arm")
+
+
+def test_an_arm_that_meets_the_hub_is_told():
+    design = of(Wheel(6), arm_eye_mm=90.0)
+    (check,) = [c for c in design.checks if c.name == "arm_to_hub_mm"]
+    found = design.parts
+    free = found.plane.L * (1.0 - 0.5) - 45.0 - found.sizes.wheel_hub
+    assert check.value == pytest.approx(free) and not check.passes
+    name, value = check.nearest.split(" = ")
+    fixed = design.with_(f"size.{name}", float(value))
+    assert name == "arm_eye_mm" and all(c.passes for c in fixed.checks)
+
+
+def test_written_files(tmp_path):
+    """The assembly has the arm on its layer, tinted; the arm's own file is closed contours."""
+    out = tmp_path / "arm.dxf"
+    spec = str(ROOT / "three-rollers-z4.toml")
+    assert (
+        CliRunner().invoke(app, ["profile", spec, "--part", "arm", "-o", str(out)]).exit_code == 0
+    )
+    import ezdxf
+
+    entities = list(ezdxf.readfile(out).modelspace())
+    (outline,) = [e for e in entities if e.dxf.layer == "ARM"]
+    assert outline.dxftype() == "LWPOLYLINE" and outline.closed
+    assert sum(1 for p in outline.get_points() if p[4]) == 3  # an arc about each roller
+    assert {e.dxftype() for e in entities if e.dxf.layer == "BORE"} == {"CIRCLE"}
+    drawn = load(spec).drawing("assembly")
+    assert drawn.tinted == ("ARM",) and "ARM" in drawn.layers
