@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress fuzz bench bench-start clean
+.PHONY: demo test lint stress cad fuzz bench bench-start clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -30,6 +30,11 @@ bench: .venv/dev
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
+
+# Every design's STEP files read by a CAD kernel, which is installed for it (0.5 GB); two minutes.
+cad: .venv/dev
+	$(BIN)/pip install --quiet "cadquery-ocp>=8,<9"
+	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py
 
 # A million random specs, and 20,000 machines with parts; hours. Stopped, it goes on from there;
 # another seed, or new code, begins again: rm build/fuzz-*.json.

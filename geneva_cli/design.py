@@ -40,10 +40,10 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.loads.summary import Summary
     from geneva_cli.analysis.peaks import Peaks
     from geneva_cli.analysis.timing import Timing
+    from geneva_cli.curves.plates import Body
     from geneva_cli.curves.shapes import Drawing
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.proof import Proof
-    from geneva_cli.parts.wheel_inertia import Plate
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -271,21 +271,22 @@ class Design:
         return loads_table(self.cycle, life, own, said, for_people)
 
     @answer
-    def wheel_plate(self) -> Plate | None:
-        """The wheel's own mass and inertia, from its outline; None without ``face_width_mm``.
+    def wheel_plate(self) -> Body | None:
+        """The wheel's own mass, centroid and inertia, from its outline.
 
-        None also where there are no flat parts.
+        None without ``face_width_mm`` or ``wheel_thickness_mm``, or where there are no flat parts.
 
         >>> wheel = Design(External(6), size=Size(face_width_mm=20)).wheel_plate
         >>> round(wheel.mass_kg, 3), round(1e3 * wheel.inertia_kgm2, 3)
         (2.083, 5.157)
         """
-        from geneva_cli.parts.wheel_inertia import wheel_plate
-
-        if self.spec.size.face_width_mm is None:
+        size = self.spec.size
+        if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None
+        from geneva_cli.parts.plates import wheel_body
+
         try:
-            return wheel_plate(self.proof.found)
+            return wheel_body(self.proof.found)
         except GenevaError:
             return None
 

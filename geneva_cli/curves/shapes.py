@@ -7,7 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.plates import Part
 
 Point: TypeAlias = tuple[float, float]
 
@@ -79,13 +82,15 @@ class Drawing(NamedTuple):
     """Shapes and a title.
 
     ``scale_bar`` asks for one beside them, ``tinted`` names layers whose outlines are to be filled
-    lightly: where the format has such.
+    lightly: where the format has such. ``solid`` is what is drawn as the solid that it is, for
+    formats of solids.
     """
 
     title: str
     shapes: tuple[Shape, ...]
     scale_bar: bool = False
     tinted: tuple[str, ...] = ()
+    solid: Part | None = None
 
     @property
     def layers(self) -> tuple[str, ...]:

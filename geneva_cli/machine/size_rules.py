@@ -14,6 +14,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import smaller
+from geneva_cli.spec.tables import Size
 
 
 class Bound(NamedTuple):
@@ -37,10 +38,20 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     size = spec.size
     for one in _bounds(spec, L, ratio):
         refuse(one.value >= one.below, one.error)
+    if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
+        refuse(size.face_width_mm > size.wheel_thickness_mm, partial(_thin, size))
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
             refuse((hub > 0.0) & (hub < bore), partial(_hub_in_bore, part, hub, bore))
+
+
+def _thin(size: Size) -> GenevaError:
+    return GenevaError(
+        f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: no line of contact is longer than the "
+        f"wheel is thick; it must be at least face_width_mm = {size.face_width_mm:g}",
+        ("size", "wheel_thickness_mm"),
+    )
 
 
 def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:

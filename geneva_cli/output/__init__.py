@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
-DRAWN = {"dxf": "dxf", "svg": "svg"}  # of drawings only; they are written in FORMATS as tables
+# of drawings only; they are written in FORMATS as tables
+DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN)}
+EXTENSIONS["stp"] = "step"
 
 
 class Format(Protocol):

@@ -11,6 +11,7 @@ import numpy as np
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.measure import mapped, turned
+from geneva_cli.curves.plates import Group, Member
 from geneva_cli.curves.shapes import (
     Arc,
     Circle,
@@ -25,10 +26,11 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.arm import LAYER as ARM
-from geneva_cli.parts.arm import bolts, crank_arm, has_arm
+from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.crank import crank_circles
 from geneva_cli.parts.outlines import Outlines, slot_walls
+from geneva_cli.parts.plates import arm_plate, crank_group, wheel_plate
 from geneva_cli.parts.walls.ways import beside
 from geneva_cli.parts.wheel import wheel_circles, wheel_contour
 
@@ -37,18 +39,24 @@ PITCH = "PITCH"
 
 def wheel(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The wheel: its axis the origin, the first slot ahead."""
-    return Drawing(_title(found, "wheel"), tuple(_wheel(found, tolerance, curves)))
+    contour, *circles = _wheel(found, tolerance, curves)
+    solid = wheel_plate(found, contour)
+    return Drawing(_title(found, "wheel"), (contour, *circles), solid=solid)
 
 
 def crank(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The crank: its axis the origin, the first roller ahead; what lies in the wheel's plane."""
-    return Drawing(_title(found, "crank"), tuple(_crank(found)))
+    return Drawing(_title(found, "crank"), tuple(_crank(found)), solid=crank_group(found))
 
 
 def arm(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The crank arm below the wheel's plane: outline, bore, and holes for pins and bolts."""
     made = crank_arm(found)
-    return Drawing(_title(found, "arm"), (made.outline, made.bore, *made.pins, *made.bolts))
+    return Drawing(
+        _title(found, "arm"),
+        (made.outline, made.bore, *made.pins, *made.bolts),
+        solid=arm_plate(found, made),
+    )
 
 
 def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
@@ -68,11 +76,20 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
     plane = found.plane
     at = np.zeros(1)
     psi, angle = float(plane.wheel(at)[0]), float(plane.crank(at)[0])
-    shapes: list[Shape] = [turned(s, psi) for s in _wheel(found, tolerance, curves)]
-    carried = [*_crank(found), *_arm(found)]
+    contour, *circles = _wheel(found, tolerance, curves)
+    shapes: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
+    carrier = crank_arm(found) if has_arm(found) else None
+    carried = [*_crank(found), *_arm(found, carrier)]
     shapes += [mapped(turned(s, angle), lambda p: (p[0] + plane.L, p[1])) for s in carried]
     shapes += _ways(found, psi, tolerance, curves)
-    return Drawing(_title(found, ""), tuple(shapes), scale_bar=True, tinted=(ARM,))
+    solid = Group(
+        _title(found, ""),
+        (
+            Member(wheel_plate(found, contour), turn=psi),
+            Member(crank_group(found, carrier), (plane.L, 0.0), angle),
+        ),
+    )
+    return Drawing(_title(found, ""), tuple(shapes), scale_bar=True, tinted=(ARM,), solid=solid)
 
 
 def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
@@ -101,9 +118,9 @@ def _title(found: Outlines, part: str) -> str:
     return f"{name}: {part}" if part else name
 
 
-def _wheel(found: Outlines, tolerance: float, curves: str) -> list[Shape]:
+def _wheel(found: Outlines, tolerance: float, curves: str) -> tuple[Contour, *tuple[Circle, ...]]:
     plane, sizes = found.plane, found.sizes
-    return [_outline(found, tolerance, curves), *wheel_circles(plane, sizes)]
+    return (_outline(found, tolerance, curves), *wheel_circles(plane, sizes))
 
 
 def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
@@ -118,11 +135,10 @@ def _crank(found: Outlines) -> list[Shape]:
     return [*found.crank, *crank_circles(found.plane, found.sizes), *bolts(found)]
 
 
-def _arm(found: Outlines) -> list[Shape]:
+def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
     """What is seen of the crank arm: its outline, and its bore where the disc has none."""
-    if not has_arm(found):
+    if made is None:
         return []
-    made = crank_arm(found)
     through = found.sizes.crank_bore > 0.0
     return [made.outline] if through else [made.outline, made.bore._replace(layer=ARM)]
 

@@ -42,6 +42,9 @@ class Sizes(NamedTuple):
     crank_bore: float
     crank_hub: float
     pin: float
+    wheel_thickness: float  # along the axis, of the rollers too
+    lock_thickness: float
+    arm_thickness: float
 
     @property
     def horn(self) -> float:
@@ -70,6 +73,7 @@ def sizes(plane: Plane) -> Sizes:
     wall_min = _or(given.wall_min_mm, L / 200.0)
     wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall_min, given.wheel_hub_mm, L))
     wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
+    thick = _or(given.wheel_thickness_mm, _or(given.face_width_mm, L / 10.0))
     out = Sizes(
         roller=r,
         half_width=w,
@@ -87,6 +91,9 @@ def sizes(plane: Plane) -> Sizes:
         crank_bore=bore,
         crank_hub=_or(_half(given.crank_hub_mm), even(1.5 * bore)),
         pin=_or(_half(given.pin_mm), r / 2.0),
+        wheel_thickness=thick,
+        lock_thickness=_or(given.lock_thickness_mm, thick + given.pin_gap_mm),
+        arm_thickness=_or(given.arm_thickness_mm, thick),
     )
     _refuse(plane, out)
     return out

@@ -109,6 +109,15 @@ class Size(Table):
     lock_edge_mm: Annotated[
         float | None, POSITIVE, "radius to which the ends of the wheel's recesses are rounded"
     ] = None
+    wheel_thickness_mm: Annotated[
+        float | None, POSITIVE, "of wheel and rollers along the axis; face_width_mm, or L/10"
+    ] = None
+    lock_thickness_mm: Annotated[
+        float | None, POSITIVE, "of the locking disc along the axis; the wheel's and pin_gap_mm"
+    ] = None
+    arm_thickness_mm: Annotated[
+        float | None, POSITIVE, "of the crank arm along the axis; the wheel's"
+    ] = None
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.curves.plates import Body
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.wheel_inertia import Plate
 from geneva_cli.spec.tables import Motor
 
 NAME = "wheel"  # of the [[mass]] that is the wheel itself
@@ -19,13 +19,13 @@ FAR = 20.0  # centre distances to a body, beyond any table
 FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
 
 
-def carried_cautions(mechanism: Mechanism, plate: Plate | None) -> list[str]:
+def carried_cautions(mechanism: Mechanism, plate: Body | None) -> list[str]:
     """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
     spec = mechanism.spec
     return [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_for_nothing(spec)]
 
 
-def _itself(spec: Spec, plate: Plate | None) -> list[str]:
+def _itself(spec: Spec, plate: Body | None) -> list[str]:
     given = inertia_kgm2(spec)
     if plate is None or not given or any(mass.name == NAME for mass in spec.mass):
         return []
@@ -40,7 +40,7 @@ def _itself(spec: Spec, plate: Plate | None) -> list[str]:
         else f"{own:.4g} on inertia_kgm2 in [load]"
     )
     return [
-        f"the wheel's own inertia, {own:.4g} kg m2 of a plate as thick as face_width_mm, is "
+        f"the wheel's own inertia, {own:.4g} kg m2 of a plate as thick as the wheel, is "
         f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it out, "
         f"add {helps}"
     ]

@@ -1,0 +1,92 @@
+"""Solids that are drawn out of outlines along the axis, and parts put together of them.
+
+The wheel's plane is z = 0..thickness; lengths in millimetres, angles in radians.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+from geneva_cli.curves.measure import area
+from geneva_cli.curves.moments import Moments, moments, total
+from geneva_cli.curves.shapes import Circle, Contour, Point, backwards
+
+MM = 1e-3  # metres
+
+
+class Plate(NamedTuple):
+    """What is inside an outline and in no hole, from ``low`` to ``high`` along the axis."""
+
+    name: str
+    layer: str
+    outline: Contour | Circle
+    holes: tuple[Contour | Circle, ...]
+    low: float
+    high: float
+
+    @property
+    def thickness(self) -> float:
+        """Along the axis."""
+        return self.high - self.low
+
+    @property
+    def moments(self) -> Moments:
+        """Of its face: area, first moments and polar moment about the origin.
+
+        >>> from geneva_cli.curves.shapes import Circle
+        >>> washer = Plate(
+        ...     "washer", "CRANK", Circle("", (0, 0), 5.0), (Circle("", (0, 0), 3.0),), 0.0, 2.0
+        ... )
+        >>> washer.moments.area / 3.141592653589793
+        16.0
+        """
+        return _counterclockwise(self.outline).less(total(map(_counterclockwise, self.holes)))
+
+
+class Group(NamedTuple):
+    """Parts put together: each turned about its own origin, and then moved."""
+
+    name: str
+    members: tuple[Member, ...]
+
+
+class Member(NamedTuple):
+    """One of a group's parts and where it is."""
+
+    part: Part
+    at: Point = (0.0, 0.0)
+    turn: float = 0.0  # counterclockwise
+
+
+Part: TypeAlias = Plate | Group
+
+
+class Body(NamedTuple):
+    """What a plate weighs, where, and its inertia about its own origin along the axis."""
+
+    mass_kg: float
+    centroid_mm: Point
+    inertia_kgm2: float
+
+
+def body(plate: Plate, density_kgm3: float) -> Body:
+    """Mass, centroid and inertia J = rho h Ip of a plate.
+
+    >>> from geneva_cli.curves.shapes import Circle
+    >>> disc = Plate("disc", "CRANK", Circle("", (0, 0), 50.0), (), 0.0, 10.0)
+    >>> steel = body(disc, 7850.0)
+    >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
+    0.5
+    """
+    face = plate.moments
+    per = density_kgm3 * plate.thickness * MM
+    return Body(per * face.area * MM**2, face.centroid, per * face.polar * MM**4)
+
+
+def with_material_left(shape: Contour, outside: bool) -> Contour:
+    """A contour that runs counterclockwise as an outline, and clockwise as a hole."""
+    return shape if (area(shape) > 0.0) is outside else backwards(shape)
+
+
+def _counterclockwise(shape: Contour | Circle) -> Moments:
+    return moments(shape if isinstance(shape, Circle) else with_material_left(shape, True))

@@ -1,0 +1,42 @@
+"""STEP AP214 (ISO 10303-214): the parts of a drawing as closed solids, with names and colours.
+
+The same bytes on every run: the time stamp that the standard asks for is always the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.curves.shapes import Drawing
+from geneva_cli.errors import GenevaError, clean
+from geneva_cli.output.step.entities import Entities, words
+from geneva_cli.output.step.product import Products
+
+STAMP = "1970-01-01T00:00:00"
+BLOCK = 1024  # lines at a time
+
+
+def chunks(drawing: Drawing, units: str) -> Iterator[str]:
+    """The file's text.
+
+    Raises GenevaError for a drawing without solids, another unit than mm, or a coordinate that is
+    not finite.
+    """
+    if drawing.solid is None:
+        raise GenevaError(
+            "no solid to write as STEP: --part wheel, crank, arm and assembly are solids, in "
+            "their own size; other drawings are .dxf or .svg"
+        )
+    if units != "mm":
+        raise GenevaError("--units: a STEP file is in mm, and says so to the program that reads it")
+    file = Entities()
+    Products(file, drawing.solid)
+    yield (
+        "ISO-10303-21;\nHEADER;\n"
+        f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"
+        f"FILE_NAME('','{STAMP}',(''),(''),'','geneva','');\n"
+        "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 3 1 1 }'));\nENDSEC;\nDATA;\n"
+    )
+    for start in range(0, len(file.lines), BLOCK):
+        yield "".join(file.lines[start : start + BLOCK])
+    yield "ENDSEC;\nEND-ISO-10303-21;\n"

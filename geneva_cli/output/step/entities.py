@@ -1,0 +1,74 @@
+"""Instances of a STEP file (ISO 10303-21): numbers, texts, points, directions and placements."""
+
+from __future__ import annotations
+
+from geneva_cli.curves.shapes import Point
+
+LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a float has
+SHARE = 16  # decimals of directions, which act through a length
+
+
+class Entities:
+    """The lines of a data section, in which an instance refers to others by their ``#numbers``."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self._shared: dict[str, str] = {}
+        self.up = self.direction(0.0, 0.0, 1.0)
+        self.ahead = self.direction(1.0, 0.0, 0.0)
+        self.rise = self.shared(f"VECTOR('',{self.up},1.)")
+        self.origin = self.placement((0.0, 0.0), 0.0)
+
+    def add(self, text: str) -> str:
+        """A new instance's number."""
+        number = f"#{len(self.lines) + 1}"
+        self.lines.append(f"{number}={text};\n")
+        return number
+
+    def shared(self, text: str) -> str:
+        """The number of an instance that is written once, however often it is asked for.
+
+        For geometry alone: two solids may touch, and have no edge in common all the same.
+        """
+        found = self._shared.get(text)
+        if found is None:
+            found = self._shared[text] = self.add(text)
+        return found
+
+    def point(self, at: Point, z: float) -> str:
+        """A point at a height."""
+        place = ",".join(real(value, LENGTH) for value in (*at, z))
+        return self.shared(f"CARTESIAN_POINT('',({place}))")
+
+    def direction(self, x: float, y: float, z: float = 0.0) -> str:
+        """A unit vector."""
+        return self.shared(f"DIRECTION('',({real(x, SHARE)},{real(y, SHARE)},{real(z, SHARE)}))")
+
+    def placement(self, at: Point, z: float, axis: str = "", ahead: str = "") -> str:
+        """A frame at a point: its axis, up, and its x, ahead, unless others are given."""
+        point = self.point(at, z)
+        return self.shared(
+            f"AXIS2_PLACEMENT_3D('',{point},{axis or self.up},{ahead or self.ahead})"
+        )
+
+
+def real(value: float, decimals: int = LENGTH) -> str:
+    """A number as the format has it, with a point and without an exponent."""
+    text = f"{value:.{decimals}f}".rstrip("0")
+    return text if text != "-0." else "0."
+
+
+def listed(numbers: list[str]) -> str:
+    """Instances as a list."""
+    return f"({','.join(numbers)})"
+
+
+def words(text: str) -> str:
+    """A text in quotation marks; letters that ASCII does not have by their code points."""
+    out = ""
+    for c in text:
+        if " " <= c <= "~":
+            out += {"'": "''", "\\": "\\\\"}.get(c, c)
+        else:
+            out += f"\\X2\\{ord(c):04X}\\X0\\" if c < "\U00010000" else f"\\X4\\{ord(c):08X}\\X0\\"
+    return f"'{out}'"

@@ -1,0 +1,166 @@
+"""A plate as a closed solid: planes, cylinders and drawn-out cubics between its two faces.
+
+All contours run with the material on their left. Then, seen from outside, each wall is bounded
+counterclockwise by the lower edge, up at its end, the upper edge back, and down at its start.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.curves.pieces import prepared
+from geneva_cli.curves.plates import Plate, with_material_left
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Segment
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.step.entities import Entities, listed, real
+
+
+class Wall(NamedTuple):
+    """The face over one piece of a contour, and its edges in the plate's lower and upper face."""
+
+    face: str
+    low: str
+    high: str
+    along: bool  # whether the edges run as the contour does
+
+
+class Place(NamedTuple):
+    """A corner of a contour: its lower and upper vertex, and the edge between them."""
+
+    low: str
+    high: str
+    edge: str
+
+
+def solid(file: Entities, plate: Plate) -> str:
+    """The number of the plate's MANIFOLD_SOLID_BREP.
+
+    Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
+    """
+    if not plate.thickness > 0.0:
+        raise GenevaError(f"{plate.name}: a solid must be thick, not {plate.thickness:g} mm")
+    faces, lower, upper = [], [], []
+    outside = True
+    for shape in _cleaned(plate):
+        walls = (
+            [_round(file, plate, shape, outside)]
+            if isinstance(shape, Circle)
+            else _walls(file, plate, with_material_left(shape, outside))
+        )
+        faces += [wall.face for wall in walls]
+        lower.append(_loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
+        upper.append(_loop(file, [(wall.high, wall.along) for wall in walls]))
+        outside = False
+    faces.append(_face(file, lower, _level(file, plate.low), False))
+    faces.append(_face(file, upper, _level(file, plate.high), True))
+    shell = file.add(f"CLOSED_SHELL('',{listed(faces)})")
+    return file.add(f"MANIFOLD_SOLID_BREP('',{shell})")
+
+
+def _cleaned(plate: Plate) -> tuple[Contour | Circle, ...]:
+    """Its outline and holes without pieces that no file shows."""
+    return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
+
+
+def _level(file: Entities, z: float) -> str:
+    return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
+
+
+def _walls(file: Entities, plate: Plate, contour: Contour) -> list[Wall]:
+    places = [_place(file, plate, segment.start) for segment in contour.segments]
+    pairs = zip(places, [*places[1:], places[0]], strict=True)
+    return [
+        _wall(file, plate, segment, *ends)
+        for segment, ends in zip(contour.segments, pairs, strict=True)
+    ]
+
+
+def _place(file: Entities, plate: Plate, at: Point) -> Place:
+    points = [file.point(at, z) for z in (plate.low, plate.high)]
+    low, high = (file.add(f"VERTEX_POINT('',{point})") for point in points)
+    return Place(low, high, _edge(file, low, high, f"LINE('',{points[0]},{file.rise})", True))
+
+
+def _wall(file: Entities, plate: Plate, segment: Segment, start: Place, end: Place) -> Wall:
+    curves = [_curve(file, segment, z) for z in (plate.low, plate.high)]
+    along = not isinstance(segment, Arc) or segment.bulge > 0.0
+    low = _edge(file, start.low, end.low, curves[0], along)
+    high = _edge(file, start.high, end.high, curves[1], along)
+    loop = _loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
+    # a cylinder's own normal leads away from its axis, and that of the rest to the right
+    face = _face(file, [loop], _surface(file, segment, plate.low), along)
+    return Wall(face, low, high, True)
+
+
+def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> Wall:
+    """The wall of a whole circle, cut open along a seam."""
+    (x, y), r = circle.centre, circle.radius
+    seam = _place(file, plate, (x + r, y))
+    low, high = (
+        _edge(file, vertex, vertex, _circle(file, circle.centre, r, z), True)
+        for vertex, z in ((seam.low, plate.low), (seam.high, plate.high))
+    )
+    sides = [(low, outside), (seam.edge, True), (high, not outside), (seam.edge, False)]
+    surface = _cylinder(file, circle.centre, r, plate.low)
+    return Wall(_face(file, [_loop(file, sides)], surface, outside), low, high, outside)
+
+
+def _curve(file: Entities, segment: Segment, z: float) -> str:
+    """The text of the curve that a segment is on."""
+    if isinstance(segment, Line):
+        vector = file.shared(f"VECTOR('',{file.direction(*_way(segment))},1.)")
+        return f"LINE('',{file.point(segment.start, z)},{vector})"
+    if isinstance(segment, Arc):
+        return _circle(file, segment.centre, segment.radius, z)
+    poles = listed([file.point(p, z) for p in segment])
+    return (
+        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{poles},.UNSPECIFIED.,.F.,.F.,(4,4),(0.,1.),.UNSPECIFIED.)"
+    )
+
+
+def _surface(file: Entities, segment: Segment, z: float) -> str:
+    """The surface over a segment."""
+    if isinstance(segment, Line):
+        x, y = _way(segment)
+        axis, ahead = file.direction(y, -x), file.direction(x, y)
+        return file.add(f"PLANE('',{file.placement(segment.start, z, axis, ahead)})")
+    if isinstance(segment, Arc):
+        return _cylinder(file, segment.centre, segment.radius, z)
+    curve = file.shared(_curve(file, segment, z))
+    return file.add(f"SURFACE_OF_LINEAR_EXTRUSION('',{curve},{file.rise})")
+
+
+def _way(line: Line) -> Point:
+    (x0, y0), (x1, y1) = line
+    length = math.dist(line.start, line.end)
+    return (x1 - x0) / length, (y1 - y0) / length
+
+
+def _circle(file: Entities, centre: Point, radius: float, z: float) -> str:
+    return f"CIRCLE('',{file.placement(centre, z)},{real(radius)})"
+
+
+def _cylinder(file: Entities, centre: Point, radius: float, z: float) -> str:
+    return file.add(f"CYLINDRICAL_SURFACE('',{file.placement(centre, z)},{real(radius)})")
+
+
+def _edge(file: Entities, start: str, end: str, curve: str, along: bool) -> str:
+    return file.add(f"EDGE_CURVE('',{start},{end},{file.shared(curve)},{_flag(along)})")
+
+
+def _loop(file: Entities, edges: list[tuple[str, bool]]) -> str:
+    sides = [file.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
+    return file.add(f"EDGE_LOOP('',{listed(sides)})")
+
+
+def _face(file: Entities, loops: list[str], surface: str, same: bool) -> str:
+    """A face on a surface, whose normal is the face's own where it is the ``same``."""
+    first, *inner = loops
+    bounds = [file.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
+    bounds += [file.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]
+    return file.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
+
+
+def _flag(value: bool) -> str:
+    return ".T." if value else ".F."

@@ -1,0 +1,85 @@
+"""Wheel and crank as solids: their outlines drawn out along the axis.
+
+The wheel stands on the plane z = 0; the arm is below it, and carries the locking disc and the pins.
+"""
+
+from __future__ import annotations
+
+from geneva_cli.curves.plates import Body, Group, Member, Plate, body
+from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.parts.arm import CrankArm, bolts
+from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.wheel import wheel_circles
+
+
+def wheel_plate(found: Outlines, contour: Contour) -> Plate:
+    """The wheel with its contour as it is drawn; inside, that is the opening in its disc."""
+    circles = wheel_circles(found.plane, found.sizes)
+    bores = [circle for circle in circles if circle.layer == "BORE"]
+    outside = [circle for circle in circles if circle.layer != "BORE"]
+    outline, *openings = [*outside, contour]
+    high = found.sizes.wheel_thickness
+    return Plate("wheel", contour.layer, outline, (*openings, *bores), 0.0, high)
+
+
+def wheel_body(found: Outlines) -> Body | None:
+    """The wheel's mass and inertia about its axis, hubs left out; None where no thickness is given.
+
+    J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem.
+    """
+    spec = found.plane.mechanism.spec
+    if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
+        return None
+    return body(wheel_plate(found, found.wheel), spec.material_wheel.density_kgm3)
+
+
+def arm_plate(found: Outlines, arm: CrankArm) -> Plate:
+    """The crank arm below the wheel, ``pin_gap_mm`` from it."""
+    high = -found.plane.mechanism.spec.size.pin_gap_mm
+    holes = (arm.bore, *arm.pins, *arm.bolts)
+    low = high - found.sizes.arm_thickness
+    return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
+
+
+def crank_group(found: Outlines, arm: CrankArm | None = None) -> Group:
+    """What the crank carries: locking disc or sectors, rollers, their pins; and the arm, if given.
+
+    A bore is a hole in the disc, and nothing where none is left about the axis.
+    """
+    plane, sizes = found.plane, found.sizes
+    low = -plane.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
+    whole = is_whole(plane, sizes)
+    bores = [c for c in crank_circles(plane, sizes) if c.layer == "BORE" and whole]
+    screwed = bolts(found)
+    each = len(screwed) // max(1, len(found.crank))
+    name = "locking disc" if whole else "locking sector"
+    plates = [
+        Plate(
+            name,
+            contour.layer,
+            contour,
+            (*bores, *screwed[k * each : (k + 1) * each]),
+            low,
+            low + sizes.lock_thickness,
+        )
+        for k, contour in enumerate(found.crank)
+    ]
+    plates += [arm_plate(found, arm)] if arm else []
+    members = [Member(plate) for plate in plates]
+    round_ = _rollers(found, low - (sizes.arm_thickness if arm else 0.0))
+    members += [Member(plate, axis) for axis in roller_centres(plane) for plate in round_]
+    return Group("crank", tuple(members))
+
+
+def _rollers(found: Outlines, low: float) -> list[Plate]:
+    """A roller as thick as the wheel, and its pin from ``low`` up."""
+    sizes, layer, at = found.sizes, "ROLLER", (0.0, 0.0)
+    outline, high = Circle(layer, at, sizes.roller), sizes.wheel_thickness
+    if not sizes.pin:
+        return [Plate("roller", layer, outline, (), 0.0, high)]
+    pin = Circle(layer, at, sizes.pin)
+    return [
+        Plate("roller", layer, outline, (pin,), 0.0, high),
+        Plate("pin", layer, pin, (), low, high),
+    ]

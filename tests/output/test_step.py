@@ -1,0 +1,285 @@
+"""STEP files, read back by ``step_witness``: closed, the way round, as large as their outlines.
+
+`tests/stress/solids_in_cad.py` has a CAD kernel read them.
+"""
+
+import math
+import re
+import time
+
+import pytest
+import repo
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from step_witness import File, Solid
+
+from geneva_cli import Design, External, Size
+from geneva_cli.curves.measure import area
+from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, backwards, closed
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.inks import INKS
+from geneva_cli.output.step import chunks
+from geneva_cli.output.step.entities import real, words
+
+# Relative. Coordinates have 12 decimals: of parts of 100 mm, 14 digits, and sums of areas lose one.
+VOLUME = 1e-12
+NEAR = 1e-10  # mm: of a flat arc's centre, 1e5 mm off, a double holds 1.5e-11
+SQUARE = closed(
+    "WHEEL",
+    [
+        Line((0.0, 0.0), (40.0, 0.0)),
+        Arc((40.0, 0.0), (40.0, 30.0), 0.4),
+        Cubic((40.0, 30.0), (30.0, 36.0), (10.0, 18.0), (0.0, 30.0)),
+        Arc((0.0, 30.0), (0.0, 0.0), -0.2),
+    ],
+)
+HOLES = (
+    Circle("BORE", (20.0, 15.0), 4.0),
+    closed("WHEEL", [Arc((8.0, 10.0), (12.0, 10.0), 1.0), Arc((12.0, 10.0), (8.0, 10.0), 0.5)]),
+)
+
+
+def text(part, title=""):
+    return "".join(chunks(Drawing(title, (), solid=part), "mm"))
+
+
+def plates(part):
+    """Plates that differ, in the order in which they are first met."""
+    if isinstance(part, Plate):
+        return [part]
+    found = [plate for member in part.members for plate in plates(member.part)]
+    return list(dict.fromkeys(found))
+
+
+def require_solid(file, number, plate):
+    """Closed, with a handle for each hole, and as large as the outline less its holes."""
+    solid = Solid(file, number)
+    assert solid.euler == 2 * (1 - len(plate.holes))
+    face = abs(area(plate.outline)) - sum(abs(area(hole)) for hole in plate.holes)
+    for volume in solid.volumes():
+        assert volume == pytest.approx(face * (plate.high - plate.low), rel=VOLUME)
+    assert solid.off < NEAR
+
+
+@pytest.mark.parametrize("turn", [False, True])
+@pytest.mark.parametrize("holes", [(), HOLES[:1], HOLES])
+@pytest.mark.parametrize(("low", "high"), [(0.0, 12.0), (-3.5, 0.25)])
+def test_any_outline_is_a_closed_solid(turn, holes, low, high):
+    """Whichever way the contours run."""
+    outline = backwards(SQUARE) if turn else SQUARE
+    holes = [backwards(h) if turn and isinstance(h, Contour) else h for h in holes]
+    plate = Plate("plate", "WHEEL", outline, tuple(holes), low, high)
+    file = File(text(plate))
+    (body,) = file.all("MANIFOLD_SOLID_BREP")
+    require_solid(file, body, plate)
+
+
+@settings(max_examples=30, deadline=None, derandomize=True)
+@given(
+    st.lists(st.tuples(st.floats(5.0, 60.0), st.floats(-0.3, 0.9)), min_size=3, max_size=12),
+    st.floats(0.01, 300.0),
+)
+def test_random_outlines(corners, thickness):
+    count = len(corners)
+    at = [
+        (r * math.cos(math.tau * i / count), r * math.sin(math.tau * i / count))
+        for i, (r, _) in enumerate(corners)
+    ]
+    pairs = zip(at, [*at[1:], at[0]], corners, strict=True)
+    pieces = [Arc(p, q, b) if abs(b) > 0.01 else Line(p, q) for p, q, (_, b) in pairs]
+    plate = Plate("plate", "WHEEL", closed("WHEEL", pieces), (), 0.0, thickness)
+    if area(plate.outline) < 100.0:
+        return  # crosses itself, or nearly
+    file = File(text(plate))
+    (body,) = file.all("MANIFOLD_SOLID_BREP")
+    solid = Solid(file, body)
+    assert solid.euler == 2
+    for volume in solid.volumes():
+        assert volume == pytest.approx(area(plate.outline) * thickness, rel=VOLUME)
+
+
+@pytest.mark.parametrize("curves", ["arcs", "spline"])
+@pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])
+def test_machines(name, curves):
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    proof = design.drawn(0.01)
+    for part in ("wheel", "crank", "arm", "assembly"):
+        drawing = design.drawing(part, 0.01, curves, proof)
+        file = File("".join(chunks(drawing, "mm")))
+        bodies, wanted = file.all("MANIFOLD_SOLID_BREP"), plates(drawing.solid)
+        assert len(bodies) == len(wanted)
+        for body, plate in zip(bodies, wanted, strict=True):
+            require_solid(file, body, plate)
+
+
+def tree(file):
+    """An assembly as the file has it: who uses whom, under what name and where."""
+    shapes = {}
+    for number in file.all("SHAPE_DEFINITION_REPRESENTATION"):
+        defined, shape = file.values(number)
+        shapes[shape] = file.values(defined)[2]
+    names = {}
+    for number in file.all("PRODUCT_DEFINITION"):
+        formation = file.values(number)[2]
+        names[number] = file.values(file.values(formation)[2])[0]
+    out = []
+    for number in file.all("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"):
+        related, used = file.values(number)
+        parts = dict(file.of[related][1])
+        part, whole = parts["REPRESENTATION_RELATIONSHIP"][2:]
+        (moved,) = parts["REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION"]
+        use = file.values(used)[2]
+        _, name, _, user, one, _ = file.values(use, "NEXT_ASSEMBLY_USAGE_OCCURRENCE")
+        assert (shapes[part], shapes[whole]) == (one, user)
+        start, end = file.values(moved)[2:]
+        assert file.frame(start) == ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+        assert end in file.values(whole)[1]  # the place is one of the assembly's own items
+        origin, axis, ahead = file.frame(end)
+        assert axis == (0.0, 0.0, 1.0)
+        out.append((names[user], name, origin[:2], math.atan2(ahead[1], ahead[0])))
+    return out
+
+
+def test_the_machine_is_an_assembly_at_input_angle_0():
+    design = Design(External(6), title="Machine")
+    file = File("".join(chunks(design.drawing("assembly"), "mm")))
+    found = {name: (user, at, turn) for user, name, at, turn in tree(file)}
+    assert found["wheel"] == ("Machine", (0.0, 0.0), 0.0)
+    # the crank is in its own frame, its roller ahead: that points at the wheel's axis
+    user, at, turn = found["crank"]
+    assert (user, at, abs(turn)) == ("Machine", (100.0, 0.0), pytest.approx(math.pi, abs=1e-15))
+    assert found["locking disc"] == ("crank", (0.0, 0.0), 0.0)
+    assert found["roller"] == ("crank", (pytest.approx(50.0), 0.0), 0.0)
+
+
+def test_like_parts_are_one_product():
+    design = load(str(repo.DESIGNS / "three-rollers-z4.toml"))
+    file = File("".join(chunks(design.drawing("crank"), "mm")))
+    assert len(file.all("PRODUCT")) == 4  # crank, disc, roller, pin
+    uses = [name for _, name, _, _ in tree(file)]
+    assert sorted(uses) == ["locking disc", *["pin"] * 3, *["roller"] * 3]
+
+
+def test_colours():
+    file = File("".join(chunks(Design(External(6)).drawing("assembly"), "mm")))
+    styled = [file.values(number) for number in file.all("STYLED_ITEM")]
+    assert [body for _, _, body in styled] == file.all("MANIFOLD_SOLID_BREP")
+    found = []
+    for _, (style,), _ in styled:
+        value = style
+        while file.of[value][0] != "COLOUR_RGB":
+            (value,) = [v for v in flat(file.values(value)) if type(v) is not str]
+        found.append("#" + "".join(f"{round(255 * c):02x}" for c in file.values(value)[1:]))
+    assert found == [INKS[layer].rgb for layer in ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER")]
+
+
+def flat(values):
+    for value in values:
+        if isinstance(value, list):
+            yield from flat(value)
+        else:
+            yield value
+
+
+def test_thickness():
+    """Of the wheel: its key, the line of contact, or a tenth of L; of the disc, its key or that."""
+    for size, wheel, lock in (
+        (Size(), 10.0, 10.0),
+        (Size(face_width_mm=12.0, pin_gap_mm=1.0), 12.0, 13.0),
+        (Size(face_width_mm=12.0, wheel_thickness_mm=15.0, lock_thickness_mm=8.0), 15.0, 8.0),
+    ):
+        solid = Design(External(6), size=size).drawing("assembly").solid
+        tall = {plate.name: plate.high - plate.low for plate in plates(solid)}
+        gap = size.pin_gap_mm
+        pin = {"arm": wheel, "pin": 2.0 * wheel + gap}  # through the arm, to the roller's end
+        assert tall == {"wheel": wheel, "locking disc": lock, "roller": wheel} | pin
+        (arm,) = (plate for plate in plates(solid) if plate.name == "arm")
+        assert arm.high == -gap
+
+
+@pytest.mark.parametrize("name", ["three-rollers-z4", "internal-z6"])
+def test_bolts_and_keyway_are_holes(name):
+    design = load(str(repo.DESIGNS / f"{name}.toml"), ["size.lock_bolts=2"])
+    if name != "internal-z6":  # no shaft passes through its disc
+        design = design.with_("size.crank_keyway", "DIN 6885-1")
+    file = File("".join(chunks(design.drawing("assembly"), "mm")))
+    wanted = plates(design.drawing("assembly").solid)
+    for body, plate in zip(file.all("MANIFOLD_SOLID_BREP"), wanted, strict=True):
+        require_solid(file, body, plate)
+    (disc,) = (plate for plate in wanted if plate.layer == "CRANK")
+    assert len(disc.holes) == (2 if name == "internal-z6" else 7)  # of three sectors, and the bore
+
+
+def test_a_wheel_thinner_than_its_line_of_contact_is_refused():
+    size = Size(face_width_mm=12.0, wheel_thickness_mm=10.0)
+    with pytest.raises(GenevaError, match="it must be at least face_width_mm = 12"):
+        Design(External(6), size=size).mechanism  # noqa: B018
+
+
+def test_small_and_quick():
+    """A wheel: at most 60 kB, 30 ms (the least of some runs, of the processor)."""
+    drawing = Design(External(6)).drawing("wheel")
+    took = []
+    for _ in range(5):
+        start = time.process_time()
+        written = "".join(chunks(drawing, "mm"))
+        took.append(time.process_time() - start)
+    assert len(written) < 60_000
+    assert min(took) < 0.03
+
+
+def test_nothing_of_the_day_or_place():
+    drawing = Design(External(6)).drawing("wheel")
+    written = "".join(chunks(drawing, "mm"))
+    assert written == "".join(chunks(drawing, "mm"))
+    (stamp,) = re.findall(r"\d{4}-\d\d-\d\dT[\d:]+", written)
+    assert stamp == "1970-01-01T00:00:00"
+
+
+def test_titles_in_any_script():
+    title = "Tür 'a' \\ Ω 😀"
+    part = Group(title, (Member(Plate("p", "CRANK", HOLES[0], (), 0.0, 1.0)),))
+    written = text(part, title)
+    assert written.isascii()
+    assert "'T\\X2\\00FC\\X0\\r ''a'' \\\\ \\X2\\03A9\\X0\\ \\X4\\0001F600\\X0\\'" in written
+    assert words("a") == "'a'"
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [(0.0, "0."), (-1e-17, "0."), (1.0, "1."), (-0.5, "-0.5"), (1e-7, "0.0000001")],
+)
+def test_numbers_have_a_point_and_no_exponent(value, said):
+    assert real(value) == said
+
+
+@pytest.mark.parametrize(
+    ("drawing", "units", "said"),
+    [
+        (Drawing("", (SQUARE,)), "mm", "no solid"),
+        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 0.0, 1.0)), "inch", "in mm"),
+        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 1.0, 1.0)), "mm", "must be thick"),
+    ],
+)
+def test_refused(drawing, units, said):
+    with pytest.raises(GenevaError, match=said):
+        list(chunks(drawing, units))
+
+
+@pytest.mark.parametrize(
+    ("was", "instead"),
+    [
+        (".F.);", ".T.);"),  # a face, an edge the other way round
+        ("(40.,30.,12.)", "(40.,31.,12.)"),
+        ("EDGE_LOOP('',(#", "EDGE_LOOP('',(#1"),
+    ],
+)
+def test_a_fault_would_be_noticed(was, instead):
+    plate = Plate("plate", "WHEEL", SQUARE, HOLES, 0.0, 12.0)
+    written = text(plate)
+    assert was in written
+    with pytest.raises((AssertionError, KeyError, ValueError)):
+        file = File(written.replace(was, instead, 1))
+        require_solid(file, *file.all("MANIFOLD_SOLID_BREP"), plate)

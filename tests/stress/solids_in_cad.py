@@ -1,0 +1,221 @@
+"""Every design's STEP files read by a CAD kernel, OpenCASCADE: `tests/stress/solids_in_cad.py`.
+
+Each solid must be valid and closed, with the name, colour, volume, centroid and inertia that it
+has in closed form; an assembly's parts must stand where the drawing has them. `--pictures DIR` also
+draws each file from three sides. `make cad` runs it, two minutes,
+and installs the kernel (0.5 GB).
+"""
+
+import argparse
+import math
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import repo
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from OCP.BRep import BRep_Tool
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepGProp import BRepGProp
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
+from OCP.collections import Sequence_TDF_Label
+from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
+from OCP.GProp import GProp_GProps
+from OCP.Quantity import Quantity_Color
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_FACE, TopAbs_Orientation, TopAbs_SOLID
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS
+from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
+
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Plate
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.inks import INKS
+from geneva_cli.output.step import chunks
+
+PARTS = ("wheel", "crank", "assembly")  # which has the arm
+SAME = 1e-12  # relative: the kernel integrates over faces by Gauss's points, to rounding
+
+
+def placed(part, x=0.0, y=0.0, turn=0.0):
+    """Each plate with where its origin is and how it is turned."""
+    if isinstance(part, Plate):
+        yield part, x, y, turn
+        return
+    c, s = math.cos(turn), math.sin(turn)
+    for member in part.members:
+        a, b = member.at
+        yield from placed(member.part, x + c * a - s * b, y + s * a + c * b, turn + member.turn)
+
+
+def read(path):
+    """Solids in a file, each with its name and colour and at its place."""
+    document = TDocStd_Document(TCollection_ExtendedString("step"))
+    reader = STEPCAFControl_Reader()
+    reader.SetColorMode(True)
+    reader.SetNameMode(True)
+    reader.ReadFile(str(path))
+    assert reader.Transfer(document)
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    free = Sequence_TDF_Label()
+    shapes.GetFreeShapes(free)
+    assert free.Length() == 1
+    return list(solids(shapes, colours, free.Value(1), TopLoc_Location()))
+
+
+def solids(shapes, colours, label, location):
+    if shapes.IsAssembly_s(label):
+        members = Sequence_TDF_Label()
+        shapes.GetComponents_s(label, members)
+        for i in range(1, members.Length() + 1):
+            member, whole = members.Value(i), TDF_Label()
+            assert shapes.GetReferredShape_s(member, whole)
+            at = location.Multiplied(shapes.GetLocation_s(member))
+            yield from solids(shapes, colours, whole, at)
+        return
+    shape = shapes.GetShape_s(label)
+    found = TopExp_Explorer(shape, TopAbs_SOLID)
+    body = found.Current()
+    found.Next()
+    assert not found.More(), "a product is one solid"
+    colour = Quantity_Color()
+    assert any(
+        colours.GetColor(shape if whole else body, XCAFDoc_ColorType.XCAFDoc_ColorSurf, colour)
+        for whole in (True, False)
+    )
+    yield name_of(label), colour, body.Moved(location)
+
+
+def name_of(label):
+    name = TDataStd_Name()
+    assert label.FindAttribute(TDataStd_Name.GetID_s(), name)
+    return name.Get().ToExtString()
+
+
+def differs(plate, x, y, turn, name, colour, body):
+    """The greatest relative error of volume, centroid and inertia; raises where more is wrong."""
+    assert name == plate.name, name
+    srgb = "#" + "".join(
+        f"{round(255 * _srgb(c)):02x}" for c in (colour.Red(), colour.Green(), colour.Blue())
+    )
+    assert srgb == INKS[plate.layer].rgb, srgb
+    assert BRepCheck_Analyzer(body).IsValid()
+    found = GProp_GProps()
+    BRepGProp.VolumeProperties_s(body, found)
+    face, h = plate.moments, plate.thickness
+    c, s = math.cos(turn), math.sin(turn)
+    cx, cy = face.centroid
+    wanted = (x + c * cx - s * cy, y + s * cx + c * cy, 0.5 * (plate.low + plate.high))
+    centre = found.CentreOfMass()
+    inertia = found.MomentOfInertia(gp_Ax1(gp_Pnt(x, y, 0.0), gp_Dir(0.0, 0.0, 1.0)))
+    box = bounds(plate.outline)
+    reach = max(map(abs, box)) + math.hypot(x, y)
+    return (
+        abs(found.Mass() / (face.area * h) - 1.0),
+        math.dist((centre.X(), centre.Y(), centre.Z()), wanted) / reach,
+        abs(inertia / (face.polar * h) - 1.0),
+    )
+
+
+def _srgb(linear):
+    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+
+
+def picture(path, found, reach):
+    """The solids from three sides, as triangles within a hundredth of their size."""
+    figure = plt.figure(figsize=(15, 5))
+    for number, (up, round_) in enumerate(((90, -90), (30, -60), (-30, 120)), 1):
+        axes = figure.add_subplot(1, 3, number, projection="3d", proj_type="ortho")
+        corners = []
+        for _, colour, body in found:
+            mesh = np.array(list(triangles(body, reach)))
+            rgb = [_srgb(c) for c in (colour.Red(), colour.Green(), colour.Blue())]
+            axes.add_collection3d(Poly3DCollection(mesh, facecolors=rgb, shade=True))
+            corners.append(mesh.reshape(-1, 3))
+        axes.auto_scale_xyz(*np.concatenate(corners).T)
+        axes.set_aspect("equal")
+        axes.view_init(up, round_)
+        axes.set_axis_off()
+    figure.tight_layout()
+    figure.savefig(path, dpi=60)
+    plt.close(figure)
+
+
+def triangles(body, reach):
+    BRepMesh_IncrementalMesh(body, 2e-3 * reach, False, 0.2)
+    faces = TopExp_Explorer(body, TopAbs_FACE)
+    while faces.More():
+        face, location = TopoDS.Face(faces.Current()), TopLoc_Location()
+        mesh = BRep_Tool.Triangulation_s(face, location)
+        move = location.Transformation()
+        points = [mesh.Node(i).Transformed(move) for i in range(1, mesh.NbNodes() + 1)]
+        for i in range(1, mesh.NbTriangles() + 1):
+            corners = [points[k - 1] for k in mesh.Triangle(i).Get()]
+            if face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED:
+                corners.reverse()
+            yield [(p.X(), p.Y(), p.Z()) for p in corners]
+        faces.Next()
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--pictures", metavar="DIR")
+    parser.add_argument("--designs", nargs="*")
+    given = parser.parse_args()
+    paths = given.designs or sorted(map(str, (repo.ROOT / "designs").glob("*.toml")))
+    bad = 0
+    for path in paths:
+        name = Path(path).stem
+        try:
+            design = load(path)
+            proof = design.drawn(0.001)
+        except GenevaError as error:
+            print(f"{name:24} {str(error).partition(': ')[2][:70]}")
+            continue
+        for part in PARTS:
+            for curves in ("arcs", "spline"):
+                bad += not one(design, proof, name, part, curves, given.pictures)
+    return 1 if bad else 0
+
+
+def one(design, proof, name, part, curves, pictures):
+    drawing = design.drawing(part, 0.001, curves, proof)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "part.step"
+        path.write_text("".join(chunks(drawing, "mm")), encoding="ascii")
+        found, size = read(path), os.path.getsize(path)
+    wanted = list(placed(drawing.solid))
+    assert len(found) == len(wanted)
+    worst = [
+        max(errors)
+        for errors in zip(
+            *(differs(*plate, *body) for plate, body in zip(wanted, found, strict=True)),
+            strict=True,
+        )
+    ]
+    good = max(worst) < SAME
+    numbers = "  ".join(f"{error:.1e}" for error in worst)
+    print(
+        f"{name:24} {part:8} {curves:6} {len(found):3} solids {size / 1000:6.1f} kB  {numbers}"
+        f"{'' if good else '  BAD'}",
+        flush=True,
+    )
+    if pictures and curves == "arcs":
+        reach = max(abs(v) for plate, *_ in wanted for v in bounds(plate.outline))
+        picture(Path(pictures) / f"{name}-{part}.png", found, reach)
+    return good
+
+
+if __name__ == "__main__":
+    sys.exit(main())
