@@ -18,6 +18,7 @@ UNITS = {
     "_kgm2": "kg m²",
     "_kgm3": "kg/m³",
     "_Nm_rad": "N m/rad",
+    "_mm3_Nm": "mm³/(N m)",
     "_W_m2": "W/m²",
     "_mm": "mm",
     "_deg": "deg",
@@ -70,7 +71,7 @@ def about(word: str) -> list[Key]:
         known = {_bare(k) for k in found} | {k.key for k in found}
         whole = {f"{_bare(k)}.{k.key}" for k in found}
         raise GenevaError(
-            f"{cut(word)}: no table or key of a spec{nearest(word, sorted(known | whole))}; "
+            f'"{cut(word)}" is no table or key of a spec{nearest(word, sorted(known | whole))}; '
             "`geneva keys` lists all"
         )
     return some

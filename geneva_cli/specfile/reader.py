@@ -65,7 +65,7 @@ def read(path: str, given: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, where it cannot be read.
     """
-    name = "<stdin>" if path == "-" else path
+    name = "<stdin>" if path == "-" else path if path.strip() else repr(path)
     return Text(name, _read(path, name), settings(given))
 
 

@@ -276,6 +276,7 @@ def test_unusual_but_right(text):
 
 def test_no_file():
     refused(run("peaks", "gone.toml"), "No such file", "geneva new", place="gone.toml: ")
+    refused(run("peaks", ""), "No such file", place="'': ")
 
 
 def test_folder():

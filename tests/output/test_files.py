@@ -287,10 +287,10 @@ def test_closed_streams(closed, arguments):
 
 def test_ascii_terminal():
     """A title in any script, on a system that knows only ASCII, is no reason to fail."""
-    put("spec.toml", 'title = "Größe 六"\n[wheel]\nz = 6\n')
+    put("spec.toml", 'title = "Größe 六"\n' + ANSWERED)
     ascii_only = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     for command in titled():
-        found = geneva(command, "spec.toml", env=ascii_only)
+        found = geneva(command, "spec.toml", *more(command), env=ascii_only)
         assert "Traceback" not in found.stderr
         assert found.returncode in (0, 1)
 
@@ -388,17 +388,43 @@ HOSTILE = [
 
 def titled():
     """The commands that read a spec and print something."""
-    return [name for name in COMMANDS if name not in ("table", "laws", "new", "synth", "bench")]
+    without = ("table", "laws", "new", "synth", "bench", "keys")
+    return [name for name in COMMANDS if name not in without]
 
 
-@pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
-@pytest.mark.parametrize("command", titled())
+def more(command):
+    """What a command must be told besides the spec."""
+    return ("--vary", "drive.n_rpm=60,70") if command == "sweep" else ()
+
+
+# spherical: without parts that would be turned for each title; and what each command asks for
+ANSWERED = """[wheel]
+z = 6
+gearing = "spherical"
+[load]
+inertia_kgm2 = 0.1
+[shaft]
+stiffness_Nm_rad = 1e4
+damping_ratio = 0.1
+[tolerance]
+crank_radius_mm = 0.01
+"""
+
+
+def printed():
+    """These commands in every format; the rows of a sweep are csv, whoever reads them."""
+    formats = {name: ["table", "csv", "json", "md"] for name in titled()} | {"sweep": ["csv"]}
+    return [(command, format) for command in titled() for format in formats[command]]
+
+
+@pytest.mark.parametrize(("command", "format"), printed())
 def test_hostile_title(command, format):
     plain = None
     for title in ["plain", *HOSTILE]:
-        # spherical: without parts that would be turned for each title
-        put("spec.toml", f'title = "{title}"\n[wheel]\nz = 6\ngearing = "spherical"\n')
-        found = CliRunner().invoke(app, [command, "spec.toml", "--format", format])
+        put("spec.toml", f'title = "{title}"\n{ANSWERED}')
+        words = [command, "spec.toml", *more(command)]
+        words += ["--format", format] if command != "sweep" else []
+        found = CliRunner().invoke(app, words)
         assert found.exit_code in (0, 1), (title, found.output, found.exception)
         text = found.stdout
         assert all(c.isprintable() or c == "\n" for c in text), title
@@ -426,9 +452,9 @@ def on_a_terminal(*arguments):
 
 
 def test_hostile_title_on_a_terminal():
-    put("spec.toml", 'title = "a\\u001b]0;x\\u0007b [red]c[/red]"\n[wheel]\nz = 6\n')
+    put("spec.toml", 'title = "a\\u001b]0;x\\u0007b [red]c[/red]"\n' + ANSWERED)
     for command in titled():
-        assert "\x1b]" not in on_a_terminal(command, "spec.toml")
+        assert "\x1b]" not in on_a_terminal(command, "spec.toml", *more(command))
 
 
 def test_a_terminal_gets_more_than_a_pipe():

@@ -44,7 +44,7 @@ def fuzz(examples):
 
 
 seeds = st.integers(0, 2**32)
-WITHOUT_SPEC = {"table", "laws", "new", "bench"}
+WITHOUT_SPEC = {"table", "laws", "new", "bench", "keys"}
 SLOW = {"bench"}  # a run takes minutes: only that it refuses nonsense
 SECONDS = 20
 
@@ -141,9 +141,12 @@ FILES = [
     "law.csv",
     "a\0b",
 ]
-# a file, an option, an argument's name, or the usage of the whole
+# a file, an option, an argument's name or its text, or the usage of the whole
 FILE = r"(spec|other|gone)\.toml|law\.csv|x+\.*x*\.csv|\.:|/|<std\w+>|'a\\x00b'"
-PLACES = re.compile(rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}|\S+: cannot (read|write)")
+TEXT = r'"[^"]*" is no '
+PLACES = re.compile(
+    rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}|{TEXT}|\S+: cannot (read|write)"
+)
 
 
 def parameters(name):
@@ -162,6 +165,8 @@ def command_line(rng, name):
         words += [rng.choice(FILES) for _ in range(1 if rng.random() < 0.9 else 2)]
     if name == "new":
         words.append(rng.choice(["external", "internal", "curved", "wheel", ""]))
+    if name == "keys" and rng.random() < 0.8:
+        words.append(rng.choice(["drive", "drive.A", "z", "mass", *NUMBERS]))
     for opts in parameters(name):
         if rng.random() < 0.35:
             option = rng.choice(opts)
