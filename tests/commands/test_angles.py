@@ -7,14 +7,10 @@ from typing import Any
 
 import pytest
 import repo
-from words import load
 
+from geneva_cli import Design, load
 from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.peaks import peaks_table
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.report import report
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
@@ -45,12 +41,12 @@ def angles(name: str, value: Any) -> list[tuple[str, float]]:
     return [(name, value)] if name.endswith("at_deg") and value is not None else []
 
 
-def one_zero(mechanism: Mechanism) -> None:
+def one_zero(design: Design) -> None:
+    mechanism = design.mechanism
     first = mechanism.engagements[0]
     whole = 360.0 * mechanism.spec.drive.turns
     low = -180.0 if whole == 360.0 else first.mid_deg + first.entry_deg
-    page, summary = report(mechanism).table, peaks_table(mechanism)
-    rows = checks(mechanism)
+    page, summary, rows = design.report.table, design.peaks_table, design.checks
     found = [*angles("report", page), *angles("peaks", summary)]
     found += [(c.name, c.at_deg) for c in rows if c.at_deg is not None]
     greatest = {q: loads.greatest(mechanism, q) for q in LIMITED}

@@ -97,10 +97,11 @@ def test_a_range_of_slots_that_is_refused_says_how_many_go():
     assert "at most" in said or "more than" in said
 
 
-@pytest.mark.parametrize("L", [1.0, 1e6], ids="L={:g}".format)
-@pytest.mark.parametrize("share", [1e-9, 1e-12, 1e-16], ids="{:g}L".format)
+@pytest.mark.parametrize(
+    ("L", "share"), [(1.0, 1e-9), (1e6, 1e-12), (1.0, 1e-16), (1e6, 1e-16)], ids="{:g}".format
+)
 def test_the_finest_tolerances_end_soon(L, share):
-    """Written or refused, but not after minutes, nor with a gigabyte."""
+    """Written or refused, but not after minutes, nor with a gigabyte. Sizes only scale it."""
     put("large.toml", CURVED + f"[size]\ncenter_distance_mm = {L!r}\n")
     status, said, megabytes, seconds = run(
         "profile", "large.toml", "--format", "csv", "--tolerance", repr(L * share), timeout=300

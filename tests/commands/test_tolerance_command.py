@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 
+pytestmark = pytest.mark.usefixtures("made_once")
 DESIGN = str(repo.DESIGNS / "tolerances.toml")
 
 
