@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import sys
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, warn
+from geneva_cli.commands.options import Format, Given, Output, warn
+from geneva_cli.errors import GenevaError, clean, cut
+
+if TYPE_CHECKING:
+    from geneva_cli.study.synthesis.target import Wish
 
 
 def run(
@@ -16,16 +20,20 @@ def run(
     motion_deg: Annotated[
         str, typer.Option(metavar="DEG", help="Wish: input angle of one motion.")
     ] = "",
+    dwell_deg: Annotated[
+        str, typer.Option(metavar="DEG", help="Wish: input angle of a dwell.")
+    ] = "",
+    motion_s: Annotated[str, typer.Option(metavar="S", help="Wish: seconds of motion.")] = "",
+    dwell_s: Annotated[str, typer.Option(metavar="S", help="Wish: seconds of dwell.")] = "",
+    cycle: Annotated[str, typer.Option(metavar="S", help="Wish: seconds from step to step.")] = "",
     step: Annotated[str, typer.Option(metavar="DEG", help="Wish: the wheel's step.")] = "",
     acceleration_max: Annotated[
         str, typer.Option(metavar="X", help="Wish: greatest acceleration, an invariant.")
     ] = "",
-    cycle: Annotated[
-        str, typer.Option(metavar="S", help="Seconds from step to step; gives n_rpm.")
-    ] = "",
-    motion_s: Annotated[
-        str, typer.Option(metavar="S", help="Seconds of motion, with --step and --cycle.")
-    ] = "",
+    subject_to: Annotated[
+        list[str] | None,
+        typer.Option(metavar="BOUND", help='Wish: "jerk.max <= 5", any quantity; repeat.'),
+    ] = None,
     z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24")] = "",
     internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
     external: Annotated[bool, typer.Option("--external", help="External wheels.")] = False,
@@ -34,40 +42,58 @@ def run(
         int | None, typer.Option(metavar="M", help="Rollers; without: see above.")
     ] = None,
     law: Annotated[
-        str, typer.Option(metavar="NAME", help="Law of the curved slots, or all.")
+        str, typer.Option(metavar="NAME", help="Law of curved slots and cams, or all.")
     ] = "modified-sine",
+    from_: Annotated[
+        str,
+        typer.Option("--from", metavar="SPEC", help="Its z, speed, sizes, loads, limits for all."),
+    ] = "",
+    given: Given = None,
+    sort: Annotated[
+        str, typer.Option(metavar="FIELD", help="Least of it first; -FIELD: the greatest.")
+    ] = "",
+    checked: Annotated[
+        int, typer.Option(metavar="N", help="Turn the parts of so many rows; 0 for none.")
+    ] = 20,
+    buildable: Annotated[
+        bool, typer.Option("--buildable", help="Only rows whose turned parts pass, --checked many.")
+    ] = False,
     write: Annotated[
         int | None, typer.Option(metavar="N", help="Write row N as a spec instead.")
     ] = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """From a wish to machines that grant it, the lowest peak acceleration first.
+    """From wishes to machines that grant them all, the lowest peak acceleration first.
 
-    One of --tau, --k, --motion-deg, --step with --cycle, or --acceleration-max; numbers may be
-    fractions.
+    Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
+    0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak.
 
-    Tried for each wheel: the plain crank (it may miss the motion by a millionth), a side-crank,
-    equal elliptical gears, and curved slots with an extra dwell. Side-crank and gears carry one
-    roller, straight slots as many as leave a dwell, curved slots also more while their parts can
-    be built. Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the
-    motion; for --acceleration-max only the plain crank at 90 deg is tried.
+    Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
+    tenth of the centre distance aside; a side-crank; equal elliptical gears; a planet gear (z 3, 4,
+    6); curved slots and a cam, with an extra dwell. Side-crank, gears and planet carry one roller,
+    straight slots as many as leave a dwell, curved slots also more while their parts can be built.
+    Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the motion.
 
-    Column parts: no, with the reason, where flat parts cannot be built; maybe, where only turning
-    them tells; else yes. --write turns the parts of its row.
+    Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
+    they do; no, with the reason; maybe for those below the first twenty (--checked); nothing for
+    wheels that are not flat. --write turns the parts of its row.
     """
-    from geneva_cli.errors import GenevaError, clean, cut
-    from geneva_cli.output import format_of, show, show_text
-    from geneva_cli.study.synthesis.search import for_people, synthesis, synthesis_table
     from geneva_cli.study.synthesis.target import read_wish
 
+    if given and not from_:
+        raise GenevaError("--set goes with --from: it changes a key of that spec")
+    if checked < 0 or (buildable and not checked):
+        raise GenevaError(f"--checked {cut(checked)}: it must be at least {int(buildable)}")
     wish = read_wish(
         tau=tau,
         k=k,
         motion_deg=motion_deg,
-        step=step,
-        cycle=cycle,
+        dwell_deg=dwell_deg,
         motion_s=motion_s,
+        dwell_s=dwell_s,
+        cycle=cycle,
+        step=step,
         acceleration_max=acceleration_max,
         z=z,
         internal=internal,
@@ -75,24 +101,41 @@ def run(
         spherical=spherical,
         rollers=rollers,
         law=law,
+        path=from_,
+        given=given or (),
+        sort=sort,
+        subject_to=subject_to or (),
     )
     if write is None:
-        if output.endswith(".toml") and not format:
-            raise GenevaError(
-                f"-o {cut(output, 300)}: a spec is one row of the table; add --write N"
-            )
-        name = format or format_of(output)
-        table = synthesis_table(wish)
-        show(for_people(table) if name in ("table", "md") else table, output, format)
-        return
+        _show(wish, checked, buildable, output, format)
+    else:
+        _write(wish, write, output, format)
+
+
+def _show(wish: Wish, checked: int, buildable: bool, output: str, format: str) -> None:
+    from geneva_cli.output import format_of, show
+    from geneva_cli.study.synthesis.search import synthesis_table
+    from geneva_cli.study.synthesis.shown import for_people
+
+    if output.endswith(".toml") and not format:
+        raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
+    name = format or format_of(output)
+    table = synthesis_table(wish, checked, buildable)
+    show(for_people(table) if name in ("table", "md") else table, output, format)
+
+
+def _write(wish: Wish, number: int, output: str, format: str) -> None:
     from geneva_cli.design import Design
+    from geneva_cli.output import show_text
+    from geneva_cli.study.synthesis.search import search
     from geneva_cli.study.synthesis.spec import chosen
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
-    found, text = chosen(wish, synthesis(wish), write)
+    found, text = chosen(wish, search(wish).rows, number)
     show_text(text, output)
     path = "<stdout>" if output == "-" else output
     if found.trouble:
-        print(clean(f"{path}: warning: {found.trouble}"), file=sys.stderr)
+        said = f"{path}: warning: its parts cannot be built: {found.trouble}"
+        print(clean(said), file=sys.stderr)
     warn(Design.of(found.spec.but(path=path)))

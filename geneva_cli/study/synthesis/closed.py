@@ -18,45 +18,59 @@ AXES = 1.0  # least angle between the shafts of a spherical wheel, degrees
 MOST = 0.9999  # greatest |A| and eccentricity: beyond, the drive all but stands still or jumps
 
 
-def side_crank(natural_deg: float, motion_deg: float) -> float | None:
-    """A = sin((phi_1 - phi_2)/2) / sin(phi_2/2).
+def side_crank(natural_deg: float, motion_deg: float) -> float:
+    """A = sin((phi_1 - phi_2)/2) / sin(phi_2/2), which rises with the motion.
 
-    None where no |A| below 1 makes so long (or short) a motion.
+    Infinite where no A makes so long (or short) a motion.
     """
     turn = 0.5 * (motion_deg - natural_deg) * DEGREE  # angle between input crank and coulisse
     if not abs(turn) < 0.5 * math.pi:
-        return None
-    A = math.sin(turn) / math.sin(0.5 * natural_deg * DEGREE)
-    return A if abs(A) <= MOST else None
+        return math.copysign(math.inf, turn)
+    return math.sin(turn) / math.sin(0.5 * natural_deg * DEGREE)
 
 
-def axes(z: int, motion_deg: float) -> float | None:
+def side_crank_motion(natural_deg: float, A: float) -> float:
+    """The motion that a side-crank makes: phi_1 = phi_2 + 2 asin(A sin(phi_2/2))."""
+    return natural_deg + 2.0 * math.asin(A * math.sin(0.5 * natural_deg * DEGREE)) / DEGREE
+
+
+def axes(z: int, motion_deg: float) -> float:
     """Angle between a spherical wheel's shafts, degrees: cos S = cot b cot(phi_1/2).
 
     From cos(phi_1/2) = tan th / tan S with sin th = sin S sin b (th: the crank's cone). Written
     with sin S as well, -cos(phi_1/2 + b) cos(phi_1/2 - b) being the square of
-    sin S sin b sin(phi_1/2), so that small angles keep their digits. None for a motion that is not
-    between those of parallel shafts, 180 deg - 2b (outside) and 180 deg + 2b (inside).
+    sin S sin b sin(phi_1/2), so that small angles keep their digits. It rises with the motion, from
+    0 for the motion of parallel shafts outside, 180 deg - 2b, to 180 for that inside.
     """
     a, (b, (_, cos_b)) = 0.5 * motion_deg * DEGREE, (math.pi / z, sin_cos_pi(1, z))
     square = -math.cos(a + b) * math.cos(a - b)
     if square <= 0.0:
-        return None
-    S = math.atan2(math.sqrt(square), math.cos(a) * cos_b) / DEGREE
-    return S if AXES <= S <= 180.0 - AXES else None
+        return 0.0 if motion_deg < 180.0 else 180.0
+    return math.atan2(math.sqrt(square), math.cos(a) * cos_b) / DEGREE
 
 
-def elliptical_gears(natural_deg: float, motion_deg: float) -> tuple[float, str] | None:
-    """Eccentricity and phase: tan(phi_1/4) = (1+e)/(1-e) tan(phi_2/4), e < 0 being the quick phase.
+def axes_motion(z: int, axes_deg: float) -> float:
+    """The motion of a spherical wheel: cos(phi_1/2) = cos S sin b / sqrt(1 - (sin S sin b)²)."""
+    (sin_b, cos_b), S = sin_cos_pi(1, z), axes_deg * DEGREE
+    return 2.0 * math.atan2(cos_b, math.cos(S) * sin_b) / DEGREE
+
+
+def eccentricity(natural_deg: float, motion_deg: float) -> float:
+    """Of equal ellipses: tan(phi_1/4) = (1+e)/(1-e) tan(phi_2/4), e < 0 being the quick phase.
 
     Solved for e: sin((phi_1 - phi_2)/4) / sin((phi_1 + phi_2)/4), which holds for phi_2 above 180
-    as well. None where e would be 1 but for ``MOST``.
+    as well.
     """
     quarter = 0.25 * DEGREE
-    e = math.sin((motion_deg - natural_deg) * quarter) / math.sin(
+    return math.sin((motion_deg - natural_deg) * quarter) / math.sin(
         (motion_deg + natural_deg) * quarter
     )
-    return phased(e) if abs(e) <= MOST else None
+
+
+def gears_motion(natural_deg: float, e: float) -> float:
+    """The motion that equal ellipses make."""
+    tangent = (1.0 + e) / (1.0 - e) * math.tan(0.25 * natural_deg * DEGREE)
+    return 4.0 * math.atan(tangent) / DEGREE
 
 
 def phased(e: float) -> tuple[float, str]:

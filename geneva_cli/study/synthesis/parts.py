@@ -40,6 +40,10 @@ ROLLERS = "rollers"
 LOCK = "lock"
 SIZES = "sizes"
 
+# What the table says of parts that were turned and pass, and of those that were not turned.
+YES = "yes"
+MAYBE = "maybe"
+
 
 class Parts(NamedTuple):
     """A machine's spec with the roller that suits it, and what stands in the way of its parts.
@@ -53,20 +57,17 @@ class Parts(NamedTuple):
 
     @property
     def said(self) -> str | None:
-        """What the table's column says.
-
-        Inside, curved slots may leave no locking disc that holds the wheel until the roller does,
-        which only a whole turn shows.
-        """
+        """What the table's column says of parts that nobody has turned."""
         if self.why is None:
             return None
-        if self.why:
-            return f"no: {self.why}"
-        return "maybe" if self.spec.wheel.SIGN < 0.0 and self.spec.motion else "yes"
+        return f"no: {self.why}" if self.why else MAYBE
 
 
 def parts(mechanism: Mechanism) -> Parts:
-    """The largest usual roller that does, up to L/20; a larger one where the slot needs it."""
+    """The largest usual roller that does, up to L/20; a larger one where the slot needs it.
+
+    Of a spec that gives its roller, whether that one does.
+    """
     spec = mechanism.spec
     if not spec.is_flat:
         return Parts(spec, None)
@@ -75,6 +76,9 @@ def parts(mechanism: Mechanism) -> Parts:
     L, curved = where.L, where.kinds[0].slot.curved
     least = 0.5 * float(np.hypot(*(ways - ways[::-1]).T).max()) if curved else 0.0
     wall = _between(ways, spec.wheel.z)
+    if spec.size.roller_radius_mm is not None:
+        r = spec.size.roller_radius_mm
+        return Parts(spec, _obstacle(where, r, wall) or (ISLAND if r < least else ""))
 
     def obstacle(percent: float) -> str:
         return _obstacle(where, 0.01 * percent * L, wall)
@@ -85,7 +89,7 @@ def parts(mechanism: Mechanism) -> Parts:
         why = ISLAND
     if percent is None or percent == USUAL[0]:
         return Parts(spec, why)
-    return Parts(with_roller(spec, _exact(0.01 * percent * L)), why)
+    return Parts(with_roller(spec, exact(0.01 * percent * L)), why)
 
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
@@ -93,7 +97,7 @@ def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
     return spec.but(size=spec.size.but(roller_radius_mm=radius_mm))
 
 
-def _exact(x: float) -> float:
+def exact(x: float) -> float:
     """A product of short decimals, without what rounding added to it."""
     return float(f"{x:.12g}")
 
@@ -119,7 +123,7 @@ def _radii(least: float) -> list[float]:
     usual = [r for r in reversed(USUAL) if r >= percent]
     step = 10.0 ** (math.floor(math.log10(percent)) - 1) if percent > USUAL[-1] else USUAL[-1]
     first = step * math.ceil(percent / step)
-    return usual if first <= USUAL[-1] else [_exact(first), *usual]
+    return usual if first <= USUAL[-1] else [exact(first), *usual]
 
 
 def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.machine.spec import Spec
-from geneva_cli.specfile.writer import written
+from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.synthesis.built import Built, built
-from geneva_cli.study.synthesis.search import Way
+from geneva_cli.study.synthesis.rows import Row, Way
+from geneva_cli.study.synthesis.search import fixed
 from geneva_cli.study.synthesis.target import Wish
 
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 
 
-def chosen(wish: Wish, ways: list[tuple[Spec, Way]], number: int) -> tuple[Built, str]:
-    """Row ``number`` of what ``synthesis(wish)`` found: the spec, and its text with comments.
+def chosen(wish: Wish, found: Sequence[Row], number: int) -> tuple[Built, str]:
+    """Row ``number`` of what ``search`` found: the spec, and its text with comments.
 
     The parts are turned through a whole turn, unless it is known that they cannot be built. Raises
     GenevaError where there is no such row.
     """
-    if not 1 <= number <= len(ways):
-        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ways)}")
-    spec, way = ways[number - 1]
-    no, _, why = (way.parts or "").partition(": ")
-    found = Built(spec, f"its parts cannot be built: {why}") if no == "no" else built(spec)
-    return found, commented(wish, number, way, found)
+    if not 1 <= number <= len(found):
+        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(found)}")
+    row = found[number - 1]
+    no, _, why = (row.way.parts or "").partition(": ")
+    made = Built(row.spec, why) if no == "no" else built(row.spec, fixed(wish))
+    return made, commented(wish, number, row.way, made)
 
 
 def commented(wish: Wish, number: int, way: Way, found: Built) -> str:
@@ -33,9 +35,9 @@ def commented(wish: Wish, number: int, way: Way, found: Built) -> str:
 
 def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
     z = f"{way.z} slots, {way.gearing}"
-    slots = f"curved slots ({way.law})" if way.law else way.drive
+    slots = f"{way.drive}, {way.law}" if way.law else way.drive
     lines = [
-        f'title = "{wish.words}: {z}, {slots}"',
+        f"title = {quoted(f'{wish.words}: {z}, {slots}')}",
         "",
         f"# Row {number} of `geneva synth`. It moves for {way.motion_deg:.7g} deg of the input and",
         f"# rests for {way.dwell_deg:.7g}: tau = {way.tau:.7g}, k = {way.k:.7g}.",
@@ -43,5 +45,5 @@ def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
         "# " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[3:]) + ".",
     ]
     if found.trouble:
-        lines.append(f"# Beware: {found.trouble}.")
+        lines.append(f"# Beware: its parts cannot be built: {found.trouble}.")
     return lines

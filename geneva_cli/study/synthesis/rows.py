@@ -1,0 +1,154 @@
+"""The rows of what was found: what each machine is, and what it costs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from geneva_cli.analysis.law_values import Characteristic, characteristic
+from geneva_cli.analysis.timing import timings
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.angles import omega
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.synthesis.parts import Parts, parts
+from geneva_cli.study.synthesis.target import Wish
+from geneva_cli.study.synthesis.together import numbers
+
+MANY = 100  # machines from which on a second process is worth its start
+COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
+
+
+class Way(NamedTuple):
+    """One machine, and one row: what it is, then what it costs (invariants)."""
+
+    z: int
+    gearing: str
+    rollers: int
+    drive: str
+    A: float | None
+    eccentricity: float | None
+    phase: str | None
+    axes_deg: float | None
+    alpha0_deg: float | None
+    law: str | None
+    ratio: float
+    motion_deg: float
+    dwell_deg: float
+    tau: float
+    k: float
+    velocity_max: float
+    acceleration_max: float
+    acceleration_entry: float
+    jerk_max: float
+    power_max: float
+    n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
+    acceleration_max_rad_s2: float | None
+    parts: str | None  # whether they can be built; None: not flat, and not looked at
+    offset_mm: float | None
+    planet_ratio: float | str | None
+    fixed: str | None
+    motion_s: float | None  # with a cycle time
+    dwell_s: float | None
+
+
+class Row(NamedTuple):
+    """A machine: its spec, what it is and costs, and the quantities asked for beside these."""
+
+    spec: Spec
+    way: Way
+    asked: tuple[float | int | str | bool | None, ...] = ()
+
+
+class Looked(NamedTuple):
+    """A machine, and what can be told of its parts without turning them; or why there is none."""
+
+    machine: Mechanism | None
+    parts: Parts
+    error: str = ""
+
+
+def looked(spec: Spec) -> Looked:
+    """A machine built, and its parts looked at."""
+    try:
+        machine = build(spec)
+        return Looked(machine, parts(machine))
+    except GenevaError as error:
+        return Looked(None, Parts(spec, None), str(error))
+
+
+def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
+    """The rows of the specs that can be built; why others cannot goes to ``errors``."""
+    laws = {law: characteristic(registry.law(law)()) for law in wish.laws}
+    straight = [spec for spec in specs if spec.motion is None]
+    costs = iter(numbers(straight, COSTS))
+    own = [None if spec.motion else next(costs) for spec in specs]
+    out = []
+    for found, five in zip(_looked(specs), own, strict=True):
+        machine = found.machine
+        if machine is None:
+            errors.append(found.error)
+            continue
+        spec = machine.spec
+        values = five if spec.motion is None else _law_costs(machine, laws[spec.motion.law.NAME])
+        if values is not None:
+            out.append(Row(found.parts.spec, _way(machine, wish, values, found.parts.said)))
+    return out
+
+
+def _looked(specs: Sequence[Spec]) -> Iterator[Looked]:
+    yield from mapped(looked, specs, cores() if len(specs) > MANY else 1, "machines")
+
+
+def _way(machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | None) -> Way:
+    spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
+    own = spec.wheel.as_dict() | spec.drive.as_dict()
+    n = spec.drive.n_rpm if wish.timed else None
+    velocity, acceleration, entry, jerk, power = costs
+    return Way(
+        z=spec.wheel.z,
+        gearing=spec.wheel.NAME,
+        rollers=spec.drive.rollers,
+        drive=spec.drive.NAME,
+        A=own.get("A"),
+        eccentricity=own.get("eccentricity"),
+        phase=own.get("phase"),
+        axes_deg=own.get("axes_deg"),
+        alpha0_deg=motion.alpha0_deg if motion else None,
+        law=motion.law.NAME if motion else None,
+        ratio=machine.ratio,
+        motion_deg=time.motion_deg,
+        dwell_deg=time.dwell_deg,
+        tau=time.tau,
+        k=time.k,
+        velocity_max=velocity,
+        acceleration_max=acceleration,
+        acceleration_entry=entry,
+        jerk_max=jerk,
+        power_max=power,
+        n_rpm=n,
+        acceleration_max_rad_s2=acceleration * omega(n) ** 2 if n else None,
+        parts=parts,
+        offset_mm=own.get("offset_mm") or None,
+        planet_ratio=own.get("planet_ratio"),
+        fixed=own.get("fixed"),
+        motion_s=time.motion_s if n else None,
+        dwell_s=time.dwell_s if n else None,
+    )
+
+
+def _law_costs(machine: Mechanism, costs: Characteristic) -> tuple[float, ...]:
+    """A law's own greatest values, scaled to the step and to the motion angle."""
+    engagement = machine.engagements[0]
+    step, rate = 2.0 * engagement.half_step, 1.0 / math.radians(engagement.motion_deg)
+    C_v, C_a, C_j, C_p = costs
+    return (
+        C_v * step * rate,
+        C_a * step * rate**2,
+        abs(engagement.motion(engagement.entry_deg).derivatives()[2]),
+        C_j * step * rate**3,
+        C_p * step**2 * rate**3,
+    )

@@ -1,0 +1,153 @@
+"""The rows of a synthesis as a person reads them: what is alike told once, in a hundred columns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from geneva_cli.output.text import cell
+from geneva_cli.table import Table
+
+WIDTH = 100
+BETWEEN = 3  # columns a frame puts between two others; plain text 2
+DIGITS = 5  # significant ones; csv and json carry all
+REASON = 14  # characters of why parts cannot be built
+
+# Columns under a short name, those that are dropped last first; what is empty is left out.
+HEADS = {
+    "no": "no",
+    "z": "z",
+    "gearing": "wheel",
+    "machine": "machine",
+    "parts": "parts",
+    "acceleration_max": "accel_max",
+    "asked": "",
+    "rollers": "rollers",
+    "motion_deg": "motion_deg",
+    "dwell_s": "dwell_s",
+    "n_rpm": "rpm",
+    "acceleration_max_rad_s2": "accel_rad/s2",
+    "acceleration_entry": "accel_entry",
+    "velocity_max": "velocity_max",
+    "jerk_max": "jerk_max",
+    "tau": "tau",
+    "power_max": "power_max",
+    "motion_s": "motion_s",
+    "dwell_deg": "dwell_deg",
+    "k": "k",
+    "ratio": "ratio",
+}
+ORDER = (
+    *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
+    *("dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max", "acceleration_entry"),
+    *("jerk_max", "power_max", "acceleration_max_rad_s2", "asked", "parts"),
+)
+CONSTANT = ("rollers", "motion_deg", "dwell_deg", "motion_s", "dwell_s", "tau", "k", "n_rpm")
+DESCRIBED = (  # columns that the machine's description stands for
+    *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
+    *("offset_mm", "planet_ratio", "fixed"),
+)
+
+
+class Column(NamedTuple):
+    """A column for people: where it comes from, its head and its cells."""
+
+    source: str
+    head: str
+    cells: list[Any]
+
+    @property
+    def width(self) -> int:
+        """How wide it is, its head broken at underscores."""
+        return max(len(text) for text in (*self.head.split("_"), *map(cell, self.cells)))
+
+
+def for_people(table: Table) -> Table:
+    """Without empty columns, those of one value told in the title, and no wider than a screen."""
+    rows = table.to_rows()
+    laws = {row["law"] for row in rows if row["law"]}
+    columns, once = [], [f"law {law}" for law in laws if len(laws) == 1]
+    for column in _columns(rows, table.names, len(laws) > 1):
+        first = column.cells[0] if column.cells else None
+        if all(v is None for v in column.cells):
+            continue
+        same = len(rows) > 1 and all(_same(v, first) for v in column.cells)
+        if column.source in CONSTANT and same:
+            once.append(f"{column.source} {cell(first)}")
+        elif not (column.source == "rollers" and same and first == 1):
+            columns.append(column)
+    title = table.title + (f" All: {', '.join(once)}." if once else "")
+    kept = _fitting(columns)
+    cells = [[_short(v) for v in c.cells] for c in kept]
+    return Table(tuple(c.head for c in kept), cells, title=title)
+
+
+def _columns(rows: list[dict[str, Any]], names: tuple[str, ...], several: bool) -> Iterator[Column]:
+    """All columns in their order."""
+    known = {*HEADS, *DESCRIBED}
+    for source in ORDER:
+        if source == "machine":
+            yield Column(source, source, [_machine(row, several) for row in rows])
+        elif source == "asked":
+            for name in names:
+                if name not in known:
+                    yield Column(source, name.replace(".", "_"), [row[name] for row in rows])
+        elif source == "parts":
+            yield Column(source, source, [_said(row["parts"]) for row in rows])
+        else:
+            cells = [row[source] for row in rows]
+            if source == "gearing":  # ext, int, sph
+                cells = [word[:3] for word in cells]
+            yield Column(source, HEADS[source], cells)
+
+
+def _machine(row: dict[str, Any], several: bool) -> str:
+    """What the machine is, in a few words: its drive, and the number that makes the motion."""
+    own = [
+        row["law"] if several and row["law"] else "",
+        f"alpha0 {_number(row['alpha0_deg'])}" if row["law"] else "",
+        f"A {_number(row['A'])}" if row["A"] is not None else "",
+        f"e {_number(row['eccentricity'])} {row['phase']}" if row["phase"] else "",
+        f"{row['fixed']} rp {_number(row['planet_ratio'])}" if row["fixed"] else "",
+        f"axes {_number(row['axes_deg'])}" if row["axes_deg"] not in (None, 90.0) else "",
+        f"offset {_number(row['offset_mm'])} mm" if row["offset_mm"] else "",
+    ]
+    return " ".join([row["drive"], *filter(None, own)])
+
+
+def _fitting(columns: list[Column]) -> list[Column]:
+    """As many columns as stand side by side, the dearest dropped first."""
+    rank = {source: i for i, source in enumerate(HEADS)}
+    kept = list(columns)
+    while sum(c.width + BETWEEN for c in map(_shortened, kept)) + 1 > WIDTH:
+        kept.remove(max(kept, key=lambda c: rank[c.source]))
+    return kept
+
+
+def _shortened(column: Column) -> Column:
+    return column._replace(cells=[_short(v) for v in column.cells])
+
+
+def _short(value: Any) -> Any:
+    return float(_number(value)) if isinstance(value, float) else value
+
+
+def _number(value: Any) -> str:
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
+
+
+def _said(parts: str | None) -> str | None:
+    """Whether parts can be built; of several reasons the first, without its unit."""
+    no, colon, reasons = (parts or "").partition(": ")
+    if not colon:
+        return parts
+    first, *others = reasons.split(", ")
+    name = first.removesuffix("_mm").removesuffix("_deg")
+    return f"{no}: {name[:REASON]}{' +' if others else ''}"
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, float) and isinstance(b, float):
+        return math.isclose(a, b, rel_tol=1e-12)
+    return bool(a == b)

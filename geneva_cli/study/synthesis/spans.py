@@ -1,0 +1,98 @@
+"""A number that is wished for, or a range of it: ``0.8``, ``1/3``, ``0.8..``, ``1..2``."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.spec.rules import Range
+
+SAME = 1e-9  # share by which two exact wishes for one quantity may differ and be the same
+
+
+class Span(NamedTuple):
+    """All numbers from ``low`` to ``high``, both included; one number where they are equal."""
+
+    low: float = -math.inf
+    high: float = math.inf
+
+    @property
+    def exact(self) -> bool:
+        """Whether it is one number."""
+        return self.low == self.high
+
+    @property
+    def empty(self) -> bool:
+        """Whether no number is in it."""
+        return not self.low <= self.high
+
+    def over(self, other: Span) -> Span:
+        """The span of a/b, for positive a of this one and b of the other."""
+        low = self.low / other.high if math.isfinite(other.high) else 0.0
+        high = self.high / other.low if other.low > 0.0 else math.inf
+        return Span(max(low, 0.0), high)
+
+    def mirrored(self, whole: float) -> Span:
+        """The span of ``whole`` less a number."""
+        return Span(whole - self.high, whole - self.low)
+
+    def times(self, factor: float) -> Span:
+        """The span of a positive multiple."""
+        return Span(self.low * factor, self.high * factor)
+
+    def within(self, other: Span) -> Span:
+        """What both hold: of one number each, which differ by rounding only, that of this one.
+
+        >>> Span(1.0, 3.0).within(Span(2.0, 4.0))
+        Span(low=2.0, high=3.0)
+        """
+        low, high = max(self.low, other.low), min(self.high, other.high)
+        if low > high and math.isclose(low, high, rel_tol=SAME):
+            return self if self.exact else other if other.exact else Span(low, low)
+        return Span(low, high)
+
+    def words(self, what: str, unit: str = "") -> str:
+        """A wish in words: ``a dwell of at least 0.8 s``."""
+        if self.exact:
+            return f"{what} {self.low:.7g}{unit}"
+        if not self.low > -math.inf:
+            return f"{what} at most {self.high:.7g}{unit}"
+        if not self.high < math.inf:
+            return f"{what} at least {self.low:.7g}{unit}"
+        return f"{what} {self.low:.7g} to {self.high:.7g}{unit}"
+
+
+def span(option: str, text: str, rule: Range) -> Span:
+    """What an option's text asks for. Raises GenevaError, naming the option, for anything else.
+
+    >>> span("--dwell-s", "0.8..", Range(0.0))
+    Span(low=0.8, high=inf)
+    """
+    low, dots, high = text.partition("..")
+    if not dots:
+        x = number(option, text, rule)
+        return Span(x, x)
+    if not (low.strip() or high.strip()):
+        raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
+    found = Span(
+        number(option, low, rule) if low.strip() else -math.inf,
+        number(option, high, rule) if high.strip() else math.inf,
+    )
+    if found.empty:
+        raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")
+    return found
+
+
+def number(option: str, text: str, rule: Range) -> float:
+    """A number, or a fraction of two; GenevaError, naming the option, for anything else."""
+    above, slash, below = text.partition("/")
+    try:
+        x = float(above) / float(below) if slash else float(text)
+    except (ValueError, ZeroDivisionError):
+        raise GenevaError(
+            f'{option} "{cut(text)}": not a number; write 0.25, 1/4, or a range 0.2..0.3'
+        ) from None
+    if x not in rule:
+        raise GenevaError(f"{option} {cut(text)}: it must be {rule}")
+    return x
