@@ -30,6 +30,7 @@ bench: .venv/dev
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 
 # Every design's STEP files read by a CAD kernel, which is installed for it (0.5 GB); two minutes.
 cad: .venv/dev

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
@@ -41,9 +43,16 @@ def judged(proof: Proof) -> Values:
     return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
 
 
+def cycle(proof: Proof) -> Values:
+    """What the report does not say of the loads: least values, means and root mean squares."""
+    names = ("min", "min_at_deg", "mean", "rms")
+    found = {load: one._asdict() for load, one in summaries(Cycle(proof.mechanism)).items()}
+    return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
+
+
 # What turns the parts of a machine takes a second, and comes last.
 QUICK: tuple[Section, ...] = (machine, *(s for s in SECTIONS if s is not parts))
-SLOW: tuple[Section, ...] = (parts, judged)
+SLOW: tuple[Section, ...] = (cycle, parts, judged)
 
 
 def values(mechanism: Mechanism, sections: Iterable[Section] = QUICK) -> dict[str, Cell]:

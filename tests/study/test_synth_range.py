@@ -20,7 +20,7 @@ from geneva_cli.study.synthesis.target import SPANS, read_wish
 
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
 # A minimum found to a share d of its place is d² off in its value, and no dense sweep is nearer.
-NEAR = 1e-7
+NEAR = 1e-8
 
 
 def rows(**options):
@@ -132,19 +132,19 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
 
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
     """In a range the machine of a kind is the gentlest of those that keep the bound."""
-    free = {r.way.drive: r.way for r in rows(motion_deg="80..140", z="6", external=True, rollers=1)}
-    assert free["side-crank"].jerk_max > 4.0
-    bound = ["jerk.max <= 4"]
-    kept = rows(motion_deg="80..140", z="6", external=True, rollers=1, subject_to=bound)
+    wish = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}
+    free = {r.way.drive: r.way for r in rows(**wish)}
+    assert free["side-crank"].velocity_max < 0.9
+    kept = rows(**wish, subject_to=["velocity.max >= 0.95"])
     (side,) = [r.way for r in kept if r.way.drive == "side-crank"]
-    assert side.jerk_max <= 4.0 * (1 + 1e-9)
+    assert side.velocity_max >= 0.95 * (1 - 1e-9)
     fine = np.linspace(-0.9, 0.9, 4001)
     found = many(Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.1)), {"drive.A": fine})
-    names = ["acceleration.max", "timing.motion_deg", "jerk.max"]
-    peak, motion, jerk = columns(found.machine, names, len(found.which))
-    fits = (motion >= 80.0) & (motion <= 140.0) & (jerk <= 4.0)
-    # the best stands at the bound, where the search comes near it but not to the last digit
-    assert side.acceleration_max <= peak[fits].min() * (1 + 1e-3)
+    names = ["acceleration.max", "timing.motion_deg", "velocity.max"]
+    peak, motion, velocity = columns(found.machine, names, len(found.which))
+    fits = (motion >= 80.0) & (motion <= 140.0) & (velocity >= 0.95)
+    # the best stands at the bound, which the search nears to 1e-5 of the range
+    assert side.acceleration_max <= peak[fits].min() * (1 + 1e-4)
 
 
 def test_a_frame_and_an_order():
@@ -155,7 +155,7 @@ def test_a_frame_and_an_order():
     assert found.names == ("loads.input_torque_Nm.rms",)
     own = wish.frame
     values = [row.asked[0] for row in found.rows]
-    assert values == sorted(values)
+    assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal
     for row in found.rows[:4]:
         assert (row.spec.load, row.spec.wheel.z) == (own.load, own.wheel.z)
         assert row.spec.drive.n_rpm == own.drive.n_rpm == row.way.n_rpm
@@ -163,7 +163,7 @@ def test_a_frame_and_an_order():
         assert row.asked[0] == pytest.approx(rms, rel=1e-12)
     turned_round = search(wish._replace(sort="-acceleration.max")).rows
     peaks = [row.way.acceleration_max for row in turned_round]
-    assert peaks == sorted(peaks, reverse=True)
+    assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 
 
 def test_a_frame_s_sizes_stay(tmp_path):

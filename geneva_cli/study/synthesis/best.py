@@ -16,7 +16,7 @@ from geneva_cli.study.synthesis.families import Family
 from geneva_cli.study.synthesis.together import numbers
 
 PLACES = 24  # intervals of a family's span that are looked at first
-NEARER = 4  # times that the look is narrowed
+NEARER = 8  # times that the look is narrowed
 CLOSER = 6  # intervals of each narrower look, over the two beside the best
 PEAK = "acceleration.max"
 

@@ -11,8 +11,10 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.synthesis.parts import USUAL, exact, with_roller
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.of_machine import LIMITS, MOTION
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
+UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # what no other roller helps
 SMALLER = 3  # usual rollers below the first that are tried
 
 
@@ -44,7 +46,7 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
     if overhung:
         spec = spec.with_("size.crank_bore_mm", 0.0)
         yield spec
-    if trouble <= SHAFT or trouble & set(spec.limits.as_dict()) or "roller_radius_mm" in fixed:
+    if trouble <= SHAFT or trouble & UNSIZED or "roller_radius_mm" in fixed:
         return
     L = build(spec).center_distance_mm
     r = 100.0 * spec.roller_radius_mm(L) / L
@@ -55,6 +57,9 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
 def _failing(spec: Spec) -> list[str]:
     """The names of the checks that fail; for parts that cannot be made the key in the way."""
     machine = build(spec)
+    before = [check.name for check in checks(machine, parts=False) if check.passes is False]
+    if set(before) & UNSIZED:  # no need to turn them
+        return before
     proof = Proof(machine)
     rows = [check.name for check in checks(machine, proof) if check.passes is False]
     try:

@@ -17,6 +17,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.parts import Parts, parts
 from geneva_cli.study.synthesis.target import Wish
 from geneva_cli.study.synthesis.together import numbers
+from geneva_cli.verdict.checks import checks
 
 MANY = 100  # machines from which on a second process is worth its start
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
@@ -72,12 +73,18 @@ class Looked(NamedTuple):
 
 
 def looked(spec: Spec) -> Looked:
-    """A machine built, and its parts looked at."""
+    """A machine built, its parts looked at, and what its limits or its groove ask for checked."""
     try:
         machine = build(spec)
-        return Looked(machine, parts(machine))
+        found = parts(machine)
     except GenevaError as error:
         return Looked(None, Parts(spec, None), str(error))
+    limited = any(value is not None for value in spec.limits.as_dict().values())
+    if not found.why and (limited or machine.engagements[0].groove):
+        rows = checks(machine._replace(spec=found.spec), parts=False)
+        failed = ", ".join(c.name for c in rows if c.passes is False)
+        found = found._replace(why=failed or found.why)
+    return Looked(machine, found)
 
 
 def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:

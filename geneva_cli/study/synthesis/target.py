@@ -137,9 +137,15 @@ class Wish(NamedTuple):
         return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
 
     def refuse_contradictions(self, m: int) -> None:
-        """Raise GenevaError for two wishes that no machine of m rollers grants both."""
+        """Raise GenevaError for wishes that no machine of m rollers grants, alone or together."""
         asked = list(self.demands(m))
         for i, (one, first) in enumerate(asked):
+            if first.high <= 0.0 or first.low * m >= 360.0:
+                several = f" of {m} rollers" if m > 1 else ""
+                raise GenevaError(
+                    f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
+                    f"and below {360.0 / m:.7g} deg (tau below 1)"
+                )
             for other, second in asked[:i]:
                 if first.within(second).empty:
                     raise GenevaError(
