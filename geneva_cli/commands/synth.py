@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -11,6 +12,7 @@ from geneva_cli.commands.options import Format, Given, Output, warn
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
     from geneva_cli.study.synthesis.target import Wish
 
 
@@ -101,8 +103,7 @@ def run(
         spherical=spherical,
         rollers=rollers,
         law=law,
-        path=from_,
-        given=given or (),
+        frame=_frame(from_, given or ()) if from_ else None,
         sort=sort,
         subject_to=subject_to or (),
     )
@@ -110,6 +111,12 @@ def run(
         _show(wish, checked, buildable, output, format)
     else:
         _write(wish, write, output, format)
+
+
+def _frame(path: str, given: Sequence[str]) -> Spec:
+    from geneva_cli.design import load
+
+    return load(path, given).spec
 
 
 def _show(wish: Wish, checked: int, buildable: bool, output: str, format: str) -> None:

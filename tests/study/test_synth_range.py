@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 import pytest
-from words import Drive, Keys, Motion, Spec, Wheel
+from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
@@ -150,7 +150,9 @@ def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
 def test_a_frame_and_an_order():
     """Sizes, loads and speed of a spec in every row; each quantity is the built design's own."""
     frame = os.path.join(DESIGNS, "press-345.toml")
-    wish = read_wish(path=frame, motion_deg="100..130", sort="loads.input_torque_Nm.rms")
+    wish = read_wish(
+        frame=load(frame).spec, motion_deg="100..130", sort="loads.input_torque_Nm.rms"
+    )
     found = search(wish)
     assert found.names == ("loads.input_torque_Nm.rms",)
     own = wish.frame
@@ -169,14 +171,14 @@ def test_a_frame_and_an_order():
 def test_a_frame_s_sizes_stay(tmp_path):
     file = tmp_path / "frame.toml"
     file.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 3\n[limits]\nvelocity_max = 0.9\n")
-    table = synthesis_table(read_wish(path=str(file), motion_deg="120", external=True), 20)
+    table = synthesis_table(read_wish(frame=load(file).spec, motion_deg="120", external=True), 20)
     found = table.to_rows()
     assert found
     for row in found:
         assert row["parts"].startswith(("yes", "no: "))
         if row["velocity_max"] > 0.9:
             assert "velocity_max" in row["parts"] or row["parts"].startswith("no: ")
-    for row in rows(path=str(file), motion_deg="120", external=True):
+    for row in rows(frame=load(file).spec, motion_deg="120", external=True):
         assert row.spec.size.roller_radius_mm == 3.0
         build(row.spec)
 

@@ -19,7 +19,6 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.registry import STANDARD_LAWS as LAWS
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
-from geneva_cli.specfile.reader import read
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
 from geneva_cli.study.synthesis.spans import Span, number, span
@@ -190,16 +189,15 @@ def read_wish(
     spherical: bool = False,
     rollers: int | None = None,
     law: str = "modified-sine",
-    path: str = "",
-    given: Sequence[str] = (),
+    frame: Spec | None = None,
     sort: str = "",
     subject_to: Sequence[str] = (),
 ) -> Wish:
     """The wish that the command's options state, as text; an empty text is an option not given.
 
-    Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). ``path`` is the
-    frame's spec file, with keys ``given`` over it. Raises GenevaError, naming the option, for
-    options that contradict each other and for values out of reach.
+    Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
+    GenevaError, naming the option, for options that contradict each other and for values out of
+    reach.
     """
     texts = {
         "tau": tau,
@@ -215,7 +213,7 @@ def read_wish(
         for name, text in texts.items()
         if text
     }
-    if not (spans or step or acceleration_max or subject_to or path):
+    if not (spans or step or acceleration_max or subject_to or frame):
         raise GenevaError(
             "no wish; ask for --tau, --k, --motion-deg, --dwell-deg, --motion-s, --dwell-s, "
             "--cycle, --step, --acceleration-max or --subject-to, alone or together"
@@ -224,7 +222,6 @@ def read_wish(
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
     said = [spans[name].words(*SPANS[name][1:]) for name in spans]
     said = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in said]
-    frame = read(path, given).spec() if path else None
     slots = _slots(z, frame)
     if step:
         degrees = number("--step", step, STEP)
