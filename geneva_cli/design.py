@@ -12,7 +12,7 @@ What is imported for an answer is imported when it is asked for: here is the one
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -231,12 +231,12 @@ class Design:
         >>> [round(work, 9) for work in cycle.integrals(lambda at: at.input_torque_Nm)]  # joules
         [15.707963268]
         """
-        from geneva_cli.analysis.loads.cycle import Cycle
+        from geneva_cli.analysis.loads.cycle import cycle_of
 
-        return Cycle(self.mechanism)
+        return cycle_of(self.mechanism)
 
     @answer
-    def loads(self) -> dict[str, Summary]:
+    def loads(self) -> Mapping[str, Summary]:
         """Greatest, least, mean and root-mean-square of each load over a period, by its name.
 
         None where nothing bounds a value, or what it needs is not given. Newtons, newton metres,
@@ -263,6 +263,7 @@ class Design:
         from geneva_cli.analysis.loads.summary import loads_table
         from geneva_cli.verdict.strength import LIFE
 
+        _ = self.loads  # all quantities together, of which strength needs some
         life = self.strength.life  # what it needs is known once it has been looked for
         # without a load all need one, and that is said already
         needed = self.strength.missing(LIFE[:7]) if self.cycle.is_loaded else []
@@ -283,10 +284,10 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None
-        from geneva_cli.parts.plates import wheel_body
+        from geneva_cli.parts.wheel_inertia import wheel_body
 
         try:
-            return wheel_body(self.proof.found)
+            return wheel_body(self.mechanism)
         except GenevaError:
             return None
 

@@ -7,6 +7,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.parts import outlines as outline
 from geneva_cli.parts import proof
 from geneva_cli.parts.turn import full_turn
+from geneva_cli.parts.walls import chain as walls_chain
 from geneva_cli.parts.walls import curved as curved_walls
 from geneva_cli.verdict import cautions
 
@@ -61,7 +62,7 @@ def of_slot(plane, sizes, engagement):
 
 OUTLINES = kept(outline.outlines, of_mechanism)
 TURNED = kept(full_turn.full_turn, of_outlines)
-CHAIN = kept(curved_walls.chain, of_slot)
+CHAIN = kept(walls_chain.chain, of_slot)
 CAUTIONS = kept(cautions.cautions, of_mechanism)
 
 

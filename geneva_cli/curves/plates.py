@@ -78,8 +78,12 @@ def body(plate: Plate, density_kgm3: float) -> Body:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    face = plate.moments
-    per = density_kgm3 * plate.thickness * MM
+    return weighed(plate.moments, plate.thickness, density_kgm3)
+
+
+def weighed(face: Moments, thickness_mm: float, density_kgm3: float) -> Body:
+    """The same of a plate whose face's moments are known."""
+    per = density_kgm3 * thickness_mm * MM
     return Body(per * face.area * MM**2, face.centroid, per * face.polar * MM**4)
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos
+from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, turning
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
@@ -230,7 +230,7 @@ class Engagement:
         if self.body:
             return self.body(radians(input_deg), order)
         x, y = self.path(input_deg, order + 1)
-        return atan2(y, x - 1.0).derivative()
+        return turning(x - 1.0, y)
 
     @property
     def through(self) -> Engagement:

@@ -157,9 +157,13 @@ def atan2(y: Jet, x: Jet) -> Jet:
     value = library(y.c[0], x.c[0]).atan2(y.c[0], x.c[0])
     if y.order == 0:
         return Jet((value,))
+    return integral(turning(x, y), value)
+
+
+def turning(x: Jet, y: Jet) -> Jet:
+    """The rate at which the vector (x, y) turns, one order lower."""
     low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
-    rate = (low_x * y.derivative() - low_y * x.derivative()) / (low_x * low_x + low_y * low_y)
-    return integral(rate, value)
+    return (low_x * y.derivative() - low_y * x.derivative()) / (low_x * low_x + low_y * low_y)
 
 
 def piecewise(
@@ -202,7 +206,8 @@ def _by_parts(
 
     if not x.size:
         return pieces[0](x)
-    parts = [(index == i, pieces[i]) for i in np.unique(index)]
+    # np.unique would import numpy.ma, a sixth of a short run
+    parts = [(index == i, pieces[i]) for i in np.flatnonzero(np.bincount(index.ravel())).tolist()]
     found = [(where, piece(x[where]).c) for where, piece in parts]
     designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in found for c in jet])
     out = [np.empty((*designs, *x.shape)) for _ in found[0][1]]

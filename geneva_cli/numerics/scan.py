@@ -9,6 +9,7 @@ their narrowest features.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -49,13 +50,22 @@ class Scan(NamedTuple):
         return np.flatnonzero((negative[:-1] != negative[1:]) & self.joined)
 
 
+@cache
+def _unit() -> Array:
+    """The places that a span from 0 to 1 begins with."""
+    near = 0.25 ** np.arange(2, 2 + CROWDED)
+    unit = np.sort(np.concatenate((np.arange(SCAN + 1) / SCAN, near, 1.0 - near)))
+    # each once; np.unique would import numpy.ma, a sixth of a short run
+    once: Array = unit[np.diff(unit, prepend=-1.0) > 0.0]
+    return once
+
+
 def scan(functions: Functions, spans: Sequence[tuple[float, float]]) -> Scan:
     """Samples so near that a cubic between neighbours is within a share of each function's range.
 
     A value that is not finite marks a place where the function has none: nothing is asked of it.
     """
-    near = 0.25 ** np.arange(2, 2 + CROWDED)
-    unit = np.unique(np.concatenate((np.arange(SCAN + 1) / SCAN, near, 1.0 - near)))
+    unit = _unit()
     a, b = (np.array(side)[:, None] for side in zip(*spans, strict=True))
     x = a + (b - a) * unit
     x[:, -1:] = b

@@ -5,7 +5,7 @@ The wheel stands on the plane z = 0; the arm is below it, and carries the lockin
 
 from __future__ import annotations
 
-from geneva_cli.curves.plates import Body, Group, Member, Plate, body
+from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
@@ -21,17 +21,6 @@ def wheel_plate(found: Outlines, contour: Contour) -> Plate:
     outline, *openings = [*outside, contour]
     high = found.sizes.wheel_thickness
     return Plate("wheel", contour.layer, outline, (*openings, *bores), 0.0, high)
-
-
-def wheel_body(found: Outlines) -> Body | None:
-    """The wheel's mass and inertia about its axis, hubs left out; None where no thickness is given.
-
-    J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem.
-    """
-    spec = found.plane.mechanism.spec
-    if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
-        return None
-    return body(wheel_plate(found, found.wheel), spec.material_wheel.density_kgm3)
 
 
 def arm_plate(found: Outlines, arm: CrankArm) -> Plate:

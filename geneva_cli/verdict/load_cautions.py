@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 
 from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
+from geneva_cli.analysis.loads.quantities import STRESS, ends_of, known
 from geneva_cli.machine.mechanism import Mechanism
 
 
@@ -12,32 +14,39 @@ def load_cautions(mechanism: Mechanism) -> list[str]:
     """Cautions that need the loads, which are looked for only where they are shown."""
     out = []
     if mechanism.spec.is_loaded:
-        out = [*_jammed(mechanism), *_on_an_edge(mechanism)]
+        cycle = cycle_of(mechanism)
+        out = [*_jammed(cycle), *_on_an_edge(cycle)]
     if loads.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))
     return out
 
 
-def _jammed(mechanism: Mechanism) -> list[str]:
-    force = loads.greatest(mechanism, "pin_force_N")
-    friction = mechanism.spec.load.friction
-    if not friction or math.isfinite(force.max):
+def _jammed(cycle: Cycle) -> list[str]:
+    (force,) = ends_of(cycle, "pin_force_N")
+    friction = cycle.given.friction
+    endless = [
+        at
+        for at, value in ((force.max_at_deg, force.max), (force.min_at_deg, force.min))
+        if math.isinf(value)
+    ]
+    if not friction or not endless:
         return []
     return [
-        f"friction of {friction:g} holds the wheel at {force.at_deg:.4g} deg: it takes as much "
+        f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg: it takes as much "
         "torque from the wheel as the wall gives, however hard the roller presses; a smaller "
         "roller or less friction avoids it"
     ]
 
 
-def _on_an_edge(mechanism: Mechanism) -> list[str]:
-    stress = loads.greatest(mechanism, "contact_stress_MPa")
-    force = loads.greatest(mechanism, "pin_force_N")
-    if math.isfinite(stress.max) or not math.isfinite(force.max):
+def _on_an_edge(cycle: Cycle) -> list[str]:
+    if STRESS not in known(cycle):
+        return []
+    stress, force = ends_of(cycle, STRESS, "pin_force_N")
+    if math.isfinite(stress.max) or math.isinf(force.max) or math.isinf(force.min):
         return []
     return [
-        f"contact stress without bound at {stress.at_deg:.4g} deg: the wall that bears there is as "
-        "sharp as the roller, undercut towards mid-motion, and ends in an edge; less of it "
+        f"contact stress without bound at {stress.max_at_deg:.4g} deg: the wall that bears there "
+        "is as sharp as the roller, undercut towards mid-motion, and ends in an edge; less of it "
         'bears with a smaller roller, and none in straight slots (kind = "cam" for any law)'
     ]
 

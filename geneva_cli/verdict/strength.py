@@ -6,7 +6,8 @@ import math
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.cycle import cycle_of
+from geneva_cli.analysis.loads.quantities import PV, ends_of
 from geneva_cli.analysis.strength import horn, lock, pin, roller, shafts
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import plane
@@ -15,7 +16,7 @@ from geneva_cli.parts.sizes import Sizes, sizes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from geneva_cli.analysis.loads.cycle import Quantity
+    from geneva_cli.analysis.loads.cycle import Cycle
     from geneva_cli.machine.mechanism import Mechanism
 
 WIDTH = "face_width_mm in [size]"
@@ -66,7 +67,7 @@ class Strength:
     @cached_property
     def cycle(self) -> Cycle:
         """The cycle under load."""
-        return Cycle(self.mechanism)
+        return cycle_of(self.mechanism)
 
     @cached_property
     def sizes(self) -> Sizes | None:
@@ -81,10 +82,8 @@ class Strength:
     @cached_property
     def _tops(self) -> list[float]:
         """The greatest pin force and, with a face width, the square of pressure times speed."""
-        asked: list[Quantity] = [lambda i: i.pin_force]
-        if self._wide[0]:
-            asked.append(lambda i: i.pressure_speed)
-        force, *rest = self.cycle.extremes(*asked)
+        asked = ("pin_force_N", PV) if self._wide[0] else ("pin_force_N",)
+        force, *rest = ends_of(self.cycle, *asked)
         return [max(force.max, -force.min), *[one.max for one in rest]]
 
     @cached_property

@@ -48,9 +48,11 @@ def test_the_plate_of_a_wheel_by_its_polygon(name):
         area, polar = -area, -polar  # the contour is the opening
     area += sum(sign * math.pi * r**2 for r, sign in discs)
     polar += sum(sign * math.pi * r**4 / 2 for r, sign in discs)
-    # 1e-6: chords within 1e-5 mm of the arcs
-    assert design.wheel_plate.mass_kg == pytest.approx(2700 * 0.02 * area * 1e-6, rel=1e-6)
-    assert design.wheel_plate.inertia_kgm2 == pytest.approx(2700 * 0.02 * polar * 1e-12, rel=1e-6)
+    # 1e-6: chords within 1e-5 mm of the arcs. A curved slot is drawn wider by half a tolerance of
+    # 1e-6 L on either side, which eight slots of a length L/2 feel by 4e-6 of the wheel.
+    rel = 1e-5 if design.mechanism.engagements[0].slot.curved else 1e-6
+    assert design.wheel_plate.mass_kg == pytest.approx(2700 * 0.02 * area * 1e-6, rel=rel)
+    assert design.wheel_plate.inertia_kgm2 == pytest.approx(2700 * 0.02 * polar * 1e-12, rel=rel)
 
 
 def test_the_mass_that_is_suggested_adds_the_wheel():

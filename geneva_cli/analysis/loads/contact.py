@@ -7,32 +7,49 @@ tangent t points away from the wheel's axis: M . t > 0, M being the roller's cen
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.machine.engagement import Engagement, Vector
+from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
 BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight
 
 
 class Contact(NamedTuple):
-    """What the loads need of motion and slot, each a jet of one order."""
+    """What the loads need of motion and slot, each a jet of one order, or its values."""
 
-    velocity: Jet
-    acceleration: Jet
-    lever: Jet  # M . t: of the walls' normal about the wheel's axis
-    aside: Jet  # M x t: of the slot's tangent
-    along: Jet  # the roller centre's speed along t
-    curvature: Jet  # of the pitch curve, positive to the left of t: 0 in a straight slot
-    spin: Jet  # rate at which the body that carries the roller turns against the wheel
-    arm: Jet  # of friction at the wall about the wheel's axis, beyond M's: over the roller's radius
-    touches: Jet  # 0 while gears drive and no roller does, else 1
+    velocity: Coefficient
+    acceleration: Coefficient
+    lever: Coefficient  # M . t: of the walls' normal about the wheel's axis
+    aside: Coefficient  # M x t: of the slot's tangent
+    along: Coefficient  # the roller centre's speed along t
+    curvature: Coefficient  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: Coefficient  # rate at which the body that carries the roller turns against the wheel
+    arm: Coefficient  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: Coefficient  # 0 while gears drive and no roller does, else 1
     held: tuple[tuple[Vector, Vector], ...] | None = None
     # what holds the roller's body (the crank's shaft, a guide) against a force of 1 along the
     # normal i t, one along t, and a couple of 1; None where the body is the crank
+
+
+def contacts(engagement: Engagement, input_deg: Array) -> Contact:
+    """The contact at many ascending input angles, values alone: what is mirrored, or known in
+    closed form, is not worked out again.
+    """
+    if is_straight(engagement):
+        rates = Jet(engagement.motion.derivatives(input_deg, (1, 2)))
+        found = _beside(engagement, input_deg, 0, rates)
+    else:
+        found = contact(engagement, input_deg)
+    if found.held is not None:  # sizes of its jets' sums
+        return found
+    return Contact._make([*[jet.c[0] for jet in found[:-1]], None])
 
 
 def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> Contact:
@@ -62,9 +79,17 @@ def is_straight(engagement: Engagement) -> bool:
     return not engagement.slot.curved
 
 
-def _beside(engagement: Engagement, x: Coefficient, order: int) -> Contact:
-    """Wherever the pin moves in its slot, or the slot is straight."""
-    rates = engagement.motion(x, order + 2).derivative()
+def _beside(
+    engagement: Engagement, x: Coefficient, order: int, rates: Jet | None = None
+) -> Contact:
+    """Wherever the pin moves in its slot, or the slot is straight.
+
+    ``rates`` are the jet of the wheel's velocity, one order higher, where it is known.
+    """
+    motion = None
+    if rates is None:
+        motion = engagement.motion(x, order + 2)
+        rates = motion.derivative()
     velocity, acceleration = _cut(rates, order), rates.derivative()
     constant = velocity * 0.0
     rail = engagement.slot.axis(x, order)
@@ -72,7 +97,9 @@ def _beside(engagement: Engagement, x: Coefficient, order: int) -> Contact:
         lever, along = rail
         aside, curvature = constant + engagement.slot.offset, constant
     else:
-        mx, my = engagement.slot(x, order + 2)
+        # the slot is the path seen from the wheel, whose angle is known already
+        assert motion is not None
+        mx, my = in_wheel(engagement.path(x, order + 2), motion)
         ux, uy = mx.derivative(), my.derivative()
         bend_x, bend_y = ux.derivative(), uy.derivative()
         mx, my, ux, uy = (_cut(jet, order) for jet in (mx, my, ux, uy))

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import contact
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
+from geneva_cli.analysis.loads.contact import contact, contacts
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding, value
 from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
 from geneva_cli.analysis.loads.peaks import Stretch, cusps, maxima, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
@@ -58,6 +58,7 @@ class Cycle:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.given: Setting = setting(mechanism)
+        self.found: dict[str, Extremes] = {}  # by name, as ``ends_of`` looks for them
 
     @property
     def is_loaded(self) -> bool:
@@ -80,21 +81,21 @@ class Cycle:
             local = local_deg(span, input_deg)
             if not len(local):
                 continue
-            for i, value in enumerate(self.moving(span.engagement, local)):
+            for i, row in enumerate(self.moving(span.engagement, local)):
                 total = out[i]
-                if value is None or total is None:
+                if row is None or total is None:
                     out[i] = None
                 else:
-                    total[span.moves] = value
+                    total[span.moves] = row
         return Instant(*out)
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant:
         """Arrays at input angles of an engagement, from its own mid-motion."""
-        given, at = self.given, contact(engagement, input_deg)
-        torque = at.acceleration.c[0] * given.inertia_Nm + given.resists_Nm
+        given, at = self.given, contacts(engagement, input_deg)
+        torque = value(at.acceleration) * given.inertia_Nm + given.resists_Nm
         drives = np.copysign(1.0, torque)
-        slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
-        pays = np.copysign(1.0, drives * gain(given, at, drives, slides).c[0])
+        slides = np.copysign(1.0, value(sliding(at, drives, given.radius)))
+        pays = np.copysign(1.0, drives * value(gain(given, at, drives, slides)))
         with np.errstate(all="ignore"):
             return bounded(instant(given, at, drives, slides, pays))
 
@@ -160,3 +161,9 @@ class Cycle:
             for engagement in self.mechanism.engagements
             for stretch in whole(engagement, self.given)
         ]
+
+
+@lru_cache(maxsize=16)
+def cycle_of(mechanism: Mechanism) -> Cycle:
+    """The cycle of a machine, kept while its loads, strength and cautions are asked for."""
+    return Cycle(mechanism)

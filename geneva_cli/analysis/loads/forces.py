@@ -96,25 +96,27 @@ class Forces(NamedTuple):
     square: Jet | None  # of the contact stress
 
 
-def sliding(at: Contact, drives: Coefficient, radius: float) -> Jet:
+def value(quantity: Coefficient) -> Coefficient:
+    """The value of a jet, or what is a value already."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def sliding(at: Contact, drives: Coefficient, radius: float) -> Coefficient:
     """Speed at which the roller rubs along the wall, over L, per input radian."""
-    speed: Jet = at.along - at.spin * (drives * radius)
-    return speed
+    return at.along - at.spin * (drives * radius)
 
 
-def gain(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+def gain(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
     """Torque on the input shaft over the wheel's, times the grip: it has a value everywhere."""
     lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
-    over: Jet = at.velocity * _grip(given, at, drives, slides) + lost
-    return over
+    return at.velocity * _grip(given, at, drives, slides) + lost
 
 
-def _grip(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+def _grip(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
     if not given.friction:
         return at.lever
     rub = at.touches * (given.friction * slides)
-    grip: Jet = at.lever + rub * (at.aside * drives - at.arm * given.radius)
-    return grip
+    return at.lever + rub * (at.aside * drives - at.arm * given.radius)
 
 
 def forces(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Forces:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
-from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding
+from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding, value
 from geneva_cli.numerics.jet import Coefficient, Jet, sqrt
 
 
@@ -81,7 +81,7 @@ def instant(
     # The efficiency counts where the input drives; what the wheel gives back is not lessened by
     # losses that are not known to be there: a brake must hold all of it.
     shaft = found.shaft * (0.5 * (1.0 + pays) / given.efficiency + 0.5 * (1.0 - pays))
-    rub = given.friction * at.touches.c[0]
+    rub = given.friction * value(at.touches)
     on_wheel = found.force * (1.0 + rub * rub) ** 0.5
     return Instant(
         at.velocity * w,
@@ -129,11 +129,6 @@ def _joints(
         return force * sqrt(x * x + y * y)
 
     return size(0), size(1)
-
-
-def value(quantity: Coefficient) -> Coefficient:
-    """The value of a jet, or what is a value already."""
-    return quantity.c[0] if isinstance(quantity, Jet) else quantity
 
 
 def values(found: Instant) -> Instant:

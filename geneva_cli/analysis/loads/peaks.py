@@ -56,10 +56,10 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     it keeps away from the slopes that are rounding.
     """
 
-    def torque(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+    def torque(at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
         return at.acceleration * given.inertia_Nm + given.resists_Nm
 
-    def rubs(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
+    def rubs(at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
         return sliding(at, drives, given.radius)
 
     def shaft(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
@@ -122,7 +122,7 @@ def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
 def _cut_at_zeros(
     engagement: Engagement,
     pieces: list[Stretch],
-    of: Callable[[Contact, Coefficient, Coefficient], Jet],
+    of: Callable[[Contact, Coefficient, Coefficient], Coefficient],
     sign: str,
 ) -> list[Stretch]:
     """The pieces cut at the zeros of a jet, with its sign between them."""

@@ -9,6 +9,7 @@ from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
 from geneva_cli.analysis.loads.fluctuation import fluctuation_J, flywheel_kgm2
 from geneva_cli.analysis.loads.makers_form import Load, MakersForm, makers_form
+from geneva_cli.analysis.loads.quantities import ends_of
 from geneva_cli.analysis.peaks import acceleration_peak, peak, velocity_peak
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def _form(cycle: Cycle) -> Sizing:
 def _exact(cycle: Cycle, form_torque: float | None) -> tuple[dict[str, float | None], list[str]]:
     """What the exact cycle says of motor and flywheel; that nothing bounds it, where that is so."""
     motor, w = cycle.mechanism.spec.motor, cycle.given.speed_rad_s
-    torque = cycle.extremes(lambda i: i.shaft(i.input_torque_Nm))[0]
+    (torque,) = ends_of(cycle, "input_torque_Nm")
     square = cycle.integrals(lambda i: _at_motor(motor, i.input_torque_Nm, i.pays) ** 2)[0]
     out: dict[str, float | None] = _inertias(cycle, motor)
     if not all(map(math.isfinite, (torque.max, torque.min, square))):

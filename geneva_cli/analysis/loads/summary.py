@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Integrand, Quantity
-from geneva_cli.analysis.loads.forces import Row
+from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Integrand
 from geneva_cli.analysis.loads.instant import Instant
+from geneva_cli.analysis.loads.quantities import PV, QUANTITIES, SQUARED, STRESS, ends_of, known
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.numerics.jet import Coefficient
@@ -20,26 +21,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 PLACES = ("time_s", "input_deg", "wheel_deg")
-STRESS = "contact_stress_MPa"
-MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # what is known without a load
 ZERO = 1e-15  # share of a peak that is rounding
 NOUGHT = ZERO * ZERO  # a mean whose square is so small a share of the mean square is rounding
-PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
-SQUARED = (STRESS, PV)  # whose squares are looked for: a root has no slope where it is 0
-# What each quantity is at an instant, whose extremes are looked for.
-QUANTITIES: dict[str, Quantity] = {
-    "omega_rad_s": lambda i: Row(i.omega_rad_s),
-    "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
-    "wheel_torque_Nm": lambda i: Row(i.wheel_torque_Nm),
-    "pin_force_N": lambda i: i.pin_force,
-    STRESS: lambda i: i.stress,
-    "sliding_m_s": lambda i: Row(i.sliding_m_s),
-    "input_torque_Nm": lambda i: i.shaft(i.input_torque_Nm),
-    "wheel_bearing_N": lambda i: Row(i.wheel_bearing_N, i.grip),
-    "crank_bearing_N": lambda i: Row(i.crank_bearing_N, i.grip),
-    PV: lambda i: i.pressure_speed,
-    "guide_force_N": lambda i: i.guide,
-}
 SHOWN = (
     "omega_rad_s",
     "alpha_rad_s2",
@@ -106,19 +89,11 @@ def _squared(values: Coefficient, name: str) -> Coefficient:
     return values if name in SQUARED else values * values
 
 
-def known(cycle: Cycle) -> list[str]:
-    """The quantities of which there is a value."""
-    missing = set() if cycle.given.hertz is not None else {*SQUARED}
-    if not any(engagement.joints for engagement in cycle.mechanism.engagements):
-        missing.add("guide_force_N")
-    found = QUANTITIES if cycle.is_loaded else MOVES
-    return [name for name in found if name not in missing]
-
-
-def summaries(cycle: Cycle) -> dict[str, Summary]:
+@lru_cache(maxsize=16)
+def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     """The summary of each quantity, by its name; None for each value that is not known."""
     names = known(cycle)
-    found = cycle.extremes(*[QUANTITIES[name] for name in names])
+    found = ends_of(cycle, *names)
 
     # What has no bound has no mean either: nearly always, and never one to rely on.
     summed = [name for name, ends in zip(names, found, strict=True) if _is_bounded(ends)]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_motion
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
-from geneva_cli.machine.engagement import Anchor, Displacement, Engagement, PeakKnown
+from geneva_cli.machine.engagement import Anchor, Displacement, Engagement, PeakKnown, Turning
 from geneva_cli.machine.law_motion import refuse_alpha0
 from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
 from geneva_cli.machine.rollers import places
@@ -103,6 +103,8 @@ class Transmission(Drive):
         else:
             motion.peaks_known = self.known(wheel, place)
         body = wheel.body(place, here.advance)
+        if self.direct:
+            body = body or Turning(-wheel.SIGN)
         return Engagement(here.input_deg, path, slot, motion, body=body, hub=wheel.hub(place))
 
     @property

@@ -1,45 +1,20 @@
-"""The walls of a curved slot: the outer boundary of all that its roller passes over.
-
-The roller comes along its circle, while the wheel still rests; it runs through the slot and out
-again, and leaves along its circle. Each of these ways has a wall on either side; where the roller
-turns back, its own outline is a wall too. Of all these only what no other place of the roller
-passes over is left, and of that only the chain from one corner of the mouth round the bottom to
-the other: an island between the way in and the way out falls out of the wheel.
-"""
+"""The walls of a curved slot as lines, arcs and cubics: the chain of walls, fitted."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Segment, about, joined
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.walls.joint import Place, joint, point, runs
-from geneva_cli.parts.walls.ways import Wall, walls
+from geneva_cli.parts.walls.chain import Piece, chain
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 LAYER = "WHEEL"
-TURNS = 64  # walls a chain may have before it is lost
-SHORT = 1e-7  # of the centre distance: a shorter piece is rounding
-BACK = -0.999  # the cosine between two directions that are each other's reverse
-
-
-class Piece(NamedTuple):
-    """A part of a wall, from one parameter to another, either way."""
-
-    wall: Wall
-    start: float
-    end: float
 
 
 def curved_walls(
@@ -72,112 +47,3 @@ def _segments(piece: Piece, tolerance: float, curves: str) -> list[Segment]:
         return points, -tangents
 
     return [*fitted(back, -a, -b, tolerance)]
-
-
-def chain(plane: Plane, sizes: Sizes, engagement: Engagement) -> list[Piece]:
-    """The pieces of walls that bound a slot, from the mouth's lower corner to its upper one."""
-    around = walls(plane, sizes, engagement)
-    rim = _Rim(plane, sizes)
-    crossings = [c for wall in around for c in rim.crossings(wall)]
-    if not crossings:
-        raise _lost()
-    place, t = min(crossings, key=lambda c: math.atan2(*point(c[0].wall, c[1])[::-1]))
-    found: list[Piece] = []
-    for _ in range(TURNS):
-        last, leaves = _run(rim, place)
-        if leaves is not None:
-            found.append(Piece(place.wall, t, leaves))
-            return [piece for piece in found if _long(piece, SHORT * plane.L)]
-        following = _next(around, last)
-        end, begin = joint(last, following)
-        found.append(Piece(place.wall, t, end))
-        place, t = following, begin
-    raise _lost()
-
-
-def _long(piece: Piece, least: float) -> bool:
-    return math.dist(point(piece.wall, piece.start), point(piece.wall, piece.end)) > least
-
-
-def _lost() -> GenevaError:
-    return GenevaError(
-        "the walls of this slot do not close: the roller is too large for its curve, or the rim "
-        "too small",
-        ("size", "roller_radius_mm"),
-    )
-
-
-class _Rim:
-    """Which side of the wheel's rim a point is on; what lies on it counts as the wheel's."""
-
-    def __init__(self, plane: Plane, sizes: Sizes) -> None:
-        self.sign, self.radius, self.close = plane.sign, sizes.rim, 1e-9 * plane.L
-
-    def depth(self, points: Array) -> Array:
-        """How far points lie within the wheel."""
-        out: Array = self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
-        return out
-
-    def crossings(self, wall: Wall) -> Iterator[tuple[Place, float]]:
-        """Where a wall enters the wheel: the first sample inside, and the parameter itself."""
-        depth = self.depth(wall.points)
-        inside = (depth > -self.close) & wall.free
-        for way in (1, -1):
-            order = range(len(depth))[::way]
-            for before, i in zip((-1, *order), order, strict=False):
-                if not inside[i]:
-                    continue
-                at_end = before == -1
-                if at_end and depth[i] < self.close < depth[i + way]:
-                    yield Place(wall, i, way), float(wall.t[i])
-                elif not at_end and depth[before] <= -self.close:
-                    yield Place(wall, i, way), self.crossing(wall, wall.t[before], wall.t[i])
-
-    def crossing(self, wall: Wall, outside: float, inside: float) -> float:
-        """The parameter at which a wall crosses the rim."""
-
-        def within(t: float) -> bool:
-            return bool(self.depth(np.array(point(wall, t))) > 0.0)
-
-        return boundary(within, float(inside), float(outside))
-
-
-def _run(rim: _Rim, place: Place) -> tuple[Place, float | None]:
-    """Along a wall to its last free sample; the parameter at the rim where it leaves the wheel."""
-    wall, i, way = place
-    depth = rim.depth(wall.points)
-    while True:
-        after = i + way
-        if not 0 <= after < len(wall.t):
-            leaves = float(wall.t[i]) if depth[i] < rim.close and i != place.i else None
-            return Place(wall, i, way), leaves
-        if depth[after] <= -rim.close:
-            return Place(wall, i, way), rim.crossing(wall, wall.t[after], wall.t[i])
-        if not wall.free[after]:
-            return Place(wall, i, way), None
-        i = after
-
-
-def _next(around: list[Wall], last: Place) -> Place:
-    """The wall that goes on where one ends: free, nearest, and not the one just run along."""
-    here = last.wall.points[last.i]
-    travel = last.way * last.wall.curve(last.wall.t[last.i : last.i + 1])[1][0]
-    best: tuple[float, int] | None = None
-    found = None
-    for wall in around:
-        for start, end in runs(wall):
-            if wall is last.wall and start <= last.i <= end:
-                continue
-            away = np.hypot(*(wall.points[start : end + 1] - here).T)
-            i = start + int(np.argmin(away))
-            along = float((wall.curve(wall.t[i : i + 1])[1][0] * travel).sum())
-            way = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
-            rest_of_run = end - i if way > 0 else i - start
-            score = (float(away[i - start]), -rest_of_run)
-            # Not back where it came from: walls that run into each other end in one point.
-            back = way * along < BACK
-            if rest_of_run and not back and (best is None or score < best):
-                best, found = score, Place(wall, i, way)
-    if found is None:
-        raise _lost()
-    return found

@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import Pitch, retraces
-from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes, rest
 from geneva_cli.parts.slot_profile import nodes, pitch_at
@@ -164,12 +164,13 @@ def _unfolded(
     first = int(np.argmin(folded))
     centre = L * np.array((at.x[order[0]], at.y[order[0]]))
 
-    def out(x: float) -> float:
-        return math.dist(curve(np.array([x]))[0][0], centre) - abs(side)
+    def out(x: Array) -> NDArray[np.bool_]:
+        found: NDArray[np.bool_] = np.hypot(*(curve(x)[0] - centre).T) > abs(side)
+        return found
 
-    while first < len(t) - 1 and out(float(t[order[first]])) <= 0.0:
+    while first < len(t) - 1 and not out(t[order[first : first + 1]])[0]:
         first += 1
-    b = boundary(lambda x: bool(out(x) > 0.0), float(t[order[first]]), float(t[order[first - 1]]))
+    b = boundary_by_sections(out, float(t[order[first]]), float(t[order[first - 1]]))
     kept = np.sort(t[order[first:]])
     return np.append(kept, b) if b < 0.0 else np.insert(kept, 0, b)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
@@ -41,7 +41,7 @@ def report(
     """
     proof = proof or Proof(mechanism)
     rows = judged(mechanism, proof) if rows is None else rows
-    cycle = Cycle(mechanism)
+    cycle = cycle_of(mechanism)
     told = (
         *cautions(mechanism),
         *load_cautions(mechanism),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.summary import reversals_deg, summaries
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
@@ -12,7 +12,7 @@ FIELDS = ("max", "min", "mean", "rms")
 
 def cycle(proof: Proof) -> Values:
     """Greatest and least over the motions, mean and rms over the period; None without a load."""
-    of = Cycle(proof.mechanism)
+    of = cycle_of(proof.mechanism)
     found = summaries(of)
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
