@@ -9,6 +9,7 @@ centre distance, the wheel's axis the origin, the crank's at 1. Imports nothing 
 
 from typing import NamedTuple
 
+import machine_witness
 from machine_witness import Front, fitted, linkage, motions
 from witness import mp, to_radians
 
@@ -32,6 +33,11 @@ class Loads(NamedTuple):
     wheel_bearing: object
     crank_bearing: object
     guide: object  # None where the crank carries the roller
+
+
+def speed(spec):
+    """Of the input, rad/s."""
+    return mp.mpf(spec.drive.n_rpm) * mp.pi / 30
 
 
 def rate(f, x):
@@ -70,14 +76,17 @@ def crank(g):
     return Chain(None, shaft, -g)
 
 
-def coulisse(g, A):
-    """The body is a coulisse on the crank's axis; a block on the input crank drives it."""
+def coulisse(g, A, mid=0):
+    """The body is a coulisse on the crank's axis; a block on the input crank drives it.
+
+    ``mid`` is how far the input has turned at mid-motion from where the coulisse points ahead.
+    """
 
     def on(v):  # from the crank's own axes, on which it points at the wheel at 0
         return 1 - g * (mp.conj(v) if g > 0 else v) / 10
 
     def shaft(x, contact, force):
-        block, axis = on(A + mp.expj(x)), on(A)
+        block, axis = on(A + mp.expj(mid + x)), on(A)
         way = (block - 1) / abs(block - 1)
         push = balance((X, 1), (Y, 1), (1j * way, block), force=force, at=contact)[2]
         back = -push * 1j * way  # on the input crank
@@ -86,6 +95,110 @@ def coulisse(g, A):
         return torque, abs(force), None
 
     return Chain(None, shaft, -g)
+
+
+def behind(chain, ratio):
+    """Gears on parallel shafts before a chain: ``ratio(x, torque)`` is the torque on the input."""
+
+    def shaft(x, contact, force):
+        torque, axis, guide = chain.shaft(x, contact, force)
+        return ratio(x, torque), axis, guide
+
+    return chain._replace(shaft=shaft)
+
+
+def mesh(driver, driven, torque):
+    """Two wheels of these radii roll on each other: the torque on the one that holds the other."""
+    (push,) = [torque / driven]  # along the common tangent, about the driven wheel's axis
+    return push * driver
+
+
+def ellipses(front, mid):
+    """Two equal ellipses about their foci, 2 p apart: the driver's radius towards the other."""
+    e, p = front.e, mp.mpf(1) / 2
+
+    def ratio(x, torque):
+        driver = p * (1 - e * e) / (1 + e * mp.cos(mid + x))
+        return mesh(driver, 2 * p - driver, torque)
+
+    return ratio
+
+
+def rolling(front, mid):
+    """Gears cut for a ratio: the pitch point divides the centre distance by the speeds."""
+
+    def ratio(x, torque):
+        speed = rate(front.crank, mid + x)
+        return mesh(speed / (1 + speed), 1 / (1 + speed), torque)
+
+    return ratio
+
+
+def first_wheel(front, mid):
+    """A wheel with a crank of its own, without friction: its pin pushes across its slot."""
+    l = mp.sin(front.first)
+
+    def ratio(x, torque):
+        arm = -l * mp.expj(-(mid + x))  # from the input's axis, the first wheel's at the origin
+        place = 1 + arm
+        push = torque / abs(place)
+        return push * abs(cross(arm, 1j * place / abs(place)))
+
+    return ratio
+
+
+def gears(spec, front, mid):
+    """What turns the crank besides a coulisse, and the torque that it passes on."""
+    kinds = {
+        "elliptical-gears": ellipses,
+        "noncircular-gears": rolling,
+        "geneva-pair": first_wheel,
+    }
+    return kinds[spec.drive.NAME](front, mid) if spec.drive.NAME in kinds else None
+
+
+def sector(spec):
+    """Slot, gears, slot: half angle b and ratio l of the slots, ratio u of the gears, their angle.
+
+    Without a jump of speed u = l/(1 - l), and both halves of a step are b + u D/2.
+    """
+    D = to_radians(spec.drive.sector_deg)
+    assert spec.drive.gear_ratio == "shockless"
+
+    def ratio(b):
+        return mp.sin(b) / (1 - mp.sin(b))
+
+    step = mp.pi / spec.wheel.z
+    b = mp.findroot(lambda b: b + ratio(b) * D / 2 - step, step / 2)
+    return mp.sin(b), ratio(b), D
+
+
+def slots_beside_gears(spec):
+    """The wheel's angle and the roller of the slot at either end, mid-motion being the gears'."""
+    l, u, D = sector(spec)
+
+    def pin(x):
+        return 1 - l * mp.expj(mp.sign(x) * D / 2 - x)
+
+    def wheel(x):
+        return mp.arg(pin(x)) + mp.sign(x) * u * D / 2
+
+    def body(x):
+        return mp.arg((pin(x) - 1) / -l)
+
+    return crank(1)._replace(body=body), wheel, pin, mp.mpf(spec.given_distance_mm)
+
+
+def in_gear(spec, deg):
+    """The loads and the speed while gear sectors drive; None where a roller does."""
+    _, u, D = sector(spec)
+    if abs(to_radians(deg)) > D / 2:
+        return None
+    torque, L = mp.mpf(spec.load.torque_Nm), mp.mpf(spec.given_distance_mm) / 1000
+    driven = L / (1 + u)
+    force, none = torque / driven, mp.mpf(0)
+    shaft = mesh(u * driven, driven, torque)
+    return Loads(torque, force, shaft, none, none, force, force, None), u
 
 
 def planet(spec):
@@ -176,21 +289,27 @@ def link(spec, entry_deg, exit_deg):
     return Chain(angle, shaft, sense), wheel, pin, abs(centre)
 
 
-def machine(spec, near=None):
-    """The chain, wheel's angle and roller's place of the first engagement, and L in millimetres."""
+def machine(spec, near=None, number=0):
+    """The chain, wheel's angle and roller's place of an engagement, and L in millimetres."""
     if near:
         return link(spec, *near)
     kind = spec.drive.NAME
     g = -1 if spec.wheel.NAME == "internal" else 1
-    motion = motions(spec)[0]
+    if kind == "gear-sector":
+        return slots_beside_gears(spec)
+    motion = motions(spec)[number]
     wheel, pin = motion.wheel, motion.path
     if kind == "epicyclic":
         chain = planet(spec)
     elif kind == "cam":
         chain = groove(g, pin)
     else:
-        A = Front(spec.drive).A
-        chain = coulisse(g, A) if A else crank(g)
+        front, mid = Front(spec.drive), motion.mid
+        before = gears(spec, front, mid)
+        if before:
+            chain = behind(crank(g), before)
+        else:
+            chain = coulisse(g, front.A, mid) if front.A else crank(g)
     if chain.body is None:
         chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) / (pin(mp.mpf(0)) - 1)))
     return chain, wheel, pin, mp.mpf(spec.given_distance_mm)
@@ -236,3 +355,47 @@ def loads(spec, chain, wheel, pin, distance_mm, deg):
         guide,
     )
     return found, speed
+
+
+def on_the_sphere(spec, deg):
+    """The same in space: a conical roller that meets the slot's wall at right angles to its way.
+
+    Pin and wheel on the unit sphere, the wheel's axis up, the crank's in the xz plane.
+    """
+    S = to_radians(spec.wheel.axes_deg)
+    th = mp.asin(mp.sin(S) * mp.sin(mp.pi / spec.wheel.z))
+    a, L = to_radians(deg), mp.mpf(spec.given_distance_mm) / 1000
+    given = spec.size.roller_radius_mm
+    r = mp.mpf(1) / 20 if given is None else mp.mpf(given) / 1000 / L
+
+    def place(t):
+        return machine_witness.on_the_sphere(S, th, t)
+
+    def wheel(t):
+        x, y, _ = place(t)
+        return mp.atan2(y, x)
+
+    u, psi = place(a), wheel(a)
+    psi1, psi2 = rate(wheel, a), mp.diff(wheel, a, 2, h=mp.mpf(10) ** -15)
+    w = mp.mpf(spec.drive.n_rpm) * mp.pi / 30
+    torque = mp.mpf(spec.load.inertia_kgm2) * w * w * psi2 + mp.mpf(spec.load.torque_Nm)
+    side = mp.sign(torque)
+    normal = [-side * mp.sin(psi), side * mp.cos(psi), mp.mpf(0)]
+    tangent = vector(u, normal)
+    at = [p + r * n for p, n in zip(u, normal, strict=True)]
+    turns = [-mp.sin(S), mp.mpf(0), -mp.cos(S)]  # the crank turns against the wheel
+    spin = [t - k for t, k in zip(turns, (0, 0, psi1), strict=True)]
+    rubs = dot(vector(spin, at), tangent)
+    rub = mp.mpf(spec.load.friction) * mp.sign(rubs)
+    unit = [n + rub * t for n, t in zip(normal, tangent, strict=True)]
+    force = torque / vector(at, unit)[2] / L
+    shaft = dot(vector(at, unit), turns) * force * L
+    return torque, force, shaft, psi1
+
+
+def vector(a, b):
+    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+
+
+def dot(a, b):
+    return mp.fdot(a, b)

@@ -7,7 +7,10 @@ and are held against those differences, so each of the two checks the other. Not
 imports the program; every key is taken as the exact double that it is.
 """
 
-from witness import LAWS, mp, taylor, to_radians
+from functools import cache
+
+from spline_witness import powers
+from witness import LAWS, krasniqi, mp, taylor, to_radians
 
 
 class Front:
@@ -91,9 +94,11 @@ class Motion:
 class LawMotion(Motion):
     """A motion that a law gives; at a joint of the law, from the left."""
 
-    def __init__(self, law, motion, half_step, path_of):
+    def __init__(self, law, motion, half_step, path_of, middle=None):
+        """``middle`` is the share of the motion at which the input's angle is 0: or else half."""
         self.law, self.whole = law, motion
-        super().__init__(mp.mpf(0), -motion / 2, motion / 2, half_step, self._wheel, None)
+        before = -motion * (mp.mpf(1) / 2 if middle is None else middle)
+        super().__init__(mp.mpf(0), before, before + motion, half_step, self._wheel, None)
         self.path = lambda x: path_of(x, self._wheel(x))
 
     def _wheel(self, x):
@@ -252,13 +257,50 @@ def cam(spec):
     def pin(x, psi):
         return mp.sin(x) / mp.sin(x + g * psi) * mp.expj(psi)
 
-    return LawMotion(LAWS[spec.motion.law.NAME], motion, b, pin)
+    law = law_of(spec.motion.law)
+    half = mp.mpf(1) / 2  # of the time, and of the step but for a law of unlike halves
+    if law(half, 1)[0] != half:
+        half = mp.findroot(lambda u: law(u, 1)[0] - mp.mpf(1) / 2, half)
+    return LawMotion(law, motion, b, pin, half)
+
+
+def law_of(law):
+    """The law that a spec names, with its keys: derivatives 0 to any order at a share of time."""
+    if law.NAME == "tuned":  # the load moves as y: s = y + 2 zeta y'/Omega + y''/Omega^2
+        omega = 2 * mp.pi * mp.mpf(law.period_ratio)
+        of, zeta = LAWS[law.of], mp.mpf(law.damping_ratio)
+
+        def tuned(u, order):
+            y = of(u, order + 2)
+            return [
+                y[k] + 2 * zeta * y[k + 1] / omega + y[k + 2] / omega**2 for k in range(order + 1)
+            ]
+
+        return tuned
+    if law.NAME == "table":
+        return table(tuple(law.points.pairs))
+    return krasniqi(law.lambda_) if law.NAME == "sine-group" else LAWS[law.NAME]
+
+
+@cache
+def table(pairs):
+    """The quintic spline through points, at rest at both ends: one dense system for all powers."""
+    x, y = zip(*((mp.mpf(a), mp.mpf(b)) for a, b in pairs), strict=True)
+    inner = x[1:-1]
+    rows = [powers(v, inner, 0) for v in x]
+    rows += [powers(v, inner, k) for v in (x[0], x[-1]) for k in (1, 2)]
+    c = mp.lu_solve(mp.matrix(rows), mp.matrix([*y, 0, 0, 0, 0]))
+
+    def at(u, order):
+        return [mp.fdot(powers(u, inner, k), c) for k in range(order + 1)]
+
+    return at
 
 
 def curved(spec, front):
     """A law and a roller on the crank's circle."""
     g = -1 if spec.wheel.NAME == "internal" else 1
-    b, law = mp.pi / spec.wheel.z, LAWS[spec.motion.law.NAME]
+    b, law = mp.pi / spec.wheel.z, law_of(spec.motion.law)
     motion = 2 * front.input(mp.pi / 2 - g * b) - to_radians(spec.motion.alpha0_deg)
     l = spec.motion.ratio
     if l is None:

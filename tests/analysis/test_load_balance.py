@@ -1,11 +1,10 @@
 """Pin force and input torque with friction, against bodies cut free (``load_witness``)."""
 
 import load_witness
-import machine_witness
 import numpy as np
 import pytest
 import repo
-from witness import mp, to_radians
+from witness import mp
 from words import Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.loads import loads
@@ -95,35 +94,9 @@ def _same_instant(found, true, spec, speed):
 
 @pytest.mark.parametrize("x", [-70.0, -15.0, 33.0])
 def test_friction_on_the_sphere(x):
-    """The same in space: a conical roller that meets the slot's wall at right angles to its way."""
     spec = Spec(Wheel(6, "spherical", axes_deg=70.0), size=Size(80.0, 6.0), load=LARGE)
     mechanism = build(spec)
-    S = to_radians(70.0)
-    th = mp.asin(mp.sin(S) * mp.sin(mp.pi / 6))
-    a = to_radians(x)
-
-    def place(t):
-        return np.array(machine_witness.on_the_sphere(S, th, t))
-
-    def wheel(t):
-        return mp.atan2(place(t)[1], place(t)[0])
-
-    u, psi = place(a), wheel(a)
-    way = np.array([mp.diff(lambda t, i=i: place(t)[i], a) for i in range(3)])
-    psi1, psi2 = mp.diff(wheel, a), mp.diff(wheel, a, 2)
-    up, crank = np.array([0, 0, 1]), np.array([mp.sin(S), 0, mp.cos(S)])
-    normal = np.array([-mp.sin(psi), mp.cos(psi), 0])
-    w = 2 * mp.pi
-    torque = mp.mpf(0.02) * w * w * psi2 + 3
-    normal = normal if torque > 0 else -normal
-    tangent = np.cross(u, normal)
-    at = u + mp.mpf(6) / 80 * normal
-    turns = -crank  # the crank turns against the wheel
-    assert max(abs(v) for v in np.cross(turns, u) - way) < 1e-40
-    rubs = np.dot(np.cross(turns - psi1 * up, at), tangent)
-    force = normal + mp.mpf(0.2) * mp.sign(rubs) * tangent
-    pin = torque / np.dot(np.cross(at, force), up) / mp.mpf("0.08")
-    shaft = np.dot(np.cross(at, pin * force), turns) * mp.mpf("0.08")
+    _, pin, shaft, _ = load_witness.on_the_sphere(spec, x)
     found = loads.state(mechanism, mechanism.engagements[0], x)
     assert found.pin_force_N == pytest.approx(float(pin), rel=1e-14)
     assert found.input_torque_Nm == pytest.approx(float(shaft), rel=1e-14)

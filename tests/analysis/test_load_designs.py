@@ -1,0 +1,93 @@
+"""The loads of every machine in designs/, with friction, against bodies cut free in 50 digits."""
+
+import load_witness
+import numpy as np
+import pytest
+import repo
+from words import load
+
+from geneva_cli.analysis.loads.contact import contact
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.tables import Load, Support
+
+LOAD = Load(0.02, 3.0, friction=0.1)
+ULP = 2.0**-52
+PLACES = (-0.85, -0.3, 0.1, 0.7)  # shares of the way to entry, and to exit
+# Where a linkage's wheel has its entry and exit, nearly: degrees of its crank.
+NEAR = {"slider-crank": (60.75, 225.23), "four-bar": (123.3, 236.7)}
+NAMES = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
+QUANTITIES = (
+    "omega_rad_s",
+    "wheel_torque_Nm",
+    "pin_force_N",
+    "sliding_m_s",
+    "input_torque_Nm",
+    "wheel_bearing_N",
+    "crank_bearing_N",
+    "guide_force_N",
+)
+
+
+def loaded(name):
+    """The design with this load alone, whatever it has of its own."""
+    spec = load(str(repo.DESIGNS / f"{name}.toml")).spec
+    return build(spec.but(load=LOAD, mass=(), support=Support()))
+
+
+def planar(mechanism, number, x):
+    """The quantities that the witness knows of a machine in a plane, with their signs."""
+    spec = mechanism.spec
+    machine = load_witness.machine(spec, NEAR.get(spec.drive.NAME), number)
+    meshed = load_witness.in_gear(spec, x) if spec.drive.NAME == "gear-sector" else None
+    true, speed = meshed or load_witness.loads(spec, *machine, x)
+    w = load_witness.speed(spec)
+    side = load_witness.mp.sign(true.torque)
+    values = (
+        speed * w,
+        true.torque,
+        side * true.force,
+        true.sliding * w,
+        true.shaft,
+        true.wheel_bearing,
+        true.crank_bearing,
+        true.guide,
+    )
+    return dict(zip(QUANTITIES, values, strict=True))
+
+
+def spherical(mechanism, number, x):
+    torque, force, shaft, speed = load_witness.on_the_sphere(mechanism.spec, x)
+    force *= load_witness.mp.sign(torque)
+    values = (speed * load_witness.speed(mechanism.spec), torque, force, shaft)
+    names = ("omega_rad_s", "wheel_torque_Nm", "pin_force_N", "input_torque_Nm")
+    return dict(zip(names, values, strict=True))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_loads_of_a_design(name):
+    """Within 32 units in the last place of each quantity's peak; angles of all engagements.
+
+    A linkage's wheel is fitted: all places have errors of a unit of L, 16 with the links' angles,
+    which count the more the nearer the roller comes to the wheel's axis (0.04 L in four-bar-z4).
+    """
+    mechanism = loaded(name)
+    witness = planar if mechanism.spec.wheel.FLAT else spherical
+    cycle, count = Cycle(mechanism), len(mechanism.engagements)
+    for i, share in enumerate(PLACES):
+        number = i % count
+        engagement = mechanism.engagements[number]
+        x = share * (engagement.exit_deg if share > 0.0 else -engagement.entry_deg)
+        grid = np.linspace(engagement.entry_deg, engagement.exit_deg, 201)[1:-1]
+        lever = contact(engagement, grid).lever.c[0].min()
+        allowed = 32.0 + (16.0 / lever if mechanism.spec.drive.NAME in NEAR else 0.0)
+        whole, here = cycle.moving(engagement, grid), cycle.moving(engagement, np.array([x]))
+        for quantity, exact in witness(mechanism, number, x).items():
+            found = getattr(here, quantity)
+            if exact is None:
+                assert found is None
+                continue
+            size = abs(getattr(whole, quantity))
+            peak = size[np.isfinite(size)].max()
+            off = abs(load_witness.mp.mpf(float(found[0])) - exact)
+            assert off <= allowed * ULP * peak, (quantity, x, float(off / (ULP * peak)))
