@@ -20,7 +20,9 @@ def folder(tmp_path, monkeypatch):
     folder.mkdir()
     monkeypatch.chdir(folder)
     put("spec.toml", "[wheel]\nz = 6\n")
-    put("fails.toml", "[wheel]\nz = 6\n[limits]\nvelocity_max = 0.1\n")
+    # spherical: without parts that would be turned
+    sphere = '[wheel]\nz = 6\ngearing = "spherical"\n'
+    put("fails.toml", sphere + "[limits]\nvelocity_max = 0.1\n")
     put("warns.toml", "[wheel]\nz = 25\n")
 
 

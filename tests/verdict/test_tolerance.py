@@ -22,6 +22,7 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.tolerance.recesses import locks
 from tests.repo import ROOT
 
+pytestmark = pytest.mark.usefixtures("made_once")
 ALL = Tolerance(
     center_distance_mm=0.02,
     crank_radius_mm=0.03,
