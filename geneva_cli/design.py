@@ -450,11 +450,17 @@ class Design:
         return Proof(self.mechanism, made)
 
     def drawing(
-        self, part: str, tolerance_mm: float = 0.001, curves: str = "arcs", of: Proof | None = None
+        self,
+        part: str,
+        tolerance_mm: float = 0.001,
+        curves: str = "arcs",
+        of: Proof | None = None,
+        kerf_mm: float | None = None,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
-        ``slot``, ``wheel``, ``crank``, ``assembly`` or ``groove``; millimetres.
+        ``slot``, ``wheel``, ``crank``, ``arm``, ``assembly`` or ``groove``; millimetres. With a
+        kerf, the paths of a cut so wide, and ``GenevaError`` where it does not fit in.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -464,7 +470,15 @@ class Design:
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         found = (of or self.drawn(tolerance_mm)).found
-        return self._located(lambda: part_drawing(found, part, tolerance_mm, CURVES[curves]))
+        of_curves = CURVES[curves]
+        made = self._located(lambda: part_drawing(found, part, tolerance_mm, of_curves))
+        if kerf_mm is None:
+            return made
+        from geneva_cli.curves.kerf import paths
+        from geneva_cli.parts.catalogue import require_cut
+
+        require_cut(part)
+        return self._located(lambda: paths(made, kerf_mm))
 
     @answer
     def checks(self) -> list[Check]:

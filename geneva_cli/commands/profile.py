@@ -32,6 +32,10 @@ def run(
     curves: Annotated[
         str, typer.Option(metavar="KIND", help="Curved walls as arcs, or as spline for CAD.")
     ] = "arcs",
+    kerf: Annotated[
+        float | None,
+        typer.Option(metavar="MM", help="Paths for a cut so wide: half of it beside the part."),
+    ] = None,
     units: Annotated[str, typer.Option(metavar="UNIT", help="Of drawings: mm or inch.")] = "mm",
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
     given: Given = None,
@@ -62,13 +66,15 @@ def run(
     if design.is_table(part, drawn):
         if units != "mm":
             raise GenevaError("--units is for drawings; tables of points are in millimetres")
+        if kerf is not None:
+            raise GenevaError("--kerf is for parts to cut; this one is a table of points")
         show(design.part_table(part, tolerance, samples), output, format, design.spec.files)
     else:
         if samples is not None:
             raise GenevaError("--samples is for tables of points; drawings take --tolerance")
         proof = design.drawn(tolerance)
         _judge(design, proof, force)
-        drawing = design.drawing(part, tolerance, curves, proof)
+        drawing = design.drawing(part, tolerance, curves, proof, kerf)
         draw(drawing, output, format, units, design.spec.files)
     warn(design)
 

@@ -61,6 +61,13 @@ class Member(NamedTuple):
 Part: TypeAlias = Plate | Group
 
 
+def plates(part: Part) -> list[Plate]:
+    """All plates of a part, each as often as it is used."""
+    if isinstance(part, Plate):
+        return [part]
+    return [plate for member in part.members for plate in plates(member.part)]
+
+
 class Body(NamedTuple):
     """What a plate weighs, where, and its inertia about its own origin along the axis."""
 

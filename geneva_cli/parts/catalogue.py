@@ -23,18 +23,20 @@ class Part(NamedTuple):
     table: str | None = None  # its points, where no drawing is asked for
     drawing: str | None = None
     sphere: str | None = None  # its points where the wheel is a sphere's
+    cut: bool = False  # whether it is cut out of a plate
 
 
 PARTS = {
     "slot": Part("slot_profile:profile_table", "drawings:slot"),
-    "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table"),
-    "crank": Part(drawing="drawings:crank"),
-    "arm": Part(drawing="drawings:arm"),
+    "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table", cut=True),
+    "crank": Part(drawing="drawings:crank", cut=True),
+    "arm": Part(drawing="drawings:arm", cut=True),
     "assembly": Part(drawing="drawings:assembly"),
     "gears": Part("gear_curves:gears_table"),
     "groove": Part("groove:groove_table", "drawings:groove"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
+CUT = tuple(name for name, part in PARTS.items() if part.cut)
 SAMPLES_MAX = 1_000_000
 
 
@@ -78,8 +80,17 @@ def part_drawing(found: Outlines, part: str, tolerance_mm: float, curves: str) -
     return made
 
 
+def require_cut(part: str) -> None:
+    """Raise GenevaError for a part that is not cut out of a plate, and has no kerf."""
+    if part not in CUT:
+        raise GenevaError(
+            f"--kerf is for parts that are cut out of a plate: {', '.join(CUT)}; not for "
+            f"{cut(part)}"
+        )
+
+
 def _table(mechanism: Mechanism, part: str) -> str | None:
-    table, _, sphere = PARTS[part]
+    table, _, sphere, _ = PARTS[part]
     return table if mechanism.spec.wheel.FLAT else sphere or table
 
 

@@ -25,7 +25,7 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     if drawing.solid is None:
         raise GenevaError(
             "no solid to write as STEP: --part wheel, crank, arm and assembly are solids, in "
-            "their own size; other drawings are .dxf or .svg"
+            "their own size; other drawings, and paths with --kerf, are .dxf or .svg"
         )
     if units != "mm":
         raise GenevaError("--units: a STEP file is in mm, and says so to the program that reads it")

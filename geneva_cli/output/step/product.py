@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Group, Member, Part, Plate
+from geneva_cli.curves.plates import Group, Member, Part, Plate, plates
 from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.step.entities import Entities, listed, real, words
 from geneva_cli.output.step.solid import solid
@@ -110,13 +110,6 @@ class Products:
         used = file.shared(f"SURFACE_STYLE_USAGE(.BOTH.,{side})")
         style = file.shared(f"PRESENTATION_STYLE_ASSIGNMENT(({used}))")
         return file.add(f"STYLED_ITEM('',({style}),{body})")
-
-
-def plates(part: Part) -> list[Plate]:
-    """All plates of a part, each as often as it is used."""
-    if isinstance(part, Plate):
-        return [part]
-    return [plate for member in part.members for plate in plates(member.part)]
 
 
 def _space(file: Entities) -> str:

@@ -1,0 +1,204 @@
+"""The path of a cutter beside an outline: its true offset, of lines and arcs as the outline is.
+
+A laser's beam takes away half its kerf on either side of its path, which therefore runs that far
+outside outlines and inside holes. Round a corner that stands out the path is an arc about it; in
+one that stands in, neighbours are cut off where they meet, and the beam leaves its own radius.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.measure import at, segment_length
+from geneva_cli.curves.pieces import STEP, prepared
+from geneva_cli.curves.plates import plates, with_material_left
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Segment, closed
+from geneva_cli.errors import GenevaError
+
+NEAR = 1e-5  # mm: a path that comes nearer to the part by less leaves it whole
+SAMPLES = 4  # of the path, along the offset
+MOST = 50_000  # samples of a path
+STEPS = 40  # of Newton's method
+LOOKS = 12  # halvings between a kerf that goes and one that does not
+
+
+class _Closed(GenevaError):
+    """An offset for which there is no path."""
+
+
+def paths(drawing: Drawing, kerf: float) -> Drawing:
+    """A drawing of which what is solid are paths for a cut of a width in mm, and no solid any more.
+
+    Raises GenevaError for a width that is not above 0, for cubics, and where no path leaves the
+    part as it is, with a kerf that does.
+
+    >>> from geneva_cli.curves.plates import Plate
+    >>> bore = Circle("BORE", (0.0, 0.0), 5.0)
+    >>> washer = Plate("washer", "CRANK", Circle("CRANK", (0.0, 0.0), 9.0), (bore,), 0.0, 1.0)
+    >>> found = paths(Drawing("washer", (washer.outline, bore), solid=washer), 0.2)
+    >>> [circle.radius for circle in found.shapes]
+    [9.1, 4.9]
+    """
+    if not 0.0 < kerf < math.inf:
+        raise GenevaError(f"--kerf {kerf:g}: the width of the cut must be above 0 mm")
+    cut = plates(drawing.solid) if drawing.solid else []
+    outside = {hole: False for plate in cut for hole in plate.holes}
+    outside |= {plate.outline: True for plate in cut}
+    shapes = tuple(
+        _path(shape, outside[shape], kerf) if shape in outside else shape
+        for shape in drawing.shapes
+    )
+    return drawing._replace(title=f"{drawing.title}, kerf {kerf:g} mm", shapes=shapes, solid=None)
+
+
+def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circle:
+    """The path about an outline or in a hole."""
+    try:
+        return offset(shape, outside, 0.5 * kerf)
+    except _Closed as error:
+        raise GenevaError(f"--kerf {kerf:g}: {error}; {_widest(shape, outside, kerf)}") from None
+
+
+def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
+    """What to do instead: the widest kerf that goes, to three digits."""
+    goes, fails = 0.0, kerf
+    for _ in range(LOOKS):
+        middle = 0.5 * (goes + fails)
+        try:
+            offset(shape, outside, 0.5 * middle)
+            goes = middle
+        except _Closed:
+            fails = middle
+    if not goes:
+        return f"nor would one of {fails:.2g}"
+    unit = 10.0 ** (math.floor(math.log10(goes)) - 2)
+    return f"a kerf up to {math.floor(goes / unit) * unit:.6g} would still do"
+
+
+def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:
+    """An outline moved outwards, or a hole moved inwards, by a distance above 0.
+
+    Raises GenevaError where the beam does not fit in, and for cubics.
+    """
+    if isinstance(shape, Circle):
+        radius = shape.radius + (distance if outside else -distance)
+        if radius <= STEP:
+            raise _Closed(f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow")
+        return shape._replace(radius=radius)
+    (cleaned,) = prepared(Drawing("", (shape,))).shapes
+    assert isinstance(cleaned, Contour)
+    contour = with_material_left(cleaned, outside)
+    pieces = [_beside(segment, contour.layer, distance) for segment in contour.segments]
+    found = _joined(contour, pieces, distance)
+    _require_away(contour, found, distance)
+    return found
+
+
+def _beside(segment: Segment, layer: str, distance: float) -> Line | Arc:
+    """A piece moved to the right of its way."""
+    if isinstance(segment, Line):
+        (x0, y0), (x1, y1) = segment
+        share = distance / math.dist(segment.start, segment.end)
+        x, y = share * (y1 - y0), share * (x0 - x1)
+        return Line((x0 + x, y0 + y), (x1 + x, y1 + y))
+    if not isinstance(segment, Arc):
+        raise GenevaError("--kerf moves lines and arcs; leave out --curves spline")
+    # A flat arc's centre is far off: its ends are moved along their own normals instead.
+    ends = [
+        _moved(point, way, distance)
+        for point, way in zip((segment.start, segment.end), _ways(segment), strict=True)
+    ]
+    if segment.bulge < 0.0 and segment.radius - distance <= STEP:
+        raise _Closed(
+            f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
+        )
+    return Arc(ends[0], ends[1], segment.bulge)
+
+
+def _ways(piece: Line | Arc) -> tuple[float, float]:
+    """The directions of travel at both ends, radians."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    chord = math.atan2(y1 - y0, x1 - x0)
+    half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
+    return chord - half, chord + half
+
+
+def _moved(point: Point, way: float, distance: float) -> Point:
+    return point[0] + distance * math.sin(way), point[1] - distance * math.cos(way)
+
+
+def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Contour:
+    """The moved pieces with arcs round the corners, and cut off in those that stand in."""
+    count = len(pieces)
+    low, high = [0.0] * count, [1.0] * count
+    around: list[Arc | None] = [None] * count
+    for i, piece in enumerate(pieces):
+        k = (i + 1) % count
+        before, after = _ways(piece)[1], _ways(pieces[k])[0]
+        turn = math.remainder(after - before, math.tau)
+        if abs(turn) * distance < STEP:
+            continue
+        if turn > 0.0:
+            around[i] = Arc(piece.end, pieces[k].start, math.tan(0.25 * turn))
+        else:
+            high[i], low[k] = _meeting(contour, piece, pieces[k])
+    found: list[Segment] = []
+    for piece, start, end, arc in zip(pieces, low, high, around, strict=True):
+        if start >= end:
+            raise _Closed(f"a piece of {contour.layer} is shorter than the cut is wide")
+        found += [_part(piece, start, end), *([arc] if arc else [])]
+    return closed(contour.layer, found)
+
+
+def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[float, float]:
+    """Where two pieces cross whose ends overlap, as shares of their ways; by Newton's method."""
+    s, t = 1.0, 0.0
+    for _ in range(STEPS):
+        (x, y), (u, v) = at(first, s), at(second, t)
+        (a, b), (c, d) = _speed(first, s), _speed(second, t)
+        across = b * c - a * d
+        if abs(across) < 1e-12 * math.hypot(a, b) * math.hypot(c, d):
+            break
+        ds, dt = ((u - x) * d - (v - y) * c) / -across, ((u - x) * b - (v - y) * a) / -across
+        s, t = s + ds, t + dt
+        if abs(ds) + abs(dt) < 1e-15:
+            break
+    apart = math.dist(at(first, s), at(second, t))
+    if not (apart < STEP and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
+        raise _Closed(f"a corner that stands in on {contour.layer} is narrower than the cut")
+    return s, t
+
+
+def _speed(piece: Line | Arc, t: float) -> Point:
+    """The derivative of the point by the share of the way."""
+    first, last = _ways(piece)
+    way, length = first + t * (last - first), segment_length(piece)
+    return length * math.cos(way), length * math.sin(way)
+
+
+def _part(piece: Line | Arc, start: float, end: float) -> Line | Arc:
+    """The piece from one share of its way to another."""
+    if (start, end) == (0.0, 1.0):
+        return piece
+    ends = at(piece, start), at(piece, end)
+    if isinstance(piece, Line):
+        return Line(*ends)
+    return Arc(*ends, math.tan(0.25 * piece.sweep * (end - start)))
+
+
+def _require_away(contour: Contour, path: Contour, distance: float) -> None:
+    """Raise where the path comes nearer to the part than the beam's radius, as it does wherever it
+    crosses itself or turns inside out."""
+    boundary = Polyarc([contour])
+    around = math.fsum(map(segment_length, path.segments))
+    longest = max(distance / SAMPLES, around / MOST)
+    points = Polyarc([path]).samples(NEAR, longest)
+    away = boundary.signed(points)
+    if float(away.min()) < distance - NEAR:
+        at_x, at_y = points[int(np.argmin(away))]
+        raise _Closed(
+            f"near x = {at_x:.4g}, y = {at_y:.4g} on {contour.layer} a gap is narrower than the cut"
+        )

@@ -1,0 +1,208 @@
+"""Paths for a cut with a kerf: shapely's offsets, which are polygons, leave the nominal part."""
+
+import math
+
+import pytest
+import repo
+from drawing_witness import vertices
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely.geometry import LinearRing, Polygon
+from typer.testing import CliRunner
+from words import Spec, Wheel
+
+from geneva_cli.app import app
+from geneva_cli.curves.kerf import offset, paths
+from geneva_cli.curves.measure import area
+from geneva_cli.curves.plates import Plate, plates
+from geneva_cli.curves.shapes import Arc, Circle, Cubic, Drawing, Line, about, backwards, closed
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.outlines import outlines
+from geneva_cli.spec.tables import Size
+
+SAGITTA = 1e-4  # mm, of the chords that shapely is given
+MICRON = 1e-3  # mm, what a cut piece may be off by
+
+
+def polygon(shape):
+    return Polygon(vertices(shape, SAGITTA))
+
+
+def loop(*points):
+    return closed(
+        "WHEEL", [Line(p, q) for p, q in zip(points, [*points[1:], points[0]], strict=True)]
+    )
+
+
+def cut(path, outside, kerf):
+    """What a beam of this width leaves inside a path, or takes away along one in a hole."""
+    return polygon(path).buffer(-0.5 * kerf if outside else 0.5 * kerf, quad_segs=48)
+
+
+def require_cut(shape, outside, kerf, corner=0.0):
+    """The path does not cross itself, and what is cut is the shape within a micrometre.
+
+    ``corner``: how much more is left in a corner that stands in.
+    """
+    path = offset(shape, outside, 0.5 * kerf)
+    assert LinearRing(vertices(path, SAGITTA)).is_simple
+    nominal, made = polygon(shape), cut(path, outside, kerf)
+    inner, outer = (nominal, made) if outside else (made, nominal)
+    assert outer.buffer(MICRON).contains(inner)
+    assert inner.buffer(MICRON + corner).contains(outer)
+    return path
+
+
+def test_round_a_square():
+    square = loop((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))
+    path = require_cut(square, True, 0.4)
+    assert area(path) == pytest.approx(100.0 + 4 * 10 * 0.2 + math.pi * 0.04, rel=1e-14)
+    assert [type(s) for s in path.segments] == [Line, Arc] * 4
+    # in a hole the corners are where two paths meet
+    path = require_cut(square, False, 0.4, corner=0.2 * (math.sqrt(2.0) - 1.0))
+    assert abs(area(path)) == pytest.approx(9.6**2, rel=1e-14)
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_corners_that_stand_in(turn):
+    """Line and line, line and arc, arc and arc; whichever way the contour runs."""
+    notched = closed(
+        "WHEEL",
+        [
+            Line((0.0, 0.0), (20.0, 0.0)),
+            Line((20.0, 0.0), (20.0, 10.0)),
+            Line((20.0, 10.0), (14.0, 4.0)),
+            Line((14.0, 4.0), (10.0, 10.0)),
+            Arc((10.0, 10.0), (6.0, 6.0), 0.3),
+            Arc((6.0, 6.0), (0.0, 10.0), 0.5),
+            Line((0.0, 10.0), (0.0, 0.0)),
+        ],
+    )
+    notched = backwards(notched) if turn else notched
+    require_cut(notched, True, 0.3, corner=0.15 * 2.0)
+
+
+@pytest.mark.parametrize("outside", [True, False])
+@pytest.mark.parametrize("layer", ["WHEEL", "CRANK", "ARM"])
+@pytest.mark.parametrize("name", ["turret", "press-curved", "internal-z6", "offset-slots"])
+def test_parts_of_machines(name, layer, outside):
+    part = layer.lower()
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    proof = design.drawn(0.01)
+    for plate in plates(design.drawing(part, 0.01, "arcs", proof).solid):
+        for shape in (plate.outline,) if outside else plate.holes:
+            if not isinstance(shape, Circle):
+                # a relief's corners stand in, at a right angle or less
+                require_cut(shape, outside, 0.2, corner=0.2 if layer == "CRANK" else 0.0)
+
+
+@settings(max_examples=6, deadline=None, derandomize=True)
+@given(
+    st.integers(3, 12),
+    st.floats(0.5, 5.0),
+    st.floats(0.02, 0.5),
+    st.sampled_from(["external", "internal"]),
+)
+def test_wheels_of_any_size(z, roller, kerf, gearing):
+    found = outlines(build(Spec(Wheel(z, gearing), size=Size(roller_radius_mm=roller))))
+    require_cut(found.wheel, gearing == "external", kerf)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(
+    st.lists(st.tuples(st.floats(5.0, 30.0), st.floats(-0.5, 0.7)), min_size=3, max_size=9),
+    st.floats(0.05, 4.0),
+    st.booleans(),
+)
+def test_no_path_crosses_itself(corners, kerf, outside):
+    """Of outlines with any corners: the path leaves them, or is refused with a kerf that goes."""
+    count = len(corners)
+    at = [
+        (r * math.cos(math.tau * i / count), r * math.sin(math.tau * i / count))
+        for i, (r, _) in enumerate(corners)
+    ]
+    pairs = zip(at, [*at[1:], at[0]], corners, strict=True)
+    shape = closed(
+        "WHEEL", [Arc(p, q, b) if abs(b) > 0.01 else Line(p, q) for p, q, (_, b) in pairs]
+    )
+    if not LinearRing(vertices(shape, 1e-3)).is_simple:
+        return
+    try:
+        path = offset(shape, outside, 0.5 * kerf)
+    except GenevaError:
+        return
+    assert LinearRing(vertices(path, SAGITTA)).is_simple
+    nominal, made = polygon(shape), cut(path, outside, kerf)
+    inner, outer = (nominal, made) if outside else (made, nominal)
+    assert outer.buffer(MICRON).contains(inner)
+
+
+def test_a_slot_is_as_wide_as_it_was():
+    """The walls of a straight slot, which are a roller's diameter apart."""
+    found = outlines(build(Spec(Wheel(6), size=Size(roller_radius_mm=5.0))))
+    path = offset(found.wheel, True, 0.1)
+    lines = [s for s in path.segments if isinstance(s, Line)]
+    ahead = [s for s in lines if min(s.start[0], s.end[0]) > 0 and abs(s.start[1]) < 6.0]
+    low, high = sorted(s.start[1] for s in ahead)
+    assert high - low + 0.2 == pytest.approx(10.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("shape", "outside", "most"),
+    [
+        (Circle("BORE", (1.0, 2.0), 3.0), False, 6.0),
+        # a slot 2 wide with a round end, and one with a square end
+        (closed("WHEEL", [
+            Line((10.0, 1.0), (10.0, 9.0)), Line((10.0, 9.0), (-10.0, 9.0)),
+            Line((-10.0, 9.0), (-10.0, -9.0)), Line((-10.0, -9.0), (10.0, -9.0)),
+            Line((10.0, -9.0), (10.0, -1.0)), Line((10.0, -1.0), (0.0, -1.0)),
+            about((0.0, 0.0), 1.0, -0.5 * math.pi, -math.pi), Line((0.0, 1.0), (10.0, 1.0)),
+        ]), True, 2.0),
+        (loop((10.0, 1.0), (10.0, 9.0), (-10.0, 9.0), (-10.0, -9.0), (10.0, -9.0), (10.0, -1.0),
+              (0.0, -1.0), (0.0, 1.0)), True, 2.0),
+        # horns whose tips nearly touch, 1 apart
+        (loop((0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (5.5, 6.0), (9.0, 5.0), (9.0, 1.0), (1.0, 1.0),
+              (1.0, 5.0), (4.5, 6.0), (0.0, 6.0)), True, 1.0),
+    ],
+)  # fmt: skip
+def test_a_cut_that_does_not_fit_in_is_refused_with_one_that_does(shape, outside, most):
+    solid = Plate("part", "WHEEL", shape, (), 0.0, 1.0)
+    if not outside:
+        solid = Plate("part", "WHEEL", Circle("WHEEL", (0.0, 0.0), 50.0), (shape,), 0.0, 1.0)
+    drawing = Drawing("part", (shape,), solid=solid)
+    with pytest.raises(GenevaError, match="would still do") as error:
+        paths(drawing, most + 0.2)
+    said = float(str(error.value).rpartition("up to ")[2].partition(" ")[0])
+    # Newton's corners and samples come close to what is left of it, to three digits
+    assert 0.99 * most - 0.02 < said <= most
+    assert paths(drawing, said).solid is None
+
+
+def test_cubics_are_refused():
+    shape = closed("WHEEL", [Cubic((0, 0), (1, 0), (2, 1), (2, 2)), Line((2, 2), (0, 0))])
+    with pytest.raises(GenevaError, match="leave out --curves spline"):
+        offset(shape, True, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--part", "wheel", "--kerf", "0"], "the width of the cut must be above 0 mm"),
+        (["--part", "wheel", "--kerf", "nan"], "the width of the cut must be above 0 mm"),
+        (["--part", "wheel", "--kerf", "9"], "a kerf up to"),
+        (["--part", "assembly", "--kerf", "0.2"], "wheel, crank, arm; not for assembly"),
+        (["--part", "wheel", "--kerf", "0.2", "--format", "step"], "no solid"),
+        (["--part", "slot", "--kerf", "0.2", "--format", "csv"], "a table of points"),
+    ],
+)
+def test_wrong_options(options, said):
+    output = [] if "--format" in options else ["--format", "svg"]
+    found = CliRunner().invoke(
+        app, ["profile", str(repo.DESIGNS / "limits.toml"), "--set", "size.roller_radius_mm=4",
+              *options, *output]
+    )  # fmt: skip
+    assert found.exit_code == 2
+    assert said in found.stderr
+    assert found.stdout == ""
