@@ -33,7 +33,8 @@ def run(
 
     Bearings carry rigid links without mass or weight: what turns the crank (motor, gears, coulisse)
     gives it a couple alone. The guide is what holds the roller's body besides the crank: rocker,
-    slider, groove or fixed gear. p v is the greatest Hertz pressure times the speed of sliding.
+    slider, groove or fixed gear. p v is the greatest Hertz pressure times the speed of sliding, and
+    that is a roller's that is fast on its pin; one that turns (friction_at) rolls as fast instead.
     """
     from geneva_cli.design import load
     from geneva_cli.output import format_of, show

@@ -137,6 +137,16 @@ class Load(Table):
     ] = None
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "eta of the wheel"] = 1.0
     friction: Annotated[float, NOT_NEGATIVE, "roller against slot, coefficient"] = 0.0
+    friction_at: Annotated[
+        str,
+        OneOf(("slot", "pin")),
+        "where it rubs: in the slot, fast on its pin; or on the pin, and rolls in the slot",
+    ] = "slot"
+
+    @property
+    def rubs_in_slot(self) -> bool:
+        """Whether the roller is fast on its pin."""
+        return self.friction_at == "slot"
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ def load_cautions(mechanism: Mechanism) -> list[str]:
 
 def _jammed(cycle: Cycle) -> list[str]:
     (force,) = ends_of(cycle, "pin_force_N")
-    friction = cycle.given.friction
+    friction = cycle.mechanism.spec.load.friction
     endless = [
         at
         for at, value in ((force.max_at_deg, force.max), (force.min_at_deg, force.min))

@@ -201,7 +201,7 @@ class Strength:
         if self._lacks("friction_work_J", rubs, self._loaded):
             return None
         every = roller.passages(self.mechanism)
-        work = self.spec.load.friction * math.fsum(way.work for way in every) / len(every)
+        work = self.cycle.given.friction * math.fsum(way.work for way in every) / len(every)
         return work if math.isfinite(work) else None
 
     @cached_property
@@ -210,7 +210,9 @@ class Strength:
         name = "slot_wear_mm_per_million"
         given = self.spec.material_wheel.wear_mm3_Nm is not None
         key = (given, "wear_mm3_Nm in [material.wheel]")
-        if self._lacks(name, key, self._wide, self._loaded) or not self._bounded(name):
+        # a roller that turns on its pin does not rub in the slot
+        rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
+        if self._lacks(name, key, rubs, self._wide, self._loaded) or not self._bounded(name):
             return None
         return roller.wear_mm(self.mechanism)
 

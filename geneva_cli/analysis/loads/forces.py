@@ -17,9 +17,11 @@ from typing import NamedTuple
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.loads.contact import Contact
+from geneva_cli.analysis.strength.pin import pin_diameter_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Coefficient, Jet
 
 
@@ -31,7 +33,7 @@ class Setting(NamedTuple):
     resists_Nm: float
     L: float  # metres
     radius: float  # of the roller, over L
-    friction: float
+    friction: float  # along the wall, over the force on it
     efficiency: float
     hertz: float | None  # square of the stress on a flat wall, MPa² per newton; None: no width
 
@@ -52,10 +54,35 @@ def setting(mechanism: Mechanism) -> Setting:
         resisting_torque_Nm(spec),
         mechanism.center_distance_mm / 1000.0,
         mechanism.roller_radius_mm / mechanism.center_distance_mm,
-        load.friction,
+        rubbing(mechanism),
         load.efficiency,
         hertz,
     )
+
+
+def rubbing(mechanism: Mechanism) -> float:
+    """The force along the wall over the force on it, where the roller moves along it.
+
+    A roller that is fast on its pin rubs in the slot, at the coefficient itself. One that turns on
+    its pin rolls, held back by its pin: what it bears passes a circle of the pin's radius times
+    sin rho, tan rho being the coefficient (the friction circle of a journal), and so leaves the
+    wall at an angle whose sine is that of rho times pin over roller. It rubs on its pin as many
+    times more slowly as the pin is smaller, so the work is N times the speed along the wall times
+    what is returned here in either case.
+
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.mechanism import build
+    >>> from geneva_cli.machine.spec import Spec
+    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
+    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
+    0.049814
+    """
+    load = mechanism.spec.load
+    if all_true(load.friction == 0.0) or load.rubs_in_slot:
+        return load.friction
+    share = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
+    sine = share * load.friction / math.hypot(1.0, load.friction)
+    return load.friction if share == 1.0 else sine / math.sqrt((1.0 - sine) * (1.0 + sine))
 
 
 def contact_modulus_GPa(spec: Spec) -> float:

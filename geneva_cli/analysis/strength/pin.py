@@ -62,16 +62,21 @@ MOMENTS: dict[str, Callable[[Number, Number], Number]] = {
 PLATES = {"cantilever": 1.0, "supported": 2.0, "fixed": 2.0}  # that share the force
 
 
+def pin_diameter_mm(mechanism: Mechanism) -> float:
+    """Of the roller's pin; with ``pin_mm = 0`` a roller is its own pin."""
+    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    return r if size.pin_mm is None else size.pin_mm or 2.0 * r
+
+
 def pin(mechanism: Mechanism) -> Pin | None:
     """The pin of a machine's rollers; None without the length of the line of contact.
 
     Bending 32 M/(pi d³) at the plate or in the middle, shear 4/3 V/(pi d²/4) in the neutral axis.
-    With ``pin_mm = 0`` a roller is its own pin.
     """
-    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    size = mechanism.spec.size
     if size.face_width_mm is None:
         return None
-    d = r if size.pin_mm is None else size.pin_mm or 2.0 * r
+    d = pin_diameter_mm(mechanism)
     moment = moment_mm(size.pin_held, size.face_width_mm, size.pin_gap_mm)
     shear = 16.0 / (3.0 * math.pi * d * d) / PLATES[size.pin_held]
     return Pin(d, 32.0 * moment / (math.pi * d**3), shear)
