@@ -130,6 +130,12 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     assert mine <= min(peak for _, peak in gears) * (1 + NEAR)
 
 
+def test_a_drive_that_does_nothing_is_no_row():
+    """Where the plain crank is the gentlest, gears of no eccentricity are not listed beside it."""
+    found = [row.way for row in rows(motion_deg="100..180", z="8", spherical=True, rollers=1)]
+    assert [(way.drive, way.axes_deg) for way in found] == [("crank", 90.0)]
+
+
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
     """In a range the machine of a kind is the gentlest of those that keep the bound."""
     wish = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}

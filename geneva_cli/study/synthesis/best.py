@@ -18,6 +18,7 @@ from geneva_cli.study.synthesis.together import numbers
 PLACES = 24  # intervals of a family's span that are looked at first
 NEARER = 8  # times that the look is narrowed
 CLOSER = 6  # intervals of each narrower look, over the two beside the best
+SAME = 1e-4  # share of a span, nearer than which the best is another family's machine
 PEAK = "acceleration.max"
 
 
@@ -45,7 +46,8 @@ def best(families: Sequence[Family], bounds: Sequence[Constraint] = ()) -> list[
     out = []
     for f in families:
         x = chosen.get(id(f), f.low)
-        spec = _made(f, x) if x == x else None
+        known = abs(x - f.known) <= SAME * (f.high - f.low)
+        spec = None if known or x != x else _made(f, x)
         if spec is not None:
             out.append(spec)
     return out

@@ -13,6 +13,7 @@ the family's best is taken: what that is, is ``best``'s to say.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from itertools import count
 from typing import NamedTuple
@@ -44,11 +45,15 @@ PLANETS = ("sun", "ring")
 
 
 class Family(NamedTuple):
-    """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec."""
+    """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec.
+
+    At ``known``, where that is in the wish, the machine is one of another family.
+    """
 
     make: Callable[[float], Spec]
     low: float = 0.0
     high: float = 0.0
+    known: float = math.nan
 
 
 class Frame:
@@ -203,7 +208,8 @@ def _between(
     """A drive whose parameter rises with its motion, as far as it goes."""
     low, high = (inverse(natural, x) for x in motion)
     if low <= closed.MOST and high >= -closed.MOST:
-        yield Family(make, max(low, -closed.MOST), min(high, closed.MOST))
+        plain_too = 0.0 if holds(motion, natural) else math.nan
+        yield Family(make, max(low, -closed.MOST), min(high, closed.MOST), plain_too)
 
 
 def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
@@ -223,7 +229,8 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 
         low, high = (closed.axes(z, x) for x in free)
         if low <= 180.0 - closed.AXES and high >= closed.AXES:
-            yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES))
+            right = 90.0 if holds(free, 180.0) else math.nan
+            yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right)
 
 
 def _with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
