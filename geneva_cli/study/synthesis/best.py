@@ -19,6 +19,7 @@ PLACES = 24  # intervals of a family's span that are looked at first
 NEARER = 8  # times that the look is narrowed
 CLOSER = 6  # intervals of each narrower look, over the two beside the best
 SAME = 1e-4  # share of a span, nearer than which the best is another family's machine
+NONE = (math.inf, math.nan)
 PEAK = "acceleration.max"
 
 
@@ -30,19 +31,23 @@ def best(families: Sequence[Family], bounds: Sequence[Constraint] = ()) -> list[
     free = [f for f in families if f.low < f.high]
     if not free:
         return [spec for f in families if (spec := _made(f, f.low))]
-    spans = [(f.low, f.high) for f in free]
-    found: list[tuple[float, float]] = [(math.inf, math.nan)] * len(free)
+    found: dict[int, tuple[float, float]] = {}
+    open_ = {i: (f.low, f.high) for i, f in enumerate(free)}
     count = PLACES
-    for _ in range(1 + NEARER):
-        places = [[a + (b - a) * j / count for j in range(count)] + [b] for a, b in spans]
-        found = _looked(free, places, bounds, found)
-        step = [(b - a) / count for a, b in spans]
-        spans = [
-            (max(f.low, x - h), min(f.high, x + h)) if x == x else (f.low, f.high)
-            for f, (_, x), h in zip(free, found, step, strict=True)
-        ]
-        count = CLOSER
-    chosen = {id(f): x for f, (_, x) in zip(free, found, strict=True)}
+    for look in range(1 + NEARER):
+        places = {
+            i: [a + (b - a) * j / count for j in range(count)] + [b] for i, (a, b) in open_.items()
+        }
+        _look(free, places, bounds, found)
+        nearer = {}
+        for i, (a, b) in open_.items():
+            f, (_, x) = free[i], found.get(i, NONE)
+            # one that is still best at an end of its span, looked at nearer there, is best there
+            if x == x and not (look and x in (f.low, f.high)):
+                step = (b - a) / count
+                nearer[i] = max(f.low, x - step), min(f.high, x + step)
+        open_, count = nearer, CLOSER
+    chosen = {id(f): found.get(i, NONE)[1] for i, f in enumerate(free)}
     out = []
     for f in families:
         x = chosen.get(id(f), f.low)
@@ -53,20 +58,14 @@ def best(families: Sequence[Family], bounds: Sequence[Constraint] = ()) -> list[
     return out
 
 
-def _looked(
+def _look(
     free: Sequence[Family],
-    places: Sequence[Sequence[float]],
+    places: dict[int, list[float]],
     bounds: Sequence[Constraint],
-    found: Sequence[tuple[float, float]],
-) -> list[tuple[float, float]]:
-    """The least peak and its place of each family, of these places and the best so far."""
-    out = list(found)
-    tried = [
-        (i, x, spec)
-        for i, (f, at) in enumerate(zip(free, places, strict=True))
-        for x in at
-        if (spec := _made(f, x))
-    ]
+    found: dict[int, tuple[float, float]],
+) -> None:
+    """Put into ``found`` the least peak and its place of each family, of these places too."""
+    tried = [(i, x, spec) for i, at in places.items() for x in at if (spec := _made(free[i], x))]
     names = [PEAK, *(b.name for b in bounds)]
     rows = numbers([spec for _, _, spec in tried], names)
     for (i, x, _), row in zip(tried, rows, strict=True):
@@ -74,9 +73,8 @@ def _looked(
             continue
         peak, *others = row
         kept = all(b.kept(v) for b, v in zip(bounds, others, strict=True))
-        if kept and peak < out[i][0]:
-            out[i] = (peak, x)
-    return out
+        if kept and peak < found.get(i, NONE)[0]:
+            found[i] = (peak, x)
 
 
 def _made(family: Family, x: float) -> Spec | None:

@@ -61,6 +61,8 @@ class Frame:
 
     def __init__(self, wish: Wish) -> None:
         self.wish = wish
+        # one set of tables for all: a thousand of them would take a second to make
+        self.own = wish.frame or Spec(registry.gearing(wish.gearings[0])(wish.z[0]))
 
     def spec(
         self,
@@ -72,9 +74,7 @@ class Frame:
     ) -> Spec:
         """A machine of the frame; ``drive`` makes its drive for an input speed."""
         found = drive(self.wish.n_rpm(m, motion_deg))
-        own = self.wish.frame
-        if own is None:
-            return Spec(wheel, found, motion)
+        own = self.own
         return own.but(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
 
 
