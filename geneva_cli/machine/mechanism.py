@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.machine import compatible
+from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.size_rules import refuse_sizes
@@ -29,6 +30,11 @@ class Mechanism(NamedTuple):
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float  # L, as given or as solved for
+
+    @property
+    def plan(self) -> Plan:
+        """What its drive made of the spec."""
+        return Plan(*self[1:])
 
     @property
     def law(self) -> Law | None:

@@ -31,6 +31,7 @@ PARTS = {
     "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table", cut=True),
     "crank": Part(drawing="drawings:crank", cut=True),
     "arm": Part(drawing="drawings:arm", cut=True),
+    "parts": Part("parts_list:parts_table"),
     "assembly": Part(drawing="drawings:assembly"),
     "gears": Part("gear_curves:gears_table"),
     "groove": Part("groove:groove_table", "drawings:groove"),

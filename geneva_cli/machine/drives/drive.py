@@ -9,6 +9,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.machine.engagement import Displacement, Engagement
+from geneva_cli.machine.layout import Layout
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Table
 
@@ -114,6 +115,14 @@ class Drive(Table):
     def input_deg(self, crank_deg: float) -> float:
         """The input angle at which the crank has turned so far from mid-motion."""
         return crank_deg
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivots and dimensions of its own, beside those of wheel and crank; ``sign`` the wheel's.
+
+        >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
+        Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
+        """
+        return ()
 
     @abstractmethod
     def plan(self, spec: Spec) -> Plan:

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Example, Gears
+from geneva_cli.machine.drives.drive import Example, Gears, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
@@ -62,6 +63,18 @@ class EllipticalGears(Transmission):
     def gears(self) -> Gears:
         """At the distance of axes at which their pitch curves are given."""
         return Gears(DISTANCE_MM, self.about(0.0).advance)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Both ellipses turn about a focus; the driven one is fast on the crank."""
+        a = 0.5 * DISTANCE_MM
+        far = plan.center_distance_mm + DISTANCE_MM
+        return (
+            Pivot("driver gear axis", far, 0.0),
+            Dimension("gears' axes", DISTANCE_MM, "mm"),
+            Dimension("gears' semi-major axis", a, "mm"),
+            Dimension("gears' focus from centre", a * self.eccentricity, "mm"),
+            Dimension("index in the gears' phase", self.phase),
+        )
 
     def about(self, crank_deg: float) -> About:
         """About the driven gear's angle f in degrees."""

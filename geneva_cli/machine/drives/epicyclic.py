@@ -9,13 +9,14 @@ this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b. The
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
+from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
@@ -91,6 +92,22 @@ class Epicyclic(PinPath):
         joints = PlanetJoints(R0, rp, c)
         engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c), joints)
         return self.planned(engagement, R0 + rp, spec.given_distance_mm)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Carrier, planet crank and gears; at input 0 both arms point at the wheel."""
+        joints = cast(PlanetJoints, plan.engagements[0].joints)
+        L = plan.center_distance_mm
+        R0, rp, teeth = L * joints.R0, L * joints.rp, abs(joints.c - 1.0)
+        planet = R0 / abs(joints.c)
+        return (
+            Pivot("planet axis", L - R0, 0.0),
+            Dimension("carrier R0", R0, "mm"),
+            Dimension("planet crank rp", rp, "mm"),
+            Dimension("fixed gear", self.fixed),
+            Dimension("fixed teeth / planet teeth", teeth),
+            Dimension("planet's pitch radius", planet, "mm"),
+            Dimension("fixed gear's pitch radius", planet * teeth, "mm"),
+        )
 
 
 class PlanetJoints(NamedTuple):

@@ -12,8 +12,9 @@ from functools import reduce
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.linkage import Linkage, exactly, of_many, refuse_proportions
+from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_pairs import Path, Way, rounded
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt
@@ -86,6 +87,20 @@ class FourBar(Linkage):
             )
 
         refuse(self.crank_mm >= limit, error)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Links, and the joints at input 0."""
+        return (
+            self.placed(plan, "rocker axis", self.ground_mm, 0.0),
+            *self.linked(plan),
+            Dimension("crank a", self.crank_mm, "mm"),
+            Dimension("ground g", self.ground_mm, "mm"),
+            Dimension("coupler b", self.coupler_mm, "mm"),
+            Dimension("rocker c", self.rocker_mm, "mm"),
+            Dimension("roller from A", self.point_mm, "mm"),
+            Dimension("angle BAC", self.point_deg, "deg"),
+            Dimension("branch", self.branch),
+        )
 
     @property
     def roller_path(self) -> CouplerPath:

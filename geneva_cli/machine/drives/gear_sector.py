@@ -18,6 +18,7 @@ from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import Carried, same
 from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
+from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
@@ -64,6 +65,21 @@ class GearSector(PinPath):
         u, handover, _ = self._handover(b)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), spec.given_distance_mm)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """The slot's half angle, and where and at what ratio the gears take over."""
+        L = plan.center_distance_mm
+        b = math.asin(plan.ratio)
+        u, handover, _ = self._handover(b)
+        return (
+            Dimension("crank radius", L * plan.ratio, "mm"),
+            Dimension("slot's half angle b", math.degrees(b), "deg"),
+            Dimension("gears' ratio u", u),
+            Dimension("sector's angle", self.sector_deg, "deg"),
+            Dimension("handover, from the line of centres", math.degrees(handover), "deg"),
+            Dimension("crank gear's pitch radius", L * u / (1.0 + u), "mm"),
+            Dimension("wheel gear's pitch radius", L / (1.0 + u), "mm"),
+        )
 
     def _half_angle(self, z: int) -> float:
         """The half angle b of the slots that make up the step together with the gears."""

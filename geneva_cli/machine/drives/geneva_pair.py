@@ -11,8 +11,9 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
-from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import of_each, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
@@ -51,6 +52,16 @@ class GenevaPair(Transmission):
     def reach_deg(self) -> float:
         """Farthest the second crank may be from mid-step while it moves its wheel."""
         return 180.0 / self.first_z
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """The first wheel is fast on the second crank; its pair is drawn as large as the second."""
+        L = plan.center_distance_mm
+        return (
+            Pivot("first crank axis", 2.0 * L, 0.0),
+            Dimension("first wheel's slots", self.first_z),
+            Dimension("first centre distance", L, "mm"),
+            Dimension("first crank radius", L * poses.Step(1, self.first_z).sin_cos[0], "mm"),
+        )
 
     def about(self, crank_deg: float) -> About:
         """About an angle of the second crank within the first wheel's step, degrees."""

@@ -8,7 +8,7 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import reduce
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, cast
 
 import numpy as np
 
@@ -16,12 +16,14 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import wheel_for_path, wheels_for_paths
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
+from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.path_pairs import LONG_PI, Path
-from geneva_cli.machine.wheel_for_path import Fit
+from geneva_cli.machine.wheel_for_path import Fit, LinkJoints
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, smaller
+from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
 
@@ -71,6 +73,23 @@ class Linkage(PinPath):
             engagement, L = wheel_for_path.engagement(path, fit, step)
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, library(L).hypot(1.0 - x.c[0], y.c[0]), L)
+
+    def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
+        """A point of the linkage's own frame, about the crank's axis, in the machine's."""
+        at = cast(LinkJoints, plan.engagements[0].joints)
+        ahead, aside = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
+        return Pivot(name, plan.center_distance_mm + ahead, aside)
+
+    def linked(self, plan: Plan) -> Layout:
+        """Joints of crank and roller at input 0; the sense in which the crank turns."""
+        at = cast(LinkJoints, plan.engagements[0].joints)
+        direction = sin_cos(Jet((at.middle,)))
+        pin, roller = at.path.joint(*direction), at.path.place(*direction)
+        return (
+            self.placed(plan, "crank pin A", pin[0].c[0], pin[1].c[0]),
+            self.placed(plan, "roller C", roller[0].c[0], roller[1].c[0]),
+            Dimension("crank turns", "counterclockwise" if at.sense > 0.0 else "clockwise"),
+        )
 
     @property
     def varies(self) -> bool:

@@ -16,9 +16,10 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Example, Gears
+from geneva_cli.machine.drives.drive import Example, Gears, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
@@ -80,6 +81,19 @@ class NoncircularGears(Transmission):
     def gears(self) -> Gears:
         """The pair."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """The gears' axes and what their pitch curves follow: A of a side-crank, or a file."""
+        law: Dimension = (
+            Dimension("gears' ratio", self.ratio.file)
+            if self.ratio is not None
+            else Dimension("gears' ratio as of side-crank A", self.A or 0.0)
+        )
+        return (
+            Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
+            Dimension("gears' axes", self.gear_distance_mm, "mm"),
+            law,
+        )
 
     def about(self, crank_deg: float) -> About:
         """About a crank angle in degrees. Raises GenevaError for a ratio that no gears have."""

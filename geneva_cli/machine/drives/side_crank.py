@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.spec.rules import Range
 
@@ -48,6 +49,15 @@ class SideCrank(Transmission):
     def about(self, crank_deg: float) -> About:
         """About a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Its input crank, made as long as the Geneva crank, which is the coulisse."""
+        r = plan.ratio * plan.center_distance_mm
+        return (
+            Pivot("input crank axis", plan.center_distance_mm - sign * self.A * r, 0.0),
+            Dimension("input crank r", r, "mm"),
+            Dimension("base offset a", self.A * r, "mm"),
+        )
 
     def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
         """The peak acceleration of plain wheels."""

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.linkage import Linkage, exactly, of_many, refuse_proportions
+from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_pairs import Path, Way, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
@@ -58,6 +59,19 @@ class SliderCrank(Linkage):
                 f"must be shorter than the rod, so the crank below {b - abs(h):.6g}",
                 ("drive", "crank_mm"),
             ),
+        )
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Links, the joints at input 0, and two points of the slider's line."""
+        return (
+            self.placed(plan, "slider's line, foot", 0.0, self.height_mm),
+            self.placed(plan, "slider's line, ahead", self.rod_mm, self.height_mm),
+            *self.linked(plan),
+            Dimension("crank a", self.crank_mm, "mm"),
+            Dimension("rod b", self.rod_mm, "mm"),
+            Dimension("slider's line from the crank's axis h", self.height_mm, "mm"),
+            Dimension("roller from A", self.point_mm, "mm"),
+            Dimension("angle BAC", self.point_deg, "deg"),
         )
 
     @property

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, Place
@@ -88,6 +89,11 @@ class External(Gearing):
     def half_motion_deg(self, step: Step) -> float:
         """Crank angle from entry to the line of centres: 90° - b."""
         return classic.half_motion_deg(self.SIGN, *step)
+
+    @property
+    def layout(self) -> Layout:
+        """How far its slots miss the wheel's axis."""
+        return (Dimension("slots' axes beside the wheel's", self.offset_mm, "mm"),)
 
     def place(self, step: Step, center_distance_mm: float) -> Place:
         """A roller's passage; GenevaError where an offset slot cannot be entered without shock."""

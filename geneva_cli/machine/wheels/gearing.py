@@ -7,6 +7,7 @@ from abc import abstractmethod
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
+from geneva_cli.machine.layout import Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels.poses import Pose, Step
 from geneva_cli.machine.wheels.skew import Skew
@@ -77,6 +78,15 @@ class Gearing(Table):
         A truth value, or of an array of designs one each.
         """
         return False
+
+    @property
+    def layout(self) -> Layout:
+        """Dimensions of its own, beside the number of slots.
+
+        >>> External(6, offset_mm=12.0).layout
+        (Dimension(name="slots' axes beside the wheel's", value=12.0, unit='mm'),)
+        """
+        return ()
 
     @property
     def own_sizes(self) -> dict[str, float]:

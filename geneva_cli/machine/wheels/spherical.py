@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, Step
@@ -54,6 +55,11 @@ class Spherical(Gearing):
     def own_sizes(self) -> dict[str, float]:
         """The angle of the shafts."""
         return {"axes_deg": self.axes_deg}
+
+    @property
+    def layout(self) -> Layout:
+        """The angle of the shafts."""
+        return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
 
     def half_motion_deg(self, step: Step) -> float:
         """Crank angle from entry to mid-motion."""

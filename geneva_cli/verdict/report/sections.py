@@ -10,6 +10,7 @@ from geneva_cli.verdict.report import (
     inputs,
     loads,
     parts,
+    parts_list,
     shocks,
     sizes,
     slot,
@@ -30,6 +31,7 @@ SECTIONS: tuple[Callable[[Proof], Values], ...] = (
     vibration.vibration,
     sizes.sizes,
     parts.parts,
+    parts_list.listed,
     tolerances.tolerances,
     strength.strong,
 )

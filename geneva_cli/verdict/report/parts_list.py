@@ -1,0 +1,18 @@
+"""The list of parts, pivots and dimensions, as ``--part parts`` writes it, in three tables."""
+
+from __future__ import annotations
+
+from geneva_cli.parts.parts_list import KINDS, parts_list
+from geneva_cli.parts.proof import Proof
+from geneva_cli.table import rows_table
+from geneva_cli.verdict.report.values import Values
+
+
+def listed(proof: Proof) -> Values:
+    """None for a table without rows, as the parts of a sphere."""
+    rows = parts_list(proof).to_rows()
+    values: Values = {}
+    for kind, names in KINDS.items():
+        own = [[row[name] for name in names] for row in rows if row["row"] == kind]
+        values[f"parts_list.{kind}"] = rows_table(names, own, mixed=True) if own else None
+    return values
