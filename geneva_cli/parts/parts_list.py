@@ -1,34 +1,30 @@
 """The list of parts: what is cut and turned, and every pivot and dimension to rebuild it from.
 
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
-axis) and dimensions. Plates are as thick as the face is wide; masses and moments of inertia are of
-outlines, by Green's theorem, about the shaft that a part turns with, a roller about its pin.
+axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
+turns on: the wheel's, the crank's, a roller's own. Hubs are left out.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from geneva_cli.curves.measure import Box, bounds
-from geneva_cli.curves.moments import Moments, moments, total
-from geneva_cli.curves.shapes import Shape
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Plate, body
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
-from geneva_cli.parts.arm import bolts, crank_arm, has_arm
-from geneva_cli.parts.crank import crank_circles
+from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.plates import crank_group, wheel_plate
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.wheel_inertia import wheel_plate
 from geneva_cli.spec.schema import Points, fields
-from geneva_cli.spec.tables import Material
 from geneva_cli.table import Table, rows_table
 
-MM = 1e-3  # metres
 # what a row of each kind has
 KINDS = {
     "part": (
@@ -66,99 +62,33 @@ def parts_list(proof: Proof) -> Table:
 
 
 def _parts(found: Outlines) -> Iterator[dict[str, Any]]:
-    """The parts with flat outlines."""
-    spec = found.plane.given.spec
-    sizes, width, count = found.sizes, spec.size.face_width_mm, len(found.plane.rollers)
-    wheel = wheel_plate(found)
-    outer = 2.0 * sizes.outer
-    box = _box([found.wheel])
-    yield {
-        **_made("wheel", 1, "wheel", spec.material_wheel, width),
-        "mass_kg": wheel and wheel.mass_kg,
-        "inertia_kgm2": wheel and wheel.inertia_kgm2,
-        "size_x_mm": outer or box.x1 - box.x0,
-        "size_y_mm": outer or box.y1 - box.y0,
-    }
-    if found.crank:
-        bore = [s for s in crank_circles(found.plane, sizes) if s.layer == "BORE"]
-        holes = [*bore, *bolts(found)]
-        yield _plate("locking disc", found, found.crank, holes, width)
+    """The plates of wheel and crank, each kind once with its count, as the solids have them."""
+    spec, arm = found.plane.given.spec, None
     if has_arm(found):
-        with suppress(GenevaError):
+        with suppress(GenevaError):  # the check of the arm says why there is none
             arm = crank_arm(found)
-            holes = [arm.bore, *arm.pins, *arm.bolts]
-            yield _plate("crank arm", found, [arm.outline], holes, width)
-    for name, outside, inside in (
-        ("roller", sizes.roller, sizes.pin),
-        ("pin", sizes.pin, 0.0),
-    ):
-        if outside:
-            yield _turned(name, count, spec.material_roller, width, outside, inside)
-
-
-def _made(
-    name: str, count: int, material: str, of: Material, thickness: float | None
-) -> dict[str, Any]:
-    return {
-        "row": "part",
-        "name": name,
-        "count": count,
-        "material": f"material.{material}",
-        "density_kgm3": of.density_kgm3,
-        "thickness_mm": thickness,
-    }
-
-
-def _plate(
-    name: str,
-    found: Outlines,
-    contours: Sequence[Shape],
-    holes: Sequence[Shape],
-    thickness: float | None,
-) -> dict[str, Any]:
-    """A plate about the crank's axis, of the wheel's material."""
-    material = found.plane.mechanism.spec.material_wheel
-    whole = total(_positive(shape) for shape in contours)
-    left = whole.less(total(_positive(shape) for shape in holes))
-    per = None if thickness is None else material.density_kgm3 * thickness * MM
-    box = _box(contours)
-    return {
-        **_made(name, 1, "wheel", material, thickness),
-        "mass_kg": None if per is None else per * left.area * MM**2,
-        "inertia_kgm2": None if per is None else per * left.polar * MM**4,
-        "size_x_mm": box.x1 - box.x0,
-        "size_y_mm": box.y1 - box.y0,
-    }
-
-
-def _turned(
-    name: str, count: int, of: Material, length: float | None, outside: float, inside: float
-) -> dict[str, Any]:
-    """A ring or a pin, about its own axis; the values are of one."""
-    row = _made(name, count, "roller", of, length)
-    row |= {"size_x_mm": 2.0 * outside, "size_y_mm": 2.0 * outside}
-    if length is not None:
-        area = math.pi * (outside - inside) * (outside + inside)
-        row["mass_kg"] = mass = of.density_kgm3 * length * area * MM**3
-        row["inertia_kgm2"] = 0.5 * mass * (outside**2 + inside**2) * MM**2
-    return row
-
-
-def _positive(shape: Shape) -> Moments:
-    """The moments of what a shape encloses, whichever way it runs."""
-    found = moments(shape)
-    return found if found.area >= 0.0 else Moments(*[-value for value in found])
-
-
-def _box(shapes: Sequence[Shape]) -> Box:
-    boxes = [bounds(shape) for shape in shapes]
-    low, high = min, max
-    return Box(
-        low(b.x0 for b in boxes),
-        low(b.y0 for b in boxes),
-        high(b.x1 for b in boxes),
-        high(b.y1 for b in boxes),
-    )
+    carried = (member.part for member in crank_group(found, arm).members)
+    crank = [part for part in carried if isinstance(part, Plate)]
+    plates = Counter([wheel_plate(found, found.wheel), *crank])
+    for plate, count in plates.items():
+        name, of = (
+            ("roller", spec.material_roller)
+            if plate.layer == "ROLLER"
+            else ("wheel", spec.material_wheel)
+        )
+        made, box = body(plate, of.density_kgm3), bounds(plate.outline)
+        yield {
+            "row": "part",
+            "name": plate.name,
+            "count": count,
+            "material": f"material.{name}",
+            "density_kgm3": of.density_kgm3,
+            "thickness_mm": plate.thickness,
+            "mass_kg": made.mass_kg,
+            "inertia_kgm2": made.inertia_kgm2,
+            "size_x_mm": box.x1 - box.x0,
+            "size_y_mm": box.y1 - box.y0,
+        }
 
 
 def _pivots(mechanism: Mechanism) -> Iterator[dict[str, Any]]:
