@@ -85,6 +85,9 @@ def usual(rng, key, z, L, r, outside):
         "lock_bolt_circle_mm": R,
         "pin_gap_mm": 0.1 * r,
         "lock_edge_mm": 0.05 * r,
+        "wheel_thickness_mm": L / 4.0,
+        "lock_thickness_mm": L / 10.0,
+        "arm_thickness_mm": L / 10.0,
     }
     return near(rng, of[key])
 
