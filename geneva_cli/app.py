@@ -26,6 +26,7 @@ COMMANDS = {
     "peaks": "Greatest velocity, acceleration, jerk and power of a design.",
     "motion": "Position, velocity, acceleration and jerk over a cycle.",
     "loads": "Torque, forces, stress and power over the cycle; what to buy, how long it lasts.",
+    "plot": "Curves over the cycle, or of a sweep's csv: on the terminal, as SVG, PNG, PDF.",
     "profile": "The slot: pitch curve, both flanks, pressure angle and curvature.",
     "vibration": "A load on an elastic shaft: what an index leaves swinging, speeds to avoid.",
     "report": "One page on a design, for a person.",

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.timing import Timing
     from geneva_cli.curves.plates import Body
     from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.figure import Figure
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.proof import Proof
     from geneva_cli.specfile.reader import Text
@@ -222,6 +223,20 @@ class Design:
         from geneva_cli.analysis.motion import motion_table
 
         return self._located(lambda: motion_table(self.mechanism, samples))
+
+    def figure(self, show: Sequence[str] = ()) -> Figure:
+        """Curves of motion and loads over a cycle, a panel a quantity; as ``geneva plot`` draws.
+
+        ``show`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones
+        that are known. ``geneva_cli.output.plot`` writes it. Raises GenevaError for another name.
+
+        >>> panels = Design(External(6)).figure(["velocity", "jerk"]).panels
+        >>> [mark.y for mark in panels[1].curves[0].marks]
+        [-6.0]
+        """
+        from geneva_cli.analysis.figures import figure
+
+        return self._located(lambda: figure({self.spec.title: self.cycle}, show)[0])
 
     @answer
     def cycle(self) -> Cycle:

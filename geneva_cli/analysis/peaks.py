@@ -151,6 +151,17 @@ def worst(mechanism: Mechanism) -> Peaks:
     )
 
 
+def worst_of(mechanism: Mechanism, quantity: str) -> Peak:
+    """The greatest peak of one quantity over all engagements, at the machine's input angle."""
+    best = None
+    for engagement in mechanism.engagements:
+        found = _peak(engagement.motion, quantity)
+        if best is None or found.max > best.max * (1.0 + TIE):
+            best = Peak(found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg))
+    assert best is not None  # a machine moves
+    return best
+
+
 def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
     """An engagement's peaks, their angles the machine's input angles."""
     found = peaks(engagement)

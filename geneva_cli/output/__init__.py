@@ -13,12 +13,15 @@ from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.figure import Figure
 
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 # of drawings only; they are written in FORMATS as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
-EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN)}
+PICTURES = ("png", "pdf")  # of figures only
+PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
+EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
 EXTENSIONS["stp"] = "step"
 
 
@@ -78,6 +81,54 @@ def draw(
     _put(module.chunks(drawing, units), output, inputs)
 
 
+def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
+    """Print the figure, or write it to the file ``output``; ``inputs`` are never overwritten.
+
+    ``table`` is a chart in text, as wide as the terminal; csv, json and md get the curves' points.
+    Raises GenevaError where a format is unknown, needs what is not installed, or the file cannot be
+    written.
+    """
+    name = plotted_as(output, format)
+    if name not in PLOTTED:
+        show(figure.table(), output, name, inputs)
+        return
+    if name == "svg":
+        from geneva_cli.output import plot_svg
+
+        _put(plot_svg.chunks(figure), output, inputs)
+        return
+    if name == "table":
+        from geneva_cli.output import plot_text
+
+        _put(plot_text.chunks(figure, *_terminal(output)), output, inputs)
+        return
+    from geneva_cli.output.files import write_bytes
+
+    if output == "-":
+        raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
+    from geneva_cli.output.plot_matplotlib import written
+
+    write_bytes(output, [written(figure, name)], inputs)
+
+
+def plotted_as(output: str, format: str) -> str:
+    """The format of a figure. Raises GenevaError where it is none."""
+    formats = dict.fromkeys((*PLOTTED, *FORMATS))
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
+    return name
+
+
+def _terminal(output: str) -> tuple[int, bool]:
+    """Columns of a chart, and whether it may have letters beyond ASCII: only where one looks."""
+    if output != "-" or not sys.stdout.isatty():
+        return 80, False
+    import shutil
+
+    return shutil.get_terminal_size().columns, "utf" in (sys.stdout.encoding or "").lower()
+
+
 def is_drawn(output: str, format: str) -> bool:
     """Whether this file or format takes a drawing as lines and arcs, and no table.
 
@@ -115,7 +166,7 @@ def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
 
 
 def _wrong(name: str) -> str:
-    return f"{name} holds a drawing, and this is a table; " if name in DRAWN else ""
+    return f"{name} holds a drawing, and this is a table; " if name in (*DRAWN, *PICTURES) else ""
 
 
 def _progress(done: int, rows: int) -> None:

@@ -29,12 +29,17 @@ def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
     owner and permissions. A device or a pipe is written to directly. Raises GenevaError where the
     file cannot be written, is read-only, or is one of ``inputs``.
     """
+    write_bytes(path, (chunk.encode() for chunk in chunks), inputs)
+
+
+def write_bytes(path: str, chunks: Iterable[bytes], inputs: Iterable[str] = ()) -> None:
+    """The same for bytes."""
     with told(path):
         real, old = place(path, inputs)
         if old is None or stat.S_ISREG(old.st_mode):
             _replace(real, chunks, old)
             return
-        with open(real, "w", encoding="utf-8", newline="") as device:
+        with open(real, "wb") as device:
             device.writelines(chunks)
 
 
@@ -81,7 +86,7 @@ def _status(path: str) -> os.stat_result | None:
         return None
 
 
-def _replace(path: str, chunks: Iterable[str], old: os.stat_result | None) -> None:
+def _replace(path: str, chunks: Iterable[bytes], old: os.stat_result | None) -> None:
     folder, name = os.path.split(path)
     name = name.encode(errors="surrogateescape")[:NAME_MAX].decode(errors="replace")
     _remove_stale(folder, name)
@@ -90,7 +95,7 @@ def _replace(path: str, chunks: Iterable[str], old: os.stat_result | None) -> No
         number += 1  # another run's: not ours to touch
     with _stopping_cleanly():
         try:
-            with open(temporary, "x", encoding="utf-8", newline="") as file:
+            with open(temporary, "xb") as file:
                 _lock(file.fileno())
                 if old is not None:
                     take_after(file.fileno(), old)

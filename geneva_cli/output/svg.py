@@ -7,7 +7,6 @@ read paths and pass over transforms.
 from __future__ import annotations
 
 import math
-import unicodedata
 from collections.abc import Iterator
 from typing import NamedTuple
 from xml.sax.saxutils import escape, quoteattr
@@ -27,6 +26,7 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
+from geneva_cli.output.letters import width
 
 DECIMALS = 9
 # Bulges of 150, 210 and 300 degrees. Near a half turn the radius says little about the centre,
@@ -38,7 +38,6 @@ STROKE = 0.25
 MARGIN = 2.0
 TEXT = 3.5  # height of letters
 TICK = 1.0  # half a scale bar's end mark
-LETTER = 0.62  # width of a letter beside the height, with some to spare
 GREY = "#757575"
 TINT = 0.15  # how opaque a layer is filled that is to be seen as a plate
 
@@ -139,7 +138,7 @@ def _scale(box: Box, title: str, sheet: _Sheet, suffix: str) -> tuple[list[str],
     line = f"M {_point((x, y))} L {_point((x + bar, y))}"
     beside = (x + bar + gap, y - 0.35 * text)  # letters are about 0.7 of the height
     below = (x, y - max(tick, 0.5 * text) - 1.2 * text)
-    right = max(beside[0] + _width(label) * text, below[0] + _width(title) * text)
+    right = max(beside[0] + width(label) * text, below[0] + width(title) * text)
     lines = [
         f'<g id="SCALE_BAR" stroke="{GREY}" stroke-width="{_number(sheet.mm(STROKE))}">\n'
         f'<path d="{ends[0]} {line} {ends[1]}"/>\n</g>\n',
@@ -157,11 +156,6 @@ def round_length(length: float) -> float:
     power = 10.0 ** math.floor(math.log10(length))
     rounds = [float(f"{n * power:.0e}") for n in (1, 2, 5, 10)]
     return min(rounds, key=lambda r: abs(math.log(r / length)))
-
-
-def _width(text: str) -> float:
-    """A text's width beside its height, rather too great than too small."""
-    return sum(1.1 if unicodedata.east_asian_width(c) in "WF" else LETTER for c in text)
 
 
 def _place(p: Point) -> str:

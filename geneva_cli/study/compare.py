@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Sequence
 
 from geneva_cli.errors import GenevaError, cut
@@ -11,10 +10,12 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.specfile.settings import setting
 from geneva_cli.study.fields import Cell, pick, values
+from geneva_cli.study.names import short_name
 from geneva_cli.study.sweep.values import axis
 from geneva_cli.table import Table, rows_table
 
 COLUMNS_MAX = 100
+OWN = ("quantity", "differs")  # columns that no design may be called after
 LEFT_OUT = "inputs."  # what a spec says is in the spec; what differs of it is in the columns' names
 
 
@@ -73,7 +74,7 @@ def _columns(
         twice = next((p for p in paths if list(paths).count(p) > 1), None)
         if twice:
             raise GenevaError(f"{cut(twice)}: given twice; --vary shows changes of one spec")
-        texts = {_name(p, paths): read(p, given) for p in paths}
+        texts = {short_name(p, paths, OWN): read(p, given) for p in paths}
     if len(texts) > COLUMNS_MAX:
         raise GenevaError(
             f"{len(texts)} designs side by side; at most {COLUMNS_MAX}: `geneva sweep` has a row "
@@ -85,13 +86,6 @@ def _columns(
         with text.located():
             machines.append(build(spec))
     return list(texts), machines
-
-
-def _name(path: str, paths: Sequence[str]) -> str:
-    """A file's name without folder and ending, where that tells it from the others."""
-    stems = [os.path.splitext(os.path.basename(p))[0] for p in paths]
-    stem = stems[list(paths).index(path)]
-    return stem if stems.count(stem) == 1 and stem not in ("quantity", "differs") else path
 
 
 def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:

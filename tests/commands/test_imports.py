@@ -62,6 +62,8 @@ ROWS = [
     Row("loads press-straight.toml", "tomli numpy"),
     Row("loads press-curved.toml --format csv", "tomli numpy"),
     Row("loads cam-geneva.toml --format json", "tomli numpy json"),
+    Row("plot press-straight.toml", "tomli numpy"),
+    Row("plot press-curved.toml press-345.toml --format svg", "tomli numpy"),
     Row("profile press-straight.toml", "tomli numpy"),
     Row("profile press-curved.toml", "tomli numpy"),
     Row("profile press-curved.toml --part wheel --format svg", "tomli numpy"),

@@ -99,6 +99,15 @@ class Cycle:
         with np.errstate(all="ignore"):
             return bounded(instant(given, at, drives, slides, pays))
 
+    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant:
+        """Arrays at input angles of a stretch of an engagement, from its own mid-motion.
+
+        With the stretch's signs: at its ends the values are those from inside.
+        """
+        with np.errstate(all="ignore"):
+            at = contacts(engagement, input_deg)
+            return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.pays))
+
     def extremes(self, *quantities: Quantity) -> list[Extremes]:
         """Greatest and least value of each quantity over all motions; dwells left out."""
         best = [[-math.inf, 0.0, -math.inf, 0.0] for _ in quantities]

@@ -116,6 +116,33 @@ def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     return {name: out.get(name, Summary()) for name in SHOWN}
 
 
+def plain(cycle: Cycle, states: Instant, name: str) -> Coefficient:
+    """A quantity of ``known``, or one that is its share, at states of the cycle."""
+    source, share, _ = shares(cycle).get(name, (name, 1.0, ""))
+    assert share is not None  # of what is known
+    return _plain(states, source) * share
+
+
+def extremes(cycle: Cycle, names: Sequence[str]) -> list[Extremes]:
+    """Greatest and least value of quantities that ``plain`` knows, infinite without a bound."""
+    of = {name: shares(cycle).get(name, (name, 1.0, ""))[:2] for name in names}
+    sources = list(dict.fromkeys(source for source, _ in of.values()))
+    rooted = dict(zip(sources, ends_of(cycle, *sources), strict=True))
+    for name in SQUARED:
+        if name in rooted:
+            one = rooted[name]
+            rooted[name] = one._replace(max=_root(one.max), min=_root(one.min))
+    return [
+        rooted[source]._replace(max=rooted[source].max * share, min=rooted[source].min * share)
+        for source, share in of.values()
+        if share is not None
+    ]
+
+
+def _root(square: float) -> float:
+    return math.sqrt(max(square, 0.0))
+
+
 def _is_bounded(ends: Extremes) -> bool:
     return math.isfinite(ends.max) and math.isfinite(ends.min)
 

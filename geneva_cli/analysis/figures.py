@@ -1,0 +1,264 @@
+"""The curves of one or more machines over a cycle: motion and loads by the input angle.
+
+Every piece in which a curve is smooth is sampled by itself, both ends from inside, so that a jump
+has both its values; peaks are those of the analysis, never the highest of the points.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis import peaks
+from geneva_cli.analysis.loads import summary
+from geneva_cli.analysis.loads.cycle import Cycle, Extremes
+from geneva_cli.analysis.loads.quantities import known
+from geneva_cli.analysis.motion import first_entry_deg
+from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
+from geneva_cli.machine.mechanism import Mechanism
+
+MOST = 6  # machines in one figure that the eye still tells apart
+INPUT = Axis("input_deg", "Input angle", "deg")
+AXES = (
+    Axis(WHEEL, "Wheel angle", "deg"),
+    Axis("velocity", "Velocity dψ/dθ"),
+    Axis("acceleration", "Acceleration d²ψ/dθ²"),
+    Axis("jerk", "Jerk d³ψ/dθ³"),
+    Axis("power", "Power dψ/dθ · d²ψ/dθ²"),
+    Axis("omega_rad_s", "Wheel's velocity", "rad/s"),
+    Axis("alpha_rad_s2", "Wheel's acceleration", "rad/s²"),
+    Axis("wheel_torque_Nm", "Torque on the wheel", "N m"),
+    Axis("pin_force_N", "Pin force", "N"),
+    Axis("contact_stress_MPa", "Contact stress", "MPa"),
+    Axis("sliding_m_s", "Sliding of the roller", "m/s"),
+    Axis("input_torque_Nm", "Torque on the input", "N m"),
+    Axis("power_W", "Power of the input", "W"),
+    Axis("wheel_bearing_N", "Force on the wheel's bearings", "N"),
+    Axis("crank_bearing_N", "Force on the crank's bearings", "N"),
+    Axis("pv_W_m2", "Pressure times sliding", "W/m²"),
+    Axis("guide_force_N", "Force on the guide", "N"),
+    Axis("wheel_near_bearing_N", "Wheel's nearer bearing", "N"),
+    Axis("wheel_far_bearing_N", "Wheel's farther bearing", "N"),
+    Axis("crank_near_bearing_N", "Crank's nearer bearing", "N"),
+    Axis("crank_far_bearing_N", "Crank's farther bearing", "N"),
+)
+OF_NAME = {axis.name: axis for axis in AXES}
+USUAL = (WHEEL, "velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
+TINY = 1e-9  # degrees: nearer to each other, input angles are one
+NOUGHT = 1e-9  # of a quantity's size: so small a least value is rounding
+SHOWN = 3.0  # times its typical size is shown of a load that nothing bounds
+
+
+LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
+
+
+class Drawn(NamedTuple):
+    """Some quantities of a machine over the window: for each its pieces, marks and bounds."""
+
+    pieces: dict[str, list[Piece]]
+    marks: dict[str, tuple[Mark, ...]]
+    bounds: dict[str, tuple[float, float]]
+
+
+def figure(cycles: Mapping[str, Cycle], show: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
+    """The figure of machines by their names, and what it lacks of which machine, and why.
+
+    ``show`` are names of quantities; without, those of ``USUAL`` that are known. Raises
+    GenevaError for a name that is none, and for a quantity asked for that no machine has.
+
+    >>> from geneva_cli import Design, External
+    >>> found, left_out = figure({"six": Design(External(6)).cycle}, ["velocity"])
+    >>> found.panels[0].curves[0].marks
+    (Mark(word='peak', x=0.0, y=1.0),)
+    """
+    if len(cycles) > MOST:
+        raise GenevaError(f"{len(cycles)} designs in one figure; at most {MOST} can be told apart")
+    asked = tuple(dict.fromkeys(show)) or USUAL
+    for name in asked:
+        if name not in OF_NAME:
+            raise GenevaError(
+                f"--show {cut(name)}: no quantity of a cycle{nearest(name, OF_NAME)}; it must be "
+                f"one of {', '.join(OF_NAME)}"
+            )
+    has = {design: _known(cycle) for design, cycle in cycles.items()}
+    shown = [name for name in asked if any(name in known for known in has.values())]
+    missing = [name for name in asked if name not in shown]
+    if missing and show:
+        raise GenevaError(f"--show {missing[0]}: {_why(next(iter(cycles.values())), missing[0])}")
+    machines = [cycle.mechanism for cycle in cycles.values()]
+    start = min(first_entry_deg(m) for m in machines)
+    window = start, start + max(m.period_deg for m in machines)
+    drawn = {
+        design: _drawn(cycle, [n for n in shown if n in has[design]], window)
+        for design, cycle in cycles.items()
+    }
+    panels = tuple(_panel(name, drawn) for name in shown)
+    made = Figure(_title(machines), INPUT, panels, window, tuple(_rests(machines, window)))
+    left = {d: [n for n in asked if n not in known] for d, known in has.items()}
+    return made, [(d, line) for d, names in left.items() for line in _left_out(cycles[d], names)]
+
+
+def _title(machines: Sequence[Mechanism]) -> str:
+    if len(machines) > 1:
+        return f"{len(machines)} designs over a cycle"
+    spec = machines[0].spec
+    return spec.title or spec.path or f"Geneva wheel of {spec.wheel.z} slots"
+
+
+def _known(cycle: Cycle) -> set[str]:
+    loads = set(known(cycle))
+    shared = summary.shares(cycle).items()
+    loads |= {name for name, (of, share, _) in shared if share is not None and of in loads}
+    return {*MOTION, *loads}
+
+
+def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
+    """Sentences on what a figure lacks of a machine, one a reason."""
+    reasons: dict[str, list[str]] = {}
+    for name in names:
+        reasons.setdefault(_why(cycle, name), []).append(name)
+    for why, lacking in reasons.items():
+        yield f"no curve of {', '.join(lacking)}: {why}"
+
+
+def _why(cycle: Cycle, name: str) -> str:
+    """Why a machine does not have a quantity."""
+    said = summary.missing(cycle)
+    if not cycle.is_loaded:
+        return said[0]
+    for line in said:
+        names, _, why = line.partition(": ")
+        if name in names.split(", "):
+            return why
+    return "the crank itself carries the roller, and there is no guide"
+
+
+def _panel(name: str, drawn: Mapping[str, Drawn]) -> Panel:
+    curves: list[Curve] = []
+    bounds: list[float] = []
+    for number, (design, found) in enumerate(drawn.items()):
+        if name in found.pieces:
+            marks = found.marks[name]
+            if len(drawn) > 1:  # one a design: the greater in size
+                marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
+            curves.append(Curve(number, design, tuple(found.pieces[name]), marks))
+            bounds += found.bounds.get(name, ())
+    return Panel(OF_NAME[name], tuple(curves), (min(bounds), max(bounds)) if bounds else None)
+
+
+def _size(mark: Mark) -> float:
+    return math.inf if mark.y is None else abs(mark.y)
+
+
+def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> Drawn:
+    machine = cycle.mechanism
+    moves, loads = [n for n in names if n in MOTION], [n for n in names if n not in MOTION]
+    step = math.degrees(sum(2.0 * e.half_step for e in machine.engagements))
+    out = Drawn({}, {}, {})
+    if moves:
+        stages = list(motion_stages(machine, moves))
+        rise = [step if n == WHEEL else 0.0 for n in moves]
+        found = pieces(stages, machine.period_deg, window, rise)
+        out.pieces.update(zip(moves, found, strict=True))
+        out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
+    if loads:
+        ends = dict(zip(loads, summary.extremes(cycle, loads), strict=True))
+        out.bounds.update(_bounds(cycle, ends))
+        stages = list(load_stages(cycle, loads, out.bounds))
+        found = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
+        out.pieces.update(zip(loads, found, strict=True))
+        for name, bounds in out.bounds.items():
+            out.pieces[name] = [cut for p in out.pieces[name] for cut in _within(p, bounds)]
+        out.marks.update((n, tuple(_ends(machine, ends[n], window))) for n in loads)
+    return out
+
+
+def _peak(
+    machine: Mechanism,
+    name: str,
+    row: int,
+    stages: Sequence[Stage],
+    window: tuple[float, float],
+) -> tuple[Mark, ...]:
+    """The greatest size of a quantity of the motion, with its sign; the wheel's angle has none."""
+    if name == WHEEL:
+        return ()
+    found = peaks.worst_of(machine, name)
+    first = first_entry_deg(machine)
+    x = _placed(machine, found.at_deg, (first, first))
+    values = [
+        float(stage.of(np.array([x]))[row, 0])
+        for stage in stages
+        if stage.start - TINY <= x <= stage.end + TINY
+    ]
+    nearest_to = min(values, key=lambda value: abs(abs(value) - found.max))
+    y = math.copysign(found.max, nearest_to)
+    return (Mark("peak", _placed(machine, found.at_deg, window), y),)
+
+
+def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> Iterator[Mark]:
+    """The greatest value of a load and, where it goes below 0, the least."""
+    size = max(abs(ends.max), abs(ends.min))
+    for word, value, at_deg, shown in (
+        ("max", ends.max, ends.max_at_deg, ends.max > NOUGHT * size),
+        ("min", ends.min, ends.min_at_deg, ends.min < -NOUGHT * size),
+    ):
+        if shown or math.isinf(value):
+            y = value if math.isfinite(value) else None
+            yield Mark(word, _placed(machine, at_deg, window), y)
+
+
+def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
+    """An input angle as it is shown, in the window: the first that it stands for."""
+    turn = 360.0 * machine.spec.drive.turns
+    return at_deg + turn * math.ceil((window[0] - TINY - at_deg) / turn)
+
+
+def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:
+    """What is shown of each load that nothing bounds, by its size half-way between the cuts."""
+    endless = [n for n, e in ends.items() if math.isinf(e.max) or math.isinf(e.min)]
+    out = {}
+    for name in endless:
+        sizes = []
+        for engagement, stretch in cycle.stretches:
+            middle = np.array([0.5 * (stretch.start + stretch.end)])
+            here = summary.plain(cycle, cycle.along(engagement, stretch, middle), name)
+            sizes.append(abs(float(here[0])))
+        high = SHOWN * max((size for size in sizes if math.isfinite(size)), default=1.0)
+        low, top = ends[name].min, ends[name].max
+        out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
+    return out
+
+
+def _within(piece: Piece, bounds: tuple[float, float]) -> Iterator[Piece]:
+    """A piece that was cut back to bounds, without what runs along them."""
+    x, y = piece
+    begin = 0
+    for i, (a, b) in enumerate(pairwise(y), 1):
+        if a == b and a in bounds:
+            if i - begin > 1:
+                yield x[begin:i], y[begin:i]
+            begin = i
+    if len(x) - begin > 1 or len(x) == 1:
+        yield x[begin:], y[begin:]
+
+
+def _rests(
+    machines: Sequence[Mechanism], window: tuple[float, float]
+) -> Iterator[tuple[float, float]]:
+    """Where all machines rest."""
+    common = [window]
+    for machine in machines:
+        dwells = [(s.start, s.end) for s in motion_stages(machine, [WHEEL]) if s.flat]
+        period = machine.period_deg
+        turns = range(-1, 2 + int((window[1] - window[0]) // period))
+        own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]
+        both = [(max(a, c), min(b, d)) for a, b in common for c, d in own]
+        common = [(a, b) for a, b in both if b - a > TINY]
+    yield from common

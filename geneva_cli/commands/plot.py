@@ -1,0 +1,71 @@
+"""``geneva plot``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands.options import Given, Output, say, warn
+from geneva_cli.errors import GenevaError, cut
+
+
+def run(
+    specs: Annotated[
+        list[str],
+        typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
+    ],
+    show: Annotated[
+        str, typer.Option(metavar="QUANTITY,...", help="Only these, as velocity,pin_force_N.")
+    ] = "",
+    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Of a csv: along.")] = "",
+    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Of a csv: up.")] = "",
+    given: Given = None,
+    output: Output = "-",
+    format: Annotated[
+        str,
+        typer.Option(
+            metavar="FORMAT", help="table (a chart in text), svg, png, pdf; csv, json, md: points."
+        ),
+    ] = "",
+) -> None:
+    """Curves over a cycle: the wheel's angle, velocity, acceleration, jerk, force, torque, power.
+
+    Dwells are shaded, jumps drawn as jumps, and peaks exact: their values and places stand beside
+    the curves. With several specs, where all of them rest is shaded. Quantities are those of
+    `geneva motion` and `geneva loads`, by their names there. Without -o a chart in text. png and
+    pdf need the extra geneva-cli[plot].
+
+    Of a csv, --y by --x: over a varied key of `geneva sweep` a curve for each combination of the
+    others; the rows of a --pareto as points, joined; the spectrum of `geneva vibration`.
+    """
+    from geneva_cli.output import plot, plotted_as
+    from geneva_cli.study.figures import of_specs, of_table
+
+    plotted_as(output, format)  # what cannot be written is not worked out
+    tables = [path for path in specs if path.lower().endswith(".csv")]
+    if tables:
+        _refuse_beside(tables[0], specs, {"--show": show, "--set": given})
+        plot(of_table(tables[0], x, _names(y)), output, format, tables)
+        return
+    if x or y:
+        raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --show")
+    found, designs, left_out = of_specs(specs, given or (), _names(show))
+    plot(found, output, format, [file for d in designs for file in d.spec.files])
+    for design in designs:
+        warn(design)
+    for path, text in left_out:
+        say(path, [text])
+
+
+def _names(texts: str) -> list[str]:
+    return [name.strip() for name in texts.split(",") if name.strip()]
+
+
+def _refuse_beside(table: str, specs: list[str], options: dict[str, object]) -> None:
+    """A csv is plotted by itself."""
+    if len(specs) > 1:
+        raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
+    for option, value in options.items():
+        if value:
+            raise GenevaError(f"{option} is for specs; of {cut(table, 300)} give --x and --y")

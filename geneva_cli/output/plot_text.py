@@ -1,0 +1,151 @@
+"""A figure as text: a compact chart for a terminal, or plain ASCII for a pipe or a file.
+
+One curve is drawn in Braille dots (two by four to a letter) where the encoding has them; several
+are told apart by letters of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from geneva_cli.errors import clean, cut
+from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
+from geneva_cli.output.letters import LETTER, width
+from geneva_cli.output.ticks import labels, said, ticks
+
+MARKS = "*o+x#@%&=~^$"  # of curves that share a panel, and of one in ASCII
+WIDTH = 80  # where nobody looks
+NARROW, WIDE = 40, 140
+HIGH = {1: 16, 2: 12}  # lines of a panel, by their number
+LOW = 7  # where there are more
+LABEL = 10  # letters for the numbers of the upright axis
+# The bit of each dot of a letter of Braille, from above, left and right.
+DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
+BRAILLE = 0x2800
+
+
+def chunks(figure: Figure, columns: int = WIDTH, unicode: bool = False) -> Iterator[str]:
+    """The chart's lines, none longer than ``columns``."""
+    columns = min(max(columns, NARROW), WIDE)
+    wide = columns - LABEL - 3
+    known = figure.curves()
+    yield _line(clean(figure.title).strip(), columns)
+    if len(known) > 1:
+        for curve in known.values():
+            yield _line(f"  {MARKS[curve.number]}  {clean(curve.name)}", columns)
+    ground, dwell = ("─", "░") if unicode else ("-", ":")
+    for panel in figure.panels:
+        yield "\n"
+        yield from _heading(panel, columns, len(known) > 1, figure.x.unit)
+        grid = _grid(figure, panel, wide, HIGH.get(len(figure.panels), LOW), unicode)
+        yield from grid
+    rests = [_column(x, figure, wide) for pair in figure.shaded for x in pair]
+    foot = [ground] * wide
+    for a, b in zip(rests[::2], rests[1::2], strict=True):
+        foot[a : b + 1] = dwell * (b + 1 - a)
+    yield f"{'':>{LABEL}} +{''.join(foot)}\n"
+    yield from _below(figure, wide)
+    if figure.shaded:
+        yield f"{'':>{LABEL}}  {dwell * 3} dwell\n"
+
+
+def _line(text: str, columns: int) -> str:
+    while text and width(text) > columns * LETTER:  # wide letters take two places
+        text = cut(text, len(text) - 1) if len(text) > 8 else ""
+    return text + "\n"
+
+
+def _heading(panel: Panel, columns: int, several: bool, unit: str) -> Iterator[str]:
+    """The quantity by its name, and its peaks."""
+    name = panel.y.name
+    if several:
+        yield _line(name, columns)
+        for curve in panel.curves:
+            for mark in curve.marks:
+                yield _line(f"  {MARKS[curve.number]}  {said(mark, f' {unit}')}", columns)
+        return
+    peaks = ", ".join(said(m, f" {unit}".rstrip()) for c in panel.curves for m in c.marks)
+    yield _line(f"{name}: {peaks}" if peaks else name, columns)
+
+
+def _grid(figure: Figure, panel: Panel, wide: int, high: int, unicode: bool) -> Iterator[str]:
+    """The panel's lines: numbers of the axis, and the curves."""
+    low, top = panel.span()
+    if not top > low:
+        low, top = low - (0.5 * abs(low) or 1.0), top + (0.5 * abs(top) or 1.0)
+    step = (top - low) / (high - 1)
+
+    def row(y: float) -> int:
+        return min(max(round((top - y) / step), 0), high - 1)
+
+    beside = [""] * high
+    at = ticks(low, top, max(high // 2, 2))
+    for value, label in zip(at, labels(at), strict=True):
+        beside[row(value)] = label
+    rows = [[" "] * wide for _ in range(high)]
+    if low <= 0.0 <= top:
+        rows[row(0.0)] = list(("·" if unicode else ".") * wide)
+    if unicode and len(panel.curves) == 1:
+        _braille(figure, panel.curves[0], rows, low, top)
+    else:
+        for curve in panel.curves:
+            for x, y in _walk(curve, figure, wide, lambda y: (top - y) / step):
+                rows[min(max(y, 0), high - 1)][min(max(x, 0), wide - 1)] = MARKS[curve.number]
+    bar = "│" if unicode else "|"
+    for label, cells in zip(beside, rows, strict=True):
+        yield f"{label:>{LABEL}} {bar}{''.join(cells)}".rstrip() + "\n"
+
+
+def _braille(figure: Figure, curve: Curve, rows: list[list[str]], low: float, top: float) -> None:
+    """One curve in dots, twice as fine across as letters and four times as fine up."""
+    high, wide = len(rows), len(rows[0])
+    step = (top - low) / (4 * high - 1)
+    bits: dict[tuple[int, int], int] = {}
+    for x, y in _walk(curve, figure, 2 * wide, lambda y: (top - y) / step):
+        x, y = min(max(x, 0), 2 * wide - 1), min(max(y, 0), 4 * high - 1)
+        bits[y // 4, x // 2] = bits.get((y // 4, x // 2), 0) | DOTS[y % 4][x % 2]
+    for (y, x), found in bits.items():
+        rows[y][x] = chr(BRAILLE + found)
+
+
+def _walk(
+    curve: Curve, figure: Figure, wide: int, down: Callable[[float], float]
+) -> Iterator[tuple[int, int]]:
+    """The cells that a curve goes through, its jumps too; of points alone only theirs."""
+    last = None
+    for xs, ys in curve.pieces:
+        for x, y in zip(xs, ys, strict=True):
+            here = (_across(x, figure, wide), down(y))
+            steps = 1
+            if last and curve.style != POINTS:
+                steps = max(1, *(2 * round(abs(a - b)) for a, b in zip(here, last, strict=True)))
+            a, b = last or here
+            for i in range(1, steps + 1):
+                share = i / steps
+                yield round(a + share * (here[0] - a)), round(b + share * (here[1] - b))
+            last = here
+        last = last if curve.style == LINE else None
+
+
+def _across(x: float, figure: Figure, wide: int) -> float:
+    start, end = figure.window
+    return (x - start) / (end - start) * (wide - 1)
+
+
+def _column(x: float, figure: Figure, wide: int) -> int:
+    return min(max(round(_across(x, figure, wide)), 0), wide - 1)
+
+
+def _below(figure: Figure, wide: int) -> Iterator[str]:
+    """The numbers below the panels, and what they are."""
+    at = ticks(*figure.window, max(wide // 12, 2), figure.x.unit)
+    line = [" "] * (wide + 1)
+    free = 0
+    for value, label in zip(at, labels(at), strict=True):
+        begin = max(_column(value, figure, wide) - len(label) // 2, 0)
+        begin = min(begin, wide + 1 - len(label))
+        if begin >= free:
+            line[begin : begin + len(label)] = label
+            free = begin + len(label) + 1
+    yield f"{'':>{LABEL}}  {''.join(line)}".rstrip() + "\n"
+    yield f"{'':>{LABEL}}  {figure.x.name}\n"

@@ -1,0 +1,64 @@
+"""Round numbers for an axis, and how they are written."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from geneva_cli.figure import Axis, Mark
+
+DEGREES = (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)  # steps that people count in
+MANY = 1e5  # from here on a place is written with an exponent
+DIGITS = 6  # of a peak's value, and at first of an axis
+SHARE = 1e-9  # of a step: rounding
+
+
+def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
+    """Multiples of a round step from ``low`` to ``high``: about ``most`` of them, never more.
+
+    >>> ticks(-0.3, 1.2, 5), ticks(-60.0, 300.0, 9, "deg")
+    ([0.0, 0.5, 1.0], [-45.0, 0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0])
+    """
+    width = high - low
+    if not width > 0.0:
+        return [low]
+    power = 10.0 ** math.floor(math.log10(width / most))
+    steps = [n * power for n in (1.0, 2.0, 2.5, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0)]
+    if unit == "deg" and width > 40.0:
+        steps = [*DEGREES, *(360.0 * 2**n for n in range(1, 60))]
+    for step in steps:
+        first, last = math.ceil(low / step - SHARE), math.floor(high / step + SHARE)
+        if last - first < most:
+            break
+    return [float(f"{n * step:.12g}") + 0.0 for n in range(first, last + 1)]
+
+
+def labels(at: Sequence[float]) -> list[str]:
+    """The numbers of an axis, with so many digits that no two read alike.
+
+    >>> labels([0.0, 0.5, 1.0]), labels([0.0, 2e9]), labels([1e7, 1e7 + 0.5])
+    (['0', '0.5', '1'], ['0', '2e+09'], ['10000000', '10000000.5'])
+    """
+    texts: list[str] = []
+    for digits in range(DIGITS, 18):
+        texts = [f"{x:.{digits}g}" for x in at]
+        if len(set(texts)) == len(set(at)):
+            break
+    return texts
+
+
+def named(axis: Axis) -> str:
+    """An axis with its unit, as ``Pin force (N)``."""
+    return f"{axis.label} ({axis.unit.replace('deg', '°')})" if axis.unit else axis.label
+
+
+def said(mark: Mark, unit: str = "°") -> str:
+    """A mark in words: its value and where it is.
+
+    >>> said(Mark("max", -22.903061866, 649.007123))
+    'max 649.007 at -22.90°'
+    """
+    at = f"{mark.x:.2f}" if abs(mark.x) < MANY else f"{mark.x:.{DIGITS}g}"
+    at = "0.00" if at == "-0.00" else at
+    value = "no bound" if mark.y is None else f"{mark.word} {mark.y + 0.0:.{DIGITS}g}"
+    return f"{value} at {at}{unit}"

@@ -1,0 +1,150 @@
+"""Figures of several designs, and of a table of many."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+from geneva_cli.analysis.figures import LeftOut, figure
+from geneva_cli.design import Design, load
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
+from geneva_cli.machine.spec import Spec
+from geneva_cli.specfile.columns import Columns, read_columns
+from geneva_cli.study.names import short_name
+
+FAMILY = 12  # curves of a panel that are told apart
+FEW = 40  # points of a curve that are marked
+RANDOM = "drawn at random"  # rows of which nearly each has values of its own
+ROOM = 0.02  # of the x axis, beside points
+TABLES = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
+
+
+def of_specs(
+    paths: Sequence[str], given: Iterable[str] = (), show: Sequence[str] = ()
+) -> tuple[Figure, list[Design], list[LeftOut]]:
+    """The cycles of some specs over one axis; the designs, and what it lacks of which path.
+
+    Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
+
+    >>> found, _, _ = of_specs(["designs/internal-z6.toml", "designs/turret.toml"], (), ["jerk"])
+    >>> [curve.name for curve in found.panels[0].curves]
+    ['internal-z6', 'turret']
+    """
+    twice = next((p for p in paths if list(paths).count(p) > 1), None)
+    if twice:
+        raise GenevaError(f"{cut(twice)}: given twice")
+    settings = tuple(given)
+    designs = [load(path, settings) for path in paths]
+    names = [short_name(path, paths) for path in paths]
+    cycles = {name: design.cycle for name, design in zip(names, designs, strict=True)}
+    made, left_out = figure(cycles, show)
+    of_name = dict(zip(names, paths, strict=True))
+    return made, designs, [(of_name[name], text) for name, text in left_out]
+
+
+def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
+    """Columns of a CSV file over another one, a panel each.
+
+    Over a varied key of a sweep: a curve for each combination of the other varied keys, or points
+    where nearly every design has its own. Over another column: a curve where its numbers ascend,
+    as a spectrum's; else points, which are joined where none beats another, as on a Pareto front.
+    Raises GenevaError for a file that cannot be read, and a column without numbers.
+    """
+    table = read_columns(path)
+    if not x or not ys:
+        raise GenevaError(
+            f"{cut(path, 300)}: --x COLUMN and --y COLUMN,... say what to plot; it has "
+            f"{', '.join(table.names)}"
+        )
+    x, ys = table.named(x, "--x"), [table.named(y, "--y") for y in dict.fromkeys(ys)]
+    at = table.numbers(x, "--x")
+    families = _families(table, x)
+    by_key = x in _keys(table) and RANDOM not in families
+    panels = []
+    for y in ys:
+        values = table.numbers(y, "--y")
+        curves = [
+            curve
+            for number, (name, rows) in enumerate(families.items())
+            if (curve := _curve(number, name, [(at[i], values[i]) for i in rows], by_key))
+        ]
+        if not curves:
+            raise GenevaError(f"--y {cut(y)}: no row of {cut(path, 300)} has both it and {x}")
+        panels.append(Panel(Axis(y, y), tuple(curves), None, from_zero=False))
+    places = [v for p in panels for c in p.curves for piece in c.pieces for v in piece[0]]
+    low, high = min(places), max(places)
+    lines = all(c.style == LINE for p in panels for c in p.curves)
+    room = 0.0 if lines and high > low else ROOM * (high - low) or 0.5 * abs(low) or 0.5
+    title = f"{', '.join(ys)} by {x}"
+    return Figure(title, Axis(x, x), tuple(panels), (low - room, high + room))
+
+
+def _keys(table: Columns) -> list[str]:
+    """The varied keys: the first columns that are keys of a spec."""
+    out = []
+    for name in table.names:
+        if "." not in name or name.partition(".")[0] not in TABLES:
+            break
+        out.append(name)
+    return out
+
+
+def _families(table: Columns, x: str) -> dict[str, list[int]]:
+    """The numbers of the rows that belong together, by what they have in common."""
+    keys = _keys(table)
+    others = [key for key in keys if key != x]
+    every = list(range(len(table.rows)))
+    if x not in keys or not others:
+        return {"": every}
+    out: dict[str, list[int]] = {}
+    for i, values in enumerate(zip(*[table.texts(key) for key in others], strict=True)):
+        name = ", ".join(f"{key} = {value}" for key, value in zip(others, values, strict=True))
+        out.setdefault(name, []).append(i)
+    if 2 * len(out) > len(table.rows) and len(out) > FAMILY:
+        return {RANDOM: every}
+    if len(out) > FAMILY:
+        raise GenevaError(
+            f"{len(out)} curves, one for each combination of {', '.join(others)}; at most {FAMILY} "
+            "can be told apart: sweep fewer values, or plot over another key"
+        )
+    return out
+
+
+def _curve(
+    number: int, name: str, pairs: Iterable[tuple[float | None, float | None]], is_key: bool
+) -> Curve | None:
+    """A curve, or points; None where no row has both numbers."""
+    rows = list(pairs)
+    some = [(x, y) for x, y in rows if x is not None and y is not None]
+    if not some:
+        return None
+    ascends = all(a[0] < b[0] for a, b in pairwise(some))
+    some.sort()
+    apart = all(a[0] < b[0] for a, b in pairwise(some))
+    falls = all(a[1] > b[1] for a, b in pairwise(some))
+    rises = all(a[1] < b[1] for a, b in pairwise(some))
+    if apart and (ascends or is_key):
+        style = JOINED if len(some) <= FEW else LINE
+    else:
+        style = JOINED if apart and (falls or rises) else POINTS
+    if style == POINTS:
+        return Curve(number, name, (_piece(some),), style=style)
+    return Curve(number, name, tuple(_without_gaps(rows)), style=style)
+
+
+def _without_gaps(rows: Sequence[tuple[float | None, float | None]]) -> list[Piece]:
+    """The stretches of x between rows without a value."""
+    out: list[list[tuple[float, float]]] = [[]]
+    for x, y in sorted((r for r in rows if r[0] is not None), key=lambda r: r[0] or 0.0):
+        if x is None or y is None:
+            out.append([])
+        else:
+            out[-1].append((x, y))
+    return [_piece(some) for some in out if some]
+
+
+def _piece(some: Sequence[tuple[float, float]]) -> Piece:
+    x, y = zip(*some, strict=True)
+    return list(x), list(y)

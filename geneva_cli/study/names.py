@@ -1,0 +1,17 @@
+"""What designs are called where several stand side by side."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Sequence
+
+
+def short_name(path: str, paths: Sequence[str], taken: Collection[str] = ()) -> str:
+    """A file's name without folder and ending, where that tells it from the others.
+
+    >>> short_name("a/slow.toml", ["a/slow.toml", "b/quick.toml"])
+    'slow'
+    """
+    stems = [os.path.splitext(os.path.basename(p))[0] for p in paths]
+    stem = stems[list(paths).index(path)]
+    return stem if stems.count(stem) == 1 and stem not in taken else path

@@ -1,0 +1,370 @@
+"""Figures as they are written: what stands in the SVG, on a terminal, and in a picture."""
+
+import itertools
+import math
+import re
+import xml.etree.ElementTree as ET
+from typing import NamedTuple
+
+import pytest
+import repo
+
+from geneva_cli import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
+from geneva_cli.output import letters, plot, plot_matplotlib, plot_svg, plot_text, strokes
+from geneva_cli.output.ticks import labels, said, ticks
+from geneva_cli.study.figures import of_specs
+
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+SVG = "{http://www.w3.org/2000/svg}"
+HALF_PIXEL = 0.0051  # coordinates are written with two decimals
+PAIR = ["projector", "unequal-steps", "geneva-pair", "press-curved", "turret", "offset-slots"]
+
+
+def svg_of(figure):
+    return "".join(plot_svg.chunks(figure))
+
+
+def of_design(name):
+    return load(str(repo.DESIGNS / f"{name}.toml")).figure()
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    return of_design("press-straight")
+
+
+class Drawn(NamedTuple):
+    """A panel of an SVG: its curves as points of data, by number, and the size of a pixel."""
+
+    curves: dict
+    jumps: dict
+    dots: dict
+    pixel: tuple
+
+
+def numbers(text):
+    return [float(x) for x in re.findall(r"-?[\d.]+", text)]
+
+
+def read(text):
+    """The panels of an SVG by name, in the units of their axes."""
+    out = {}
+    for group in ET.fromstring(text).iter(f"{SVG}g"):
+        (x0, x1), (y0, y1) = numbers_of(group, "data-x"), numbers_of(group, "data-y")
+        left, top, wide, high = numbers_of(group, "data-frame")
+        pixel = (x1 - x0) / wide, (y1 - y0) / high
+
+        def at(x, y, a=(x0, y1), corner=(left, top), pixel=pixel):
+            return a[0] + (x - corner[0]) * pixel[0], a[1] - (y - corner[1]) * pixel[1]
+
+        found = Drawn({}, {}, {}, pixel)
+        for path in group.iter(f"{SVG}path"):
+            kind = path.get("class").split()
+            if kind[0] == "curve" and "h" not in path.get("d"):
+                moves = [numbers(part) for part in path.get("d").split("M")[1:]]
+                found.curves[kind[1]] = [
+                    [at(*p) for p in zip(m[::2], m[1::2], strict=True)] for m in moves
+                ]
+            if kind[0] == "jump":
+                found.jumps[kind[1]] = [
+                    (at(x, a), at(x, b))
+                    for x, a, b in (numbers(part) for part in path.get("d").split("M")[1:])
+                ]
+        for dot in group.iter(f"{SVG}circle"):
+            place = at(float(dot.get("cx")), float(dot.get("cy")))
+            found.dots.setdefault(dot.get("class"), []).append(place)
+        out[group.get("id")] = found
+    return out
+
+
+def numbers_of(group, name):
+    return [float(x) for x in group.get(name).split()]
+
+
+@pytest.mark.parametrize("name", PAIR)
+def test_a_drawn_curve_is_the_core_s(name):
+    """Between the points that are drawn, too: each chord's middle is on the curve to 0.1 px."""
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    panels = read(svg_of(design.figure(["velocity", "acceleration", "jerk"])))
+    engagements = design.mechanism.engagements
+    seen = 0
+    for order, quantity in enumerate(("velocity", "acceleration", "jerk"), 1):
+        panel = panels[quantity]
+        for line in panel.curves["c0"]:
+            for (x0, y0), (x1, y1) in itertools.pairwise(line):
+                x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+                ends = [(e, x0 - e.mid_deg, x1 - e.mid_deg) for e in engagements]
+                inside = [(e, a) for e, a, b in ends if e.entry_deg < a and b < e.exit_deg]
+                for e, first in inside:
+                    local = x - e.mid_deg
+                    want = [e.motion(v, 3).derivatives()[order] for v in (local, first)]
+                    slope = abs(e.motion(local, 4).derivatives()[order + 1]) * math.radians(1.0)
+                    # along the curve's normal: a steep one moves far for a hundredth of a pixel
+                    steep = slope * panel.pixel[0] / panel.pixel[1]
+                    near = 1.5 * HALF_PIXEL * math.hypot(1.0, steep) * panel.pixel[1]
+                    breaks = any(first <= b <= x1 - e.mid_deg for b in e.motion.breaks_deg)
+                    assert breaks or abs(y0 - want[1]) < 2.0 * near, (quantity, x0)
+                    assert breaks or abs(y - want[0]) < 10.0 * near, (quantity, x)
+                    seen += 1
+    assert seen > 60
+
+
+def test_entry_and_exit_jump_upright(pressed):
+    """z = 6: the acceleration jumps by tan(30 deg) at both ends, the jerk by 1."""
+    panels = read(svg_of(pressed))
+    for name, size, way in (("acceleration", 3**-0.5, -1.0), ("jerk", 1.0, 1.0)):
+        panel = panels[name]
+        jumps = panel.jumps["c0"]
+        near = 2.0 * HALF_PIXEL * panel.pixel[1]
+        assert [round(a[0], 1) for a, _ in jumps] == [-60.0, 60.0, 300.0]
+        entry, leave, again = ((a[1], b[1]) for a, b in jumps)
+        assert entry == pytest.approx((0.0, size), abs=near)
+        assert leave == pytest.approx((way * size, 0.0), abs=near)
+        assert again == pytest.approx((0.0, size), abs=near)
+    assert "c0" not in panels["velocity"].jumps and "c0" not in panels["wheel_deg"].jumps
+
+
+def test_peaks_are_the_analysis_s(pressed):
+    text = svg_of(pressed)
+    panel = read(text)["acceleration"]
+    ((x, y),) = panel.dots["d0"]
+    assert (x, y) == pytest.approx((-22.903061866, 1.349637275902), abs=HALF_PIXEL)
+    assert "peak 1.34964 at -22.90°" in text
+    assert "max 3434.16 at -17.07°" in text
+
+
+def boxes(text):
+    """Where the texts of an SVG are: left, top, right, bottom, of letters rather too wide."""
+    root = ET.fromstring(text)
+    out = []
+    for one in root.iter(f"{SVG}text"):
+        size = float(one.get("font-size", root.get("font-size")))
+        wide = letters.width(one.text) * size
+        share = {"end": 1.0, "middle": 0.5}.get(one.get("text-anchor"), 0.0)
+        left, base = float(one.get("x")) - share * wide, float(one.get("y"))
+        out.append((left, base - 0.75 * size, left + wide, base + 0.22 * size, one.text))
+    return root, out
+
+
+def overlapping(found):
+    for a, b in itertools.combinations(found, 2):
+        if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]:
+            yield a[4], b[4]
+
+
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_texts_keep_clear_of_each_other_and_of_the_edge(path):
+    text = svg_of(load(str(path)).figure())
+    root, found = boxes(text)
+    assert list(overlapping(found)) == []
+    wide, tall = float(root.get("width")), float(root.get("height"))
+    assert all(a >= 0.0 and b >= 0.0 and c <= wide and d <= tall for a, b, c, d, _ in found)
+    assert len(text) < 100_000
+    assert "nan" not in text.lower() and "inf" not in text.lower()
+
+
+def test_several_designs():
+    names = ["press-straight", "press-curved", "turret", "gear-sector", "epicyclic-z4", "limits"]
+    figure, _, left_out = of_specs([str(repo.DESIGNS / f"{n}.toml") for n in names])
+    text = svg_of(figure)
+    assert list(overlapping(boxes(text)[1])) == []
+    assert len(text) < 100_000
+    assert set(read(text)["velocity"].curves) == {f"c{i}" for i in range(6)}
+    # told apart without colour
+    dashed = re.findall(r"\.c(\d) \{ stroke-dasharray: ([\d. ]+) \}", text)
+    assert len({d for _, d in dashed}) == 5
+    assert [path.endswith("gear-sector.toml") for path, _ in left_out] == [True]
+    assert set(read(text)["pin_force_N"].curves) == {f"c{i}" for i in (0, 1, 2, 4, 5)}
+
+
+def test_overlapping_texts_would_be_noticed():
+    one = f'<svg xmlns="{SVG[1:-1]}" font-size="11"><text x="0" y="20">peak</text>'
+    assert list(overlapping(boxes(one + '<text x="20" y="25">max</text></svg>')[1]))
+    assert not list(overlapping(boxes(one + '<text x="40" y="25">max</text></svg>')[1]))
+
+
+def test_the_structure(pressed):
+    """What others may build on: groups named as the quantities, texts as texts, both papers."""
+    text = svg_of(pressed)
+    root = ET.fromstring(text)
+    usual = ["wheel_deg", "velocity", "acceleration", "jerk"]
+    usual += ["pin_force_N", "input_torque_Nm", "power_W"]
+    assert [g.get("id") for g in root.iter(f"{SVG}g")] == usual
+    assert root.find(f"{SVG}title").text == "Press feed, six straight slots"
+    words = [t.text for t in root.iter(f"{SVG}text")]
+    for word in ("Pin force (N)", "Wheel angle (°)", "Input angle (°)", "dwell", "300"):
+        assert word in words
+    assert "prefers-color-scheme: dark" in text
+    assert len([r for r in root.iter(f"{SVG}rect") if r.get("class") == "rest"]) == 7
+    assert svg_of(of_design("press-straight")) == text
+
+
+def test_a_hostile_title():
+    panel = Panel(Axis("velocity", "Velocity"), (Curve(0, "<b>&", (([0.0, 1.0], [0.0, 1.0]),)),))
+    figure = Figure("</title><script>\x1b[31m" * 40, Axis("x", "x"), (panel,), (0.0, 1.0))
+    root, found = boxes(svg_of(figure))
+    assert not list(root.iter(f"{SVG}script"))
+    assert max(box[2] for box in found) <= float(root.get("width"))
+    assert "\x1b" not in "".join(plot_text.chunks(figure))
+
+
+# Colours
+
+
+def linear(colour):
+    parts = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
+    return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+
+
+def luminance(rgb):
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+
+
+def contrast(a, b):
+    """Of the Web Content Accessibility Guidelines 2.2."""
+    low, high = sorted(luminance(linear(c)) for c in (a, b))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("paper", [strokes.LIGHT, strokes.DARK], ids=["light", "dark"])
+def test_contrast(paper):
+    """At least 3 for curves (WCAG 1.4.11), 7 for texts (1.4.6); over the dwell too, nearly."""
+    assert all(contrast(c, paper.page) > 3.0 for c in paper.curves)
+    assert all(contrast(c, paper.rest) > 3.0 for c in paper.curves)
+    assert contrast(paper.text, paper.rest) > 7.0
+
+
+# Linear RGB as eyes without the long or the middle cone have it, after Vienot, Brettel and Mollon
+# (1999), "Digital video colourmaps for checking the legibility of displays by dichromats".
+PROTAN = ((0.11238, 0.88762, 0.0), (0.11238, 0.88762, 0.0), (0.00401, -0.00401, 1.0))
+DEUTAN = ((0.29275, 0.70725, 0.0), (0.29275, 0.70725, 0.0), (-0.02234, 0.02234, 1.0))
+
+
+def lab(rgb):
+    """CIE L*a*b*, white D65."""
+    rows = ((0.4124, 0.3576, 0.1805), (0.2126, 0.7152, 0.0722), (0.0193, 0.1192, 0.9505))
+    white = (0.9505, 1.0, 1.089)
+    xyz = [sum(m * c for m, c in zip(row, rgb, strict=True)) for row in rows]
+    f = [max(v / w, 0.0) ** (1 / 3) for v, w in zip(xyz, white, strict=True)]
+    return 116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])
+
+
+@pytest.mark.parametrize("paper", [strokes.LIGHT, strokes.DARK], ids=["light", "dark"])
+@pytest.mark.parametrize("eye", [PROTAN, DEUTAN], ids=["protan", "deutan"])
+def test_apart_for_the_colour_blind(paper, eye):
+    """The first four by 10 in L*a*b*, where about 2 is noticed; dashes tell the others too."""
+    seen = [
+        lab([sum(m * c for m, c in zip(row, linear(colour), strict=True)) for row in eye])
+        for colour in paper.curves[:4]
+    ]
+    for a, b in itertools.combinations(seen, 2):
+        assert math.dist(a, b) > 10.0
+
+
+def test_twelve_curves_look_different():
+    looks = {(strokes.colour(n, strokes.LIGHT), strokes.dashes(n)) for n in range(12)}
+    assert len(looks) == 12
+
+
+# Numbers on axes
+
+
+def test_ticks_are_round():
+    assert ticks(-60.0, 300.0, 7, "deg") == [-60.0, 0.0, 60.0, 120.0, 180.0, 240.0, 300.0]
+    assert ticks(0.1, 0.93, 5) == [0.2, 0.4, 0.6, 0.8]
+    assert ticks(-3e9, 4e9, 4) == [-2e9, 0.0, 2e9, 4e9]
+    assert labels([0.0, 0.1, 0.2, 0.30000000000000004]) == ["0", "0.1", "0.2", "0.3"]
+    assert labels([0.0, 2e9]) == ["0", "2e+09"]
+    for low, high in ((0.0, 1e-300), (1e7, 1e7 + 1.0), (-1.0, 7.3), (0.0, 100.0)):
+        for most in (2, 3, 7):
+            found = ticks(low, high, most)
+            assert 1 <= len(found) <= most
+            assert all(low - 1e-9 <= x <= high + 1e-9 for x in found)
+
+
+def test_what_is_said_of_a_peak():
+    assert said(Mark("max", 0.0, None)) == "no bound at 0.00°"
+    assert said(Mark("peak", -0.001, -6.0)) == "peak -6 at 0.00°"
+
+
+# As text
+
+
+def lines_of(figure, **settings):
+    return "".join(plot_text.chunks(figure, **settings)).splitlines()
+
+
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_a_chart_fits_and_is_ascii(path):
+    figure = load(str(path)).figure()
+    assert max(map(len, lines_of(figure))) <= 80
+    assert "".join(lines_of(figure)).isascii() or not figure.title.isascii()
+    for columns in (40, 57, 120):
+        assert max(map(len, lines_of(figure, columns=columns, unicode=True))) <= columns
+
+
+def test_a_chart_shows_the_curve(pressed):
+    """The top of the wheel's velocity is at mid-motion, its ends and the dwell on the zero line."""
+    figure = pressed._replace(panels=pressed.panels[1:2])
+    body = [line[12:] for line in lines_of(figure) if line[11:12] == "|"]
+    assert len(body) == 16
+    top = body[0]
+    middle = 0.5 * (top.index("*") + top.rindex("*")) / (80 - 13 - 1)
+    assert middle == pytest.approx(60.0 / 360.0, abs=1.0 / 66.0)
+    assert body[-1].endswith("*" * 40)
+    assert {"*" in line for line in body} == {True}
+    braille = lines_of(figure, unicode=True)
+    assert any(0x2800 < ord(c) < 0x2900 for line in braille for c in line)
+
+
+def test_a_chart_of_several_has_letters_for_each():
+    x = [0.0, 1.0]
+    curves = tuple(Curve(n, f"design {n}", ((x, [n, n]),)) for n in range(12))
+    panel = Panel(Axis("velocity", "Velocity"), curves)
+    text = lines_of(Figure("all", Axis("x", "x"), (panel,), (0.0, 1.0)))
+    for n, mark in enumerate(plot_text.MARKS):
+        assert f"  {mark}  design {n}" in text
+    body = "".join(line[12:] for line in text if line[11:12] == "|")
+    assert set(plot_text.MARKS) <= set(body)
+
+
+# Files
+
+
+def test_what_is_asked_for_is_written(pressed, tmp_path):
+    for name, start in (("a.svg", b"<svg "), ("a.txt", b"Press"), ("a.csv", b"quantity,curve,")):
+        plot(pressed, str(tmp_path / name))
+        assert (tmp_path / name).read_bytes().startswith(start)
+
+
+@pytest.mark.parametrize("kind", [("png", b"\x89PNG"), ("pdf", b"%PDF")], ids=lambda k: k[0])
+def test_pictures(kind, tmp_path):
+    pytest.importorskip("matplotlib")
+    format, start = kind
+    panel = Panel(
+        Axis("velocity", "Velocity"),
+        (
+            Curve(0, "one $ two", (([0.0, 1.0], [0.0, 1.0]),), (Mark("max", 1.0, 1.0),)),
+            Curve(1, "points", (([0.5], [0.5]),), style=POINTS),
+            Curve(2, "joined", (([0.2, 0.5], [0.1, 0.5]),), style=JOINED),
+        ),
+    )
+    figure = Figure("a $ title", Axis("x", "x"), (panel,), (0.0, 1.0), ((0.5, 0.8),))
+    file = tmp_path / f"a.{format}"
+    plot(figure, str(file))
+    found = file.read_bytes()
+    assert found.startswith(start)
+    assert plot_matplotlib.written(figure, format) == found
+    with pytest.raises(GenevaError, match="not for standard output"):
+        plot(figure, "-", format)
+
+
+def test_a_failing_picture_leaves_the_old_file(pressed, tmp_path, monkeypatch):
+    file = tmp_path / "a.png"
+    file.write_text("old")
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+    with pytest.raises(GenevaError, match=r"geneva-cli\[plot\]"):
+        plot(pressed, str(file))
+    assert file.read_text() == "old" and list(tmp_path.iterdir()) == [file]

@@ -1,0 +1,189 @@
+"""Figures of sweeps, fronts and spectra from their CSV files, and what `geneva plot` refuses."""
+
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+from geneva_cli.errors import GenevaError
+from geneva_cli.figure import JOINED, LINE, POINTS
+from geneva_cli.study.figures import FAMILY, of_table
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, list(map(str, arguments)))
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def put(text):
+    with open("rows.csv", "w", encoding="utf-8", newline="") as file:
+        file.write(text)
+    return "rows.csv"
+
+
+def sweep(*options):
+    found = run("sweep", SPEC, *options, "-o", "rows.csv", "--jobs", "1")
+    assert found.exit_code == 0, found.output
+    return "rows.csv"
+
+
+def test_a_curve_for_each_combination_of_the_other_keys():
+    file = sweep("--vary", "drive.A=0,0.3,0.6", "--vary", "wheel.z=5,6", "--pick", "dwell_s")
+    figure = of_table(file, "drive.A", ["dwell_s"])
+    (panel,) = figure.panels
+    assert panel.y.name == "timing.dwell_s"
+    assert [curve.name for curve in panel.curves] == ["wheel.z = 5", "wheel.z = 6"]
+    assert {curve.style for curve in panel.curves} == {JOINED}
+    ((x, y),) = panel.curves[1].pieces
+    assert x == [0.0, 0.3, 0.6]
+    assert y[0] == pytest.approx(2.0 / 3.0)
+    # over the other key: a curve for each A
+    assert len(of_table(file, "wheel.z", ["dwell_s"]).panels[0].curves) == 3
+
+
+def test_rows_drawn_at_random_are_points():
+    vary = ["--vary", "drive.A=0:0.9", "--vary", "drive.n_rpm=20:90"]
+    file = sweep(*vary, "--random", "40", "--pick", "acceleration.max_rad_s2")
+    (curve,) = of_table(file, "drive.A", ["acceleration.max_rad_s2"]).panels[0].curves
+    assert curve.style == POINTS
+    assert sum(len(x) for x, _ in curve.pieces) == 40
+
+
+def test_a_front_is_joined():
+    vary = ["--vary", "drive.A=0:0.9", "--vary", "wheel.z=5..8", "--random", "60"]
+    file = sweep(*vary, "--pareto", "min:acceleration.max,max:dwell_s")
+    (curve,) = of_table(file, "acceleration.max", ["dwell_s"]).panels[0].curves
+    assert curve.style == JOINED
+    ((x, y),) = curve.pieces
+    assert x == sorted(x) and y == sorted(y)
+
+
+def test_a_spectrum_is_a_curve():
+    spec = str(repo.DESIGNS / "press-straight.toml")
+    assert run("vibration", spec, "--period-ratio", "4", "-o", "s.csv").exit_code == 0
+    figure = of_table("s.csv", "n_rpm", ["residual_share", "residual_deg"])
+    assert [p.curves[0].style for p in figure.panels] == [LINE, LINE]
+    assert figure.window == pytest.approx((30.0, 120.0))  # half to twice 60
+
+
+def test_gaps_stay_gaps():
+    """A design that cannot be built has no value: no line runs over it."""
+    file = put("drive.A,acceleration.max,error\n0,1,\n0.1,2,\n0.2,,jams\n0.3,4,\n0.4,5,\n")
+    (curve,) = of_table(file, "drive.A", ["acceleration.max"]).panels[0].curves
+    assert [x for x, _ in curve.pieces] == [[0.0, 0.1], [0.3, 0.4]]
+
+
+def test_a_column_that_holds_no_numbers():
+    file = put('drive.A,motion.law,timing.tau,error\n0,cycloidal,0.5,"no, it jams"\n1,3-4-5,nan,\n')
+    for x, y, wants in (
+        ("drive.A", "motion.law", '--y motion.law: no numbers in this column of rows.csv (as "cy'),
+        ("motion.law", "timing.tau", "--x motion.law: no numbers"),
+        ("drive.B", "timing.tau", '--x drive.B: no column of rows.csv (did you mean "drive.A"?)'),
+        ("drive.A", "timing.tou", 'timing.tou: no column of rows.csv (did you mean "timing.tau"?)'),
+        ("", "timing.tau", "rows.csv: --x COLUMN and --y COLUMN"),
+    ):
+        with pytest.raises(GenevaError) as error:
+            of_table(file, x, [y])
+        assert wants in str(error.value)
+
+
+def test_an_ending_that_two_names_share():
+    file = put("drive.A,motion.max,acceleration.max\n0,1,2\n")
+    with pytest.raises(GenevaError, match=r"motion\.max or acceleration\.max; say which"):
+        of_table(file, "drive.A", ["max"])
+
+
+@pytest.mark.parametrize(
+    ("text", "wants"),
+    [
+        ("", "rows.csv: no rows"),
+        ("a,b\n", "rows.csv: no rows"),
+        ("a,b\n1,2\n3\n", "rows.csv:3: 1 fields where the first line names 2"),
+        ("a,b\n1,\n,2\n", "no row of rows.csv has both it and a"),
+        ("a,b\n" + "1,inf\n", "no numbers"),
+    ],
+)
+def test_a_csv_that_is_none(text, wants):
+    with pytest.raises(GenevaError) as error:
+        of_table(put(text), "a", ["b"])
+    assert wants in str(error.value)
+
+
+def test_too_many_curves():
+    rows = [f"{a},{z},{a * z}\n" for a in range(3) for z in range(FAMILY + 1)]
+    file = put("drive.A,wheel.z,velocity.max\n" + "".join(rows))
+    with pytest.raises(GenevaError, match="13 curves, one for each combination"):
+        of_table(file, "drive.A", ["velocity.max"])
+
+
+def test_one_point_and_a_constant():
+    """Neither has a span of its own; both are drawn."""
+    for text in ("a,b\n1,2\n", "a,b\n1,2\n2,2\n3,2\n"):
+        put(text)
+        for output in ("a.svg", "a.txt"):
+            assert run("plot", "rows.csv", "--x", "a", "--y", "b", "-o", output).exit_code == 0
+            with open(output, encoding="utf-8") as file:
+                assert "nan" not in file.read()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wants"),
+    [
+        ([SPEC, "--show", "velocty"], 'velocty: no quantity of a cycle (did you mean "velocity"?)'),
+        ([SPEC, "--show", "pin_force_N"], "nothing resists the wheel"),
+        ([SPEC, "--x", "a"], "--x and --y are for a .csv"),
+        ([SPEC, SPEC], "given twice"),
+        ([SPEC, "-o", "no/such/folder.svg"], "cannot write: No such file or directory"),
+        ([SPEC, "-o", "a.gif"], "the extension names no format"),
+        ([SPEC, "--format", "pdf"], "not for standard output"),
+        ([SPEC, "rows.csv"], "a csv is plotted by itself"),
+        (["none.csv", "--x", "a", "--y", "b"], "none.csv: cannot read: No such file"),
+        (["rows.csv", "--show", "jerk"], "--show is for specs"),
+        (["rows.csv", "--x", "a", "--y", "b", "-o", "rows.csv"], "is an input"),
+    ],
+)
+def test_refused(arguments, wants):
+    """One line, exit status 2, and nothing is left behind."""
+    put("a,b\n1,2\n")
+    found = run("plot", *arguments)
+    assert found.exit_code == 2 and found.stdout == ""
+    assert wants in found.stderr and found.stderr.count("\n") == 1
+    assert os.listdir() == ["rows.csv"]
+
+
+def test_a_quantity_that_one_design_lacks_is_left_out_with_a_word():
+    loaded = str(repo.DESIGNS / "turret.toml")
+    found = run("plot", SPEC, loaded, "--show", "pin_force_N", "-o", "a.svg")
+    assert found.exit_code == 0
+    assert f"{SPEC}: warning: no curve of pin_force_N: nothing resists" in found.stderr
+    with open("a.svg", encoding="utf-8") as file:
+        assert 'class="curve c1"' in file.read()
+
+
+def test_a_key_over_the_file_s_reaches_the_curves():
+    found = run("plot", SPEC, "--set", "drive.A=0", "--show", "velocity")
+    assert "velocity: peak 1 at 0.00 deg" in found.stdout  # of a plain crank and six slots
+
+
+def test_starts_quickly():
+    """CPU time of the whole process, its least of three, without what the machine does besides."""
+    best = 9.0
+    for _ in range(3):
+        before = os.times()
+        subprocess.run([GENEVA, "plot", SPEC, "-o", "a.svg"], check=True, capture_output=True)
+        after = os.times()
+        best = min(best, sum(after[2:4]) - sum(before[2:4]))
+        time.sleep(0.01)
+    assert best < 0.6  # 0.2 s on an idle machine; the rest is for one that is not
