@@ -73,6 +73,11 @@ POWER = {
 }
 
 
+def every_other(A):
+    """Half of the numbers of slots, in turn with A, so that each is there: odd from -0.9 on."""
+    return range(3 + OFFSETS.index(A) % 2, 25, 2)
+
+
 def rows(text):
     """The table as {z: the other columns}."""
     lines = [line.split() for line in text.strip().split("\n")]
@@ -82,7 +87,7 @@ def rows(text):
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
 def test_against_roots_at_50_digits(machine, gearing, A):
-    for z in range(3, 25):
+    for z in every_other(A):
         m = machine(z, gearing, A)
         found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
         for name in NAMES:
@@ -117,7 +122,7 @@ def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
 def test_no_point_of_2000_is_above_the_peak(machine, gearing, A):
-    for z in range(3, 25):
+    for z in every_other(A):
         m = machine(z, gearing, A)
         s, w = m.engagements[0], Geneva(z, gearing, A)
         found = peaks(s)
