@@ -115,7 +115,7 @@ def test_tau_of_one_roller_outside():
     """From 1/6 to 11/24 for z = 3..24, one plain crank for each."""
     for z in range(3, 25):
         tau = Fraction(z - 2, 2 * z)
-        near = f"{max(z - 2, 3)}..{min(z + 2, 24)}"
+        near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
         (way,) = plain(ways(tau=str(tau), external=True, rollers=1, z=near))
         assert (way.z, way.tau) == (z, pytest.approx(float(tau), rel=1e-14))
     for beyond in ("0.1666", "0.4584"):
@@ -138,7 +138,8 @@ def test_k_of_internal_wheels():
     assert (3 + 2) / (3 - 2) == 5.0
     assert (12 + 2) / (12 - 2) == 1.4
     for z in range(3, 13):
-        (way,) = plain(ways(k=f"{z + 2}/{z - 2}", z="3..12", internal=True))
+        near = f"{max(z - 1, 3)}..{min(z + 1, 12)}"
+        (way,) = plain(ways(k=f"{z + 2}/{z - 2}", z=near, internal=True))
         assert (way.z, way.rollers) == (z, 1)
         assert way.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
 
@@ -147,7 +148,7 @@ def test_k_of_internal_wheels():
     ("k", "z", "m"), [("3", 4, 3), ("9", 5, 3), ("1", 4, 2), ("5", 3, 5), ("2", 6, 2)]
 )
 def test_k_above_1_outside(k, z, m):
-    assert (z, m) in {(w.z, w.rollers) for w in plain(ways(k=k, external=True))}
+    assert (z, m) in {(w.z, w.rollers) for w in plain(ways(k=k, z=f"3..{z + 1}", external=True))}
 
 
 @pytest.mark.parametrize(
@@ -182,7 +183,7 @@ def test_the_side_crank_paper_s_half_turn():
 
 @pytest.mark.parametrize("limit", ["0.3", "0.7", "1.3"])
 def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit):
-    found = ways(acceleration_max=limit, law="all", z="3..12")
+    found = ways(acceleration_max=limit, law="all", z="3,4,6,12")
     for way in found:
         assert way.acceleration_max <= float(limit)
         above = way.A is not None or way.eccentricity is not None or (way.law and way.alpha0_deg)
@@ -191,7 +192,7 @@ def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit)
     below = {(w.z, w.gearing) for w in found if w.drive == "crank" and w.law is None}
     assert below == {
         (z, g)
-        for z in range(3, 13)
+        for z in (3, 4, 6, 12)
         for g in (*GEARINGS, "spherical")
         if acceleration_peak(build(Spec(Wheel(z, g))).engagements[0]).max <= float(limit)
     }
