@@ -65,10 +65,11 @@ def main(rows=ROWS, seed=1):
         for _ in range(rows):
             what, fault = row(some, Path(folder))
             told[what] += 1
-            faults += [fault] if fault else []
+            if fault:
+                faults.append(fault)
+                print(fault, flush=True)
     for what, times in told.most_common():
         print(f"{times:5}  {what}")
-    print(*faults, sep="\n")
     return 1 if faults else 0
 
 
