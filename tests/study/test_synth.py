@@ -235,7 +235,7 @@ def test_no_smaller_parameter_does(z, gearing, ratio, share):
 
 
 WISHES = [
-    {"tau": "1/3", "z": "3..8"},
+    {"tau": "1/3", "z": "3,4,6,8"},
     {"k": "1.4", "z": "3,5,12"},
     {"motion_deg": "180", "z": "6", "law": "all"},
     {"motion_deg": "70", "z": "4,8,20"},
