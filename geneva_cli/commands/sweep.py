@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from geneva_cli.commands.options import Given, SpecPath
+from geneva_cli.commands.options import Format, Given, SpecPath
 from geneva_cli.errors import GenevaError, cut
 
 if TYPE_CHECKING:
@@ -54,8 +54,9 @@ def run(
     given: Given = None,
     output: Annotated[
         str,
-        typer.Option("-o", "--output", metavar="FILE", help="A .csv or .parquet; - prints."),
+        typer.Option("-o", "--output", metavar="FILE", help="A .csv or .parquet; - prints csv."),
     ] = "-",
+    format: Format = "",
 ) -> None:
     """One row a design: the varied keys, then the quantities; the last key runs fastest.
 
@@ -63,8 +64,11 @@ def run(
     --resume. The rows of all shares, one after the other, are those of one run: the first alone has
     the header. With --random and --best a key may vary between LOW:HIGH.
     """
+    from geneva_cli.output import FORMATS
     from geneva_cli.study.sweep.request import request
 
+    if format and format not in FORMATS:
+        raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
     asked = request(
         spec,
         vary or (),
@@ -82,9 +86,12 @@ def run(
     if best:
         _write_best(asked, output)
         return
-    if resume and asked.chooses:
-        raise GenevaError("--resume goes on with all rows of a sweep, not with a choice of them")
-    done, failed = _write_rows(asked, output, resume)
+    if resume and (asked.chooses or format not in ("", "csv")):
+        raise GenevaError("--resume goes on with all rows of a sweep, as csv or parquet")
+    if format in ("", "csv"):
+        done, failed = _write_rows(asked, output, resume)
+    else:
+        done, failed = _show_rows(asked, output, format)
     if failed:
         print(
             f"{spec}: {failed:,} of {done:,} designs cannot be built: column error says why",
@@ -112,6 +119,19 @@ def _write_rows(asked: Request, output: str, resume: bool) -> tuple[int, int]:
             rows.append(block)
         rows.finish()
     return count, failed
+
+
+def _show_rows(asked: Request, output: str, format: str) -> tuple[int, int]:
+    """The same as a table of another format, which is made when all rows are there."""
+    from geneva_cli.output import show
+    from geneva_cli.table import rows_table
+
+    every = list(_shown(asked, 0))
+    kept = list(asked.chosen(every)) if asked.chooses else every
+    rows = [row for block in kept for row in block]
+    show(rows_table(asked.sweep.names, rows), output, format, asked.sweep.text.spec().files)
+    whole = [row for block in every for row in block]
+    return len(whole), sum(row[-1] is not None for row in whole)
 
 
 def _write_best(asked: Request, output: str) -> None:

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import json
 import os
 import signal
 import subprocess
@@ -126,6 +127,14 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
     ]
 
 
+def test_other_formats_hold_the_same():
+    arguments = ["sweep", SPEC, "--vary", GRID[0], "--subject-to", "jerk.max <= 6"]
+    rows = json.loads(geneva(*arguments, "--format", "json").stdout)["rows"]
+    printed = list(csv.DictReader(io.StringIO(geneva(*arguments).stdout)))
+    assert [row["jerk"]["max"] for row in rows] == [float(row["jerk.max"]) for row in printed]
+    assert len(rows) == 2
+
+
 def test_parquet_holds_the_same(tmp_path):
     from pyarrow import parquet
 
@@ -163,6 +172,8 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
         (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
         (["--vary", "drive.A=0.1", "--resume"], "give -o FILE"),
+        (["--vary", "drive.A=0.1", "--format", "xls"], "--format xls: it must be one of"),
+        (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume goes on with all"),
         (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
         (["--vary", "drive.A=0.1", "--jobs", "0"], "--jobs 0"),
         (["--vary", "drive.A=2,3"], "none of the first 2 designs can be built: drive.A=2"),
