@@ -341,7 +341,6 @@ def test_what_is_asked_for_is_written(pressed, tmp_path):
 
 @pytest.mark.parametrize("kind", [("png", b"\x89PNG"), ("pdf", b"%PDF")], ids=lambda k: k[0])
 def test_pictures(kind, tmp_path):
-    pytest.importorskip("matplotlib")
     format, start = kind
     panel = Panel(
         Axis("velocity", "Velocity"),

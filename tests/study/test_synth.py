@@ -6,6 +6,7 @@ import json
 import math
 from fractions import Fraction
 
+import mpmath
 import pytest
 from typer.testing import CliRunner
 from words import LAWS, Drive, Spec, Wheel, load
@@ -478,7 +479,6 @@ def test_shafts_at_an_angle(z, share):
 
 
 def test_the_angle_of_the_shafts_in_50_digits():
-    mpmath = pytest.importorskip("mpmath")
     with mpmath.workdps(50):
         for z, motion in ((3, 60.01), (6, 150.0), (9, 219.9), (4, 269.9)):
             a, b = mpmath.radians(motion) / 2, mpmath.pi / z
