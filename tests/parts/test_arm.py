@@ -79,7 +79,7 @@ def crews():
             yield from ((z, gearing, m) for m in (1, 2, 3) if m * motion < 360)
 
 
-@pytest.mark.parametrize(("z", "gearing", "rollers"), crews())
+@pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_defaults_work(z, gearing, rollers):
     """Walls all round, and clear of the wheel's hub, below the wheel."""
     found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts
