@@ -1,6 +1,7 @@
 """From a wish to machines: closed forms against the built machine, the sources' tables, specs."""
 
 import csv
+import functools
 import io
 import json
 import math
@@ -31,8 +32,15 @@ GEARINGS = ("external", "internal")
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 
 
+@functools.cache
+def _searched(options):
+    return tuple(way for _, way in synthesis(read_wish(**dict(options))))
+
+
 def ways(**options):
-    return [way for _, way in synthesis(read_wish(**options))]
+    """The machines of a wish, searched for once."""
+    said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
+    return list(_searched(tuple(sorted(said.items()))))
 
 
 def plain(found):
