@@ -8,15 +8,36 @@ from __future__ import annotations
 
 import os
 import stat
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from contextlib import suppress
 from types import TracebackType
+from typing import Self
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.files import place, take_after, told
 
 
-class Growing:
+class Closing(ABC):
+    """What is closed where its block is left, by whatever way."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Let go of the file."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+class Growing(Closing):
     """Lines appended to a file; ``done`` of them, below the header, are there already.
 
     ``key`` is all that the lines depend on: a run goes on only from one that asked for the same.
@@ -99,13 +120,6 @@ class Growing:
                 with suppress(FileNotFoundError):
                     os.unlink(left)
 
-    def __enter__(self) -> Growing:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """What is there stays, to be gone on from."""
         self.file.close()

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.delimited import one_line
 from geneva_cli.output.finite import refuse_nonsense
-from geneva_cli.output.growing import Growing
+from geneva_cli.output.growing import Closing, Growing
 
 ENDINGS = (".csv", ".parquet")
 
 
-class Growth:
+class Growth(Closing):
     """Where the rows of ``names`` go; ``done`` of them are there already.
 
     ``key`` is all that they depend on, for ``resume``; a later share of a table has no ``header``.
@@ -71,14 +70,7 @@ class Growth:
             return
         self.file.finish()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """A file that is not finished can be gone on from."""
         if self.file:
-            self.file.file.close()
+            self.file.close()

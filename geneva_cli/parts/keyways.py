@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, about, closed
+from geneva_cli.curves.shapes import Circle, Line, Shape, about, closed
 from geneva_cli.errors import GenevaError
 
 
@@ -89,8 +89,3 @@ def bore(layer: str, radius: float, fitted: Key | None, direction: float) -> Sha
         layer,
         [first, second, Line(second.end, low), Line(low, high), Line(high, first.start)],
     )
-
-
-def is_contour(shape: Shape) -> bool:
-    """Whether a bore has a keyway."""
-    return isinstance(shape, Contour)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.mechanism import Mechanism
@@ -46,7 +46,7 @@ def judged(proof: Proof) -> Values:
 def cycle(proof: Proof) -> Values:
     """What the report does not say of the loads: least values, means and root mean squares."""
     names = ("min", "min_at_deg", "mean", "rms")
-    found = {load: one._asdict() for load, one in summaries(Cycle(proof.mechanism)).items()}
+    found = {load: one._asdict() for load, one in summaries(cycle_of(proof.mechanism)).items()}
     return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
 
 

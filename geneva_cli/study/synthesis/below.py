@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from geneva_cli.analysis.law_values import Characteristic, characteristic
 from geneva_cli.analysis.peaks import acceleration_peak
 from geneva_cli.machine import registry
-from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
-from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -71,23 +70,10 @@ def _specs(
 
 def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
     """The drives in front of the crank that bring a peak acceleration down, if they do."""
-    frame, natural = Frame(wish), natural_deg(wheel)
-
-    def side_crank(A: float) -> Spec:
-        motion = closed.side_crank_motion(natural, A)
-        return frame.spec(wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
-
-    def gears(e: float) -> Spec:
-        size, phase = closed.phased(e)
-
-        def drive(n: float) -> EllipticalGears:
-            return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
-
-        return frame.spec(wheel, drive, 1, closed.gears_motion(natural, e))
-
+    frame = Frame(wish)
     makes: tuple[tuple[limits.Ratio, Callable[[float], Spec]], ...] = (
-        (limits.side_crank, side_crank),
-        (limits.elliptical_gears, gears),
+        (limits.side_crank, partial(frame.side_crank, wheel)),
+        (limits.elliptical_gears, partial(frame.gears, wheel)),
     )
     for ratio, make in makes:
         x, least = limits.least_parameter(limits.peak_of(wheel, ratio), limit)

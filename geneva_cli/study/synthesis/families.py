@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import count
 from typing import NamedTuple
 
@@ -76,6 +77,20 @@ class Frame:
         found = drive(self.wish.n_rpm(m, motion_deg))
         own = self.own
         return own.but(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
+
+    def side_crank(self, wheel: Gearing, A: float) -> Spec:
+        """A side-crank in front of a wheel; it carries one roller."""
+        motion = closed.side_crank_motion(natural_deg(wheel), A)
+        return self.spec(wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
+
+    def gears(self, wheel: Gearing, e: float) -> Spec:
+        """Elliptical gears in front of a wheel, of the phase that the sign of e says."""
+        size, phase = closed.phased(e)
+
+        def drive(n: float) -> EllipticalGears:
+            return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
+
+        return self.spec(wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))
 
 
 def natural_deg(wheel: Gearing) -> float:
@@ -182,19 +197,7 @@ def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
 def _driven(wish: Wish, wheel: Gearing, natural: float, motion: Span) -> Iterator[Family]:
     """The drives in front of the crank that make a motion angle."""
     frame = Frame(wish)
-
-    def side_crank(A: float) -> Spec:
-        reached = closed.side_crank_motion(natural, A)
-        return frame.spec(wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, reached)
-
-    def gears(e: float) -> Spec:
-        size, phase = closed.phased(e)
-
-        def drive(n: float) -> EllipticalGears:
-            return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
-
-        return frame.spec(wheel, drive, 1, closed.gears_motion(natural, e))
-
+    side_crank, gears = partial(frame.side_crank, wheel), partial(frame.gears, wheel)
     yield from _between(side_crank, closed.side_crank, natural, motion)
     yield from _between(gears, closed.eccentricity, natural, motion)
 
