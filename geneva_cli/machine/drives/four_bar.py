@@ -13,9 +13,9 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
-from geneva_cli.machine.drives.linkage import Linkage, exactly, of_many, refuse_proportions
+from geneva_cli.machine.drives.linkage import Linkage, RodPath, refuse_proportions
 from geneva_cli.machine.layout import Dimension, Layout
-from geneva_cli.machine.path_pairs import Path, Way, rounded
+from geneva_cli.machine.path_pairs import Way, rounded
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
@@ -119,19 +119,18 @@ class _Links(NamedTuple):
     q: Any
 
 
-class CouplerPath(Path):
+class CouplerPath(RodPath):
     """The path of a point of the coupler.
 
     With d the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²),
     the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D).
     """
 
+    Numbers = _Links
+
     def __init__(self, keys: FourBar) -> None:
         lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
-        point = {"reach_mm": keys.point_mm, "angle_deg": keys.point_deg}
-        numbers = of_many if keys.varies else exactly
-        self.exact = _Links(*numbers(*lengths, **point))
-        self.rough = _Links._make(rounded(x) for x in self.exact)
+        super().__init__(*lengths, reach_mm=keys.point_mm, angle_deg=keys.point_deg)
         self.side = 1 if keys.branch == "+" else -1
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
@@ -144,21 +143,11 @@ class CouplerPath(Path):
         across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2 * b)) * self.side
         return dx * along - dy * across, dy * along + dx * across
 
-    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """The crank's pin A."""
-        return cosine * self.rough.a, sine * self.rough.a
-
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """The rocker pulls or pushes along itself."""
         a, g, b, c, _, _ = self.rough
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
-
-    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Crank, and e turned and stretched to the point."""
-        a, _, _, _, p, q = self.exact if exact else self.rough
-        ex, ey = self.link(sine, cosine, exact)
-        return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
     def about(self, sine: Any, cosine: Any) -> Way:
         """The change of each of A, D, 1/D, N, k and e, from the one before it."""

@@ -8,7 +8,7 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import reduce
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, cast
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Self, cast
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from geneva_cli.machine import wheel_for_path, wheels_for_paths
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
-from geneva_cli.machine.path_pairs import LONG_PI, Path
+from geneva_cli.machine.path_pairs import LONG_PI, Path, rounded
 from geneva_cli.machine.wheel_for_path import Fit, LinkJoints
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics import digits
@@ -155,7 +155,34 @@ def refuse_proportions(**lengths: float) -> None:
     refuse(reduce(larger, lengths.values()) > limit, error)
 
 
-def exactly(*lengths: float, reach_mm: float, angle_deg: float) -> list[Decimal]:
+class RodPath(Path):
+    """The path of a point of the link that the crank's pin A carries: a coupler, a connecting rod.
+
+    Its numbers are the links' lengths, crank a first, and at the end the point's places along the
+    link, p, and aside, q; they make one record of the class's ``Numbers``.
+    """
+
+    Numbers: ClassVar[type[NamedTuple]]
+
+    def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
+        many = any(is_array(x) for x in (*lengths, reach_mm, angle_deg))
+        numbers = (_long if many else _exactly)(*lengths, reach_mm=reach_mm, angle_deg=angle_deg)
+        self.exact = type(self).Numbers(*numbers)
+        self.rough = type(self).Numbers(*(rounded(x) for x in numbers))
+
+    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """The crank's pin A."""
+        return cosine * self.rough.a, sine * self.rough.a
+
+    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """Crank, and the link's unit vector turned and stretched to the point."""
+        numbers = self.exact if exact else self.rough
+        a, p, q = numbers.a, numbers.p, numbers.q
+        ex, ey = self.link(sine, cosine, exact)
+        return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
+
+
+def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> list[Decimal]:
     """Lengths to 50 digits, and so a point's places along a line and aside, from its distance and
     angle.
     """
@@ -165,7 +192,7 @@ def exactly(*lengths: float, reach_mm: float, angle_deg: float) -> list[Decimal]
         return [*(Decimal(x) for x in lengths), *point]
 
 
-def of_many(*lengths: float, reach_mm: float, angle_deg: float) -> list[Any]:
+def _long(*lengths: float, reach_mm: float, angle_deg: float) -> list[Any]:
     """The same for arrays of designs, in the longest floating-point numbers that there are."""
     turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
     point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)

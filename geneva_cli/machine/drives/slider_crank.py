@@ -12,9 +12,9 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
-from geneva_cli.machine.drives.linkage import Linkage, exactly, of_many, refuse_proportions
+from geneva_cli.machine.drives.linkage import Linkage, RodPath, refuse_proportions
 from geneva_cli.machine.layout import Dimension, Layout
-from geneva_cli.machine.path_pairs import Path, Way, rounded
+from geneva_cli.machine.path_pairs import Way, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
@@ -75,9 +75,10 @@ class SliderCrank(Linkage):
         )
 
     @property
-    def roller_path(self) -> RodPath:
+    def roller_path(self) -> SlidingRod:
         """The path of its point."""
-        return RodPath(self)
+        lengths = (self.crank_mm, self.rod_mm, self.height_mm)
+        return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
 
 
 class _Rod(NamedTuple):
@@ -90,15 +91,10 @@ class _Rod(NamedTuple):
     q: Any
 
 
-class RodPath(Path):
+class SlidingRod(RodPath):
     """The path of a point of the connecting rod."""
 
-    def __init__(self, keys: SliderCrank) -> None:
-        lengths = (keys.crank_mm, keys.rod_mm, keys.height_mm)
-        point = {"reach_mm": keys.point_mm, "angle_deg": keys.point_deg}
-        numbers = of_many if keys.varies else exactly
-        self.exact = _Rod(*numbers(*lengths, **point))
-        self.rough = _Rod._make(rounded(x) for x in self.exact)
+    Numbers = _Rod
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """The rod's unit vector, from A towards B."""
@@ -106,19 +102,9 @@ class RodPath(Path):
         ey = (h - sine * a) / b
         return sqrt((1 - ey) * (ey + 1)), ey
 
-    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """The crank's pin A."""
-        return cosine * self.rough.a, sine * self.rough.a
-
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """The slider's guide pushes across itself."""
         return self.rough.b, (sine * 0.0, cosine * 0.0 + 1.0)
-
-    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Crank, and the rod's vector turned and stretched to the point."""
-        a, _, _, p, q = self.exact if exact else self.rough
-        ex, ey = self.link(sine, cosine, exact)
-        return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
     def about(self, sine: Any, cosine: Any) -> Way:
         """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
