@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress cad fuzz bench bench-start clean
+.PHONY: demo test lint stress cad fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -47,6 +47,14 @@ fuzz: .venv/dev
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/bench/bench_start.py
+
+# Wheel and sdist in dist/, each installed alone and run, with the lowest and the highest releases of
+# what it needs; some minutes.
+dist: .venv/dev
+	$(BIN)/pip install --quiet "build>=1.2,<2" "uv>=0.9"
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist >/dev/null
+	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests python tests/stress/try_dist.py dist/*
 
 .venv/python:
 	@test -n "$(PYTHON)" || { echo "make: no Python 3.11 or newer found; set PYTHON=..." >&2; exit 1; }
