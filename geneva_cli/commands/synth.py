@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.study.synthesis.target import Wish
+    from geneva_cli.study.synthesis.wish import Wish
 
 
 def run(
@@ -81,7 +81,7 @@ def run(
     they do; no, with the reason; maybe for those below the first twenty (--checked); nothing for
     wheels that are not flat. --write turns the parts of its row.
     """
-    from geneva_cli.study.synthesis.target import read_wish
+    from geneva_cli.study.synthesis.reading import read_wish
 
     if given and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -121,8 +121,8 @@ def _frame(path: str, given: Sequence[str]) -> Spec:
 
 def _show(wish: Wish, checked: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import format_of, show
-    from geneva_cli.study.synthesis.search import synthesis_table
     from geneva_cli.study.synthesis.shown import for_people
+    from geneva_cli.study.synthesis.table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
@@ -135,7 +135,7 @@ def _write(wish: Wish, number: int, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synthesis.search import search
-    from geneva_cli.study.synthesis.spec import chosen
+    from geneva_cli.study.synthesis.written import chosen
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")

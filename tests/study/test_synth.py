@@ -19,13 +19,14 @@ from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
-from geneva_cli.study.synthesis import closed
-from geneva_cli.study.synthesis import limit as limits
 from geneva_cli.study.synthesis.built import Built
-from geneva_cli.study.synthesis.families import EXACT
-from geneva_cli.study.synthesis.search import NAMES, search, synthesis, synthesis_table, turned
-from geneva_cli.study.synthesis.spec import chosen, commented
-from geneva_cli.study.synthesis.target import read_wish
+from geneva_cli.study.synthesis.families import closed
+from geneva_cli.study.synthesis.families import limit as limits
+from geneva_cli.study.synthesis.families.family import EXACT
+from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.search import search, synthesis
+from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
+from geneva_cli.study.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
 
 GEARINGS = ("external", "internal")

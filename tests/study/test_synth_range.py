@@ -13,10 +13,11 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.text import chunks
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis.search import search, synthesis_table
+from geneva_cli.study.synthesis.reading import SPANS, read_wish, span
+from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.shown import for_people
-from geneva_cli.study.synthesis.spans import Span, span
-from geneva_cli.study.synthesis.target import SPANS, read_wish
+from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.table import synthesis_table
 
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
 # A minimum found to a share d of its place is d² off in its value, and no dense sweep is nearer.

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.families import Family
+from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.together import numbers
 
 PLACES = 24  # intervals of a family's span that are looked at first

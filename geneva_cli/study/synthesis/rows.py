@@ -6,17 +6,16 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.analysis.law_values import Characteristic, characteristic
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.synthesis.families.curved import law_costs
 from geneva_cli.study.synthesis.parts import Parts, parts
-from geneva_cli.study.synthesis.target import Wish
 from geneva_cli.study.synthesis.together import numbers
+from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks import checks
 
 MANY = 100  # machines from which on a second process is worth its start
@@ -89,7 +88,6 @@ def looked(spec: Spec) -> Looked:
 
 def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     """The rows of the specs that can be built; why others cannot goes to ``errors``."""
-    laws = {law: characteristic(registry.law(law)()) for law in wish.laws}
     straight = [spec for spec in specs if spec.motion is None]
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
@@ -100,7 +98,7 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
             errors.append(found.error)
             continue
         spec = machine.spec
-        values = five if spec.motion is None else _law_costs(machine, laws[spec.motion.law.NAME])
+        values = five if spec.motion is None else _law_costs(machine, spec.motion.law.NAME)
         if values is not None:
             out.append(Row(found.parts.spec, _way(machine, wish, values, found.parts.said)))
     return out
@@ -147,11 +145,11 @@ def _way(machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | No
     )
 
 
-def _law_costs(machine: Mechanism, costs: Characteristic) -> tuple[float, ...]:
+def _law_costs(machine: Mechanism, law: str) -> tuple[float, ...]:
     """A law's own greatest values, scaled to the step and to the motion angle."""
     engagement = machine.engagements[0]
     step, rate = 2.0 * engagement.half_step, 1.0 / math.radians(engagement.motion_deg)
-    C_v, C_a, C_j, C_p = costs
+    C_v, C_a, C_j, C_p = law_costs(law)
     return (
         C_v * step * rate,
         C_a * step * rate**2,

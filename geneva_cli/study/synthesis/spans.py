@@ -5,9 +5,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, cut
-from geneva_cli.spec.rules import Range
-
 SAME = 1e-9  # share by which two exact wishes for one quantity may differ and be the same
 
 
@@ -61,38 +58,3 @@ class Span(NamedTuple):
         if not self.high < math.inf:
             return f"{what} at least {self.low:.7g}{unit}"
         return f"{what} {self.low:.7g} to {self.high:.7g}{unit}"
-
-
-def span(option: str, text: str, rule: Range) -> Span:
-    """What an option's text asks for. Raises GenevaError, naming the option, for anything else.
-
-    >>> span("--dwell-s", "0.8..", Range(0.0))
-    Span(low=0.8, high=inf)
-    """
-    low, dots, high = text.partition("..")
-    if not dots:
-        x = number(option, text, rule)
-        return Span(x, x)
-    if not (low.strip() or high.strip()):
-        raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
-    found = Span(
-        number(option, low, rule) if low.strip() else -math.inf,
-        number(option, high, rule) if high.strip() else math.inf,
-    )
-    if found.empty:
-        raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")
-    return found
-
-
-def number(option: str, text: str, rule: Range) -> float:
-    """A number, or a fraction of two; GenevaError, naming the option, for anything else."""
-    above, slash, below = text.partition("/")
-    try:
-        x = float(above) / float(below) if slash else float(text)
-    except (ValueError, ZeroDivisionError):
-        raise GenevaError(
-            f'{option} "{cut(text)}": not a number; write 0.25, 1/4, or a range 0.2..0.3'
-        ) from None
-    if x not in rule:
-        raise GenevaError(f"{option} {cut(text)}: it must be {rule}")
-    return x

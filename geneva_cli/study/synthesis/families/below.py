@@ -10,46 +10,28 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from geneva_cli.analysis.law_values import Characteristic, characteristic
 from geneva_cli.analysis.peaks import acceleration_peak
-from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
-from geneva_cli.study.synthesis import closed
-from geneva_cli.study.synthesis import limit as limits
-from geneva_cli.study.synthesis.families import (
-    Family,
-    Frame,
-    cam,
-    curved,
-    more_rollers,
-    natural_deg,
-    plain,
-    planets,
-    rollers,
-)
-from geneva_cli.study.synthesis.target import MARGIN, Wish
+from geneva_cli.study.synthesis.families import closed
+from geneva_cli.study.synthesis.families import limit as limits
+from geneva_cli.study.synthesis.families.curved import cam, curved, law_costs, more_rollers
+from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
+from geneva_cli.study.synthesis.families.straight import gears, plain, planets, side_crank
+from geneva_cli.study.synthesis.wish import Wish
+
+MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 
 
-def below(wish: Wish, reached: list[float]) -> Iterator[Family]:
-    """The families to try; peaks that are as low as a drive brings them go to ``reached``."""
-    costs = {law: characteristic(registry.law(law)()) for law in wish.laws}
-    for gearing in wish.gearings:
-        for z in wish.z:
-            wheel = registry.gearing(gearing)(z)
-            yield from (_only(s) for s in _specs(wish, wheel, costs, reached))
-            if wish.rollers in (None, 1):
-                yield from planets(wish, wheel, natural_deg(wheel))
+def below(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Family]:
+    """The families of a wheel; peaks that are as low as a drive brings them go to ``reached``."""
+    yield from map(only, _specs(wish, wheel, reached))
+    if wish.rollers in (None, 1):
+        yield from planets(wish, wheel, natural_deg(wheel))
 
 
-def _only(spec: Spec) -> Family:
-    return Family(lambda x: spec)
-
-
-def _specs(
-    wish: Wish, wheel: Gearing, costs: dict[str, Characteristic], reached: list[float]
-) -> Iterator[Spec]:
+def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
     assert wish.acceleration_max is not None
     natural = natural_deg(wheel)
     every = rollers(wish, natural)
@@ -65,15 +47,14 @@ def _specs(
     if 1 in every:
         yield from _driven(wish, wheel, limit, reached)
     for law in wish.laws:
-        yield from _curved(wish, wheel, limit, costs[law], law, reached)
+        yield from _curved(wish, wheel, limit, law, reached)
 
 
 def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
     """The drives in front of the crank that bring a peak acceleration down, if they do."""
-    frame = Frame(wish)
     makes: tuple[tuple[limits.Ratio, Callable[[float], Spec]], ...] = (
-        (limits.side_crank, partial(frame.side_crank, wheel)),
-        (limits.elliptical_gears, partial(frame.gears, wheel)),
+        (limits.side_crank, partial(side_crank, wish, wheel)),
+        (limits.elliptical_gears, partial(gears, wish, wheel)),
     )
     for ratio, make in makes:
         x, least = limits.least_parameter(limits.peak_of(wheel, ratio), limit)
@@ -83,15 +64,10 @@ def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> I
 
 
 def _curved(
-    wish: Wish,
-    wheel: Gearing,
-    limit: float,
-    cost: Characteristic,
-    law: str,
-    reached: list[float],
+    wish: Wish, wheel: Gearing, limit: float, law: str, reached: list[float]
 ) -> Iterator[Spec]:
     """Curved slots over a motion so long that the law's peak acceleration is the limit."""
-    natural, step = natural_deg(wheel), 2.0 * math.pi / wheel.z
+    natural, step, cost = natural_deg(wheel), 2.0 * math.pi / wheel.z, law_costs(law)
     motion = closed.law_motion_deg(step, cost.acceleration, limit)
     inside, fast = wheel.SIGN < 0.0, cost.velocity * step
     if inside and fast >= 0.5 * math.radians(motion) and motion < natural:

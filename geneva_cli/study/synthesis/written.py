@@ -8,8 +8,8 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.rows import Row, Way
-from geneva_cli.study.synthesis.search import fixed
-from geneva_cli.study.synthesis.target import Wish
+from geneva_cli.study.synthesis.table import fixed
+from geneva_cli.study.synthesis.wish import Wish
 
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 

@@ -12,35 +12,18 @@ so that all of them together leave a span of M, and for each M in it a span of T
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.registry import STANDARD_LAWS as LAWS
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
-from geneva_cli.study.survey import parse_z
-from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
-from geneva_cli.study.synthesis.spans import Span, number, span
+from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synthesis.spans import Span
 
 GEARINGS = ("external", "internal", "spherical")
-WHEELS_MAX = 200  # numbers of slots in one call: each costs some hundredths of a second
-CYCLE = Range(1e-6, 1e6)
-STEP = Range(360.0 / Z_MAX, 120.0)
 USUAL_RPM = 60.0
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Span(0.0, math.inf)
-
-# The wishes for a number or a range of it, each with what it may be, its name and unit in words.
-SPANS = {
-    "tau": (Range(0.0, 1.0, "()"), "tau", ""),
-    "k": (Range(0.0, 1e6, "()"), "k", ""),
-    "motion_deg": (Range(0.0, 360.0, "()"), "a motion of", " deg"),
-    "dwell_deg": (Range(0.0, 360.0, "()"), "a dwell of", " deg"),
-    "motion_s": (POSITIVE, "a motion of", " s"),
-    "dwell_s": (POSITIVE, "a dwell of", " s"),
-    "cycle": (CYCLE, "a cycle of", " s"),
-}
 
 
 class Wish(NamedTuple):
@@ -170,121 +153,3 @@ def _angles(s: Span, m: int) -> str:
     return Span(s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf).words(
         "a motion of", " deg"
     )
-
-
-def read_wish(
-    *,
-    tau: str = "",
-    k: str = "",
-    motion_deg: str = "",
-    dwell_deg: str = "",
-    motion_s: str = "",
-    dwell_s: str = "",
-    cycle: str = "",
-    step: str = "",
-    acceleration_max: str = "",
-    z: str = "",
-    internal: bool = False,
-    external: bool = False,
-    spherical: bool = False,
-    rollers: int | None = None,
-    law: str = "modified-sine",
-    frame: Spec | None = None,
-    sort: str = "",
-    subject_to: Sequence[str] = (),
-) -> Wish:
-    """The wish that the command's options state, as text; an empty text is an option not given.
-
-    Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
-    GenevaError, naming the option, for options that contradict each other and for values out of
-    reach.
-    """
-    texts = {
-        "tau": tau,
-        "k": k,
-        "motion_deg": motion_deg,
-        "dwell_deg": dwell_deg,
-        "motion_s": motion_s,
-        "dwell_s": dwell_s,
-        "cycle": cycle,
-    }
-    spans = {
-        name: span(f"--{name.replace('_', '-')}", text, SPANS[name][0])
-        for name, text in texts.items()
-        if text
-    }
-    if not (spans or step or acceleration_max or subject_to or frame):
-        raise GenevaError(
-            "no wish; ask for --tau, --k, --motion-deg, --dwell-deg, --motion-s, --dwell-s, "
-            "--cycle, --step, --acceleration-max or --subject-to, alone or together"
-        )
-    if rollers is not None and not 1 <= rollers <= Z_MAX:
-        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
-    said = [spans[name].words(*SPANS[name][1:]) for name in spans]
-    said = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in said]
-    slots = _slots(z, frame)
-    if step:
-        degrees = number("--step", step, STEP)
-        if not spans and frame is None:
-            raise GenevaError(
-                f"--step {cut(step)}: needs --cycle, the seconds from one step to the next, or "
-                "another wish"
-            )
-        slots = _stepped(step, degrees, slots, bool(z))
-        said = [f"a step of {degrees:.7g} deg", *said]
-    most = number("--acceleration-max", acceleration_max, POSITIVE) if acceleration_max else None
-    if most is not None:
-        said.append(f"peak acceleration at most {most:.7g}")
-    bounds = tuple(constraint(text) for text in subject_to)
-    refuse_contradictions(bounds)
-    said += [str(bound) for bound in bounds]
-    words = ", ".join(said)
-    chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
-    wish = Wish(
-        words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
-        slots,
-        tuple(g for g, asked in chosen.items() if asked) or GEARINGS,
-        rollers,
-        _laws(law),
-        spans,
-        most,
-        frame,
-        sort,
-        bounds,
-    )
-    wish.refuse_contradictions(rollers or 1)
-    return wish
-
-
-def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
-    if not text and frame is not None:
-        return (frame.wheel.z,)
-    z = parse_z(text or "3..24")
-    if len(z) > WHEELS_MAX:
-        raise GenevaError(f"--z {cut(text)}: that is more than {WHEELS_MAX} wheels; ask for fewer")
-    return tuple(dict.fromkeys(z))
-
-
-def _laws(name: str) -> tuple[str, ...]:
-    if name == "all":
-        return tuple(LAWS)
-    if name not in LAWS:
-        hint = nearest(name, (*LAWS, "all"))
-        raise GenevaError(
-            f'--law "{cut(name)}": unknown{hint}; it must be all or {", ".join(LAWS)}'
-        )
-    return (name,)
-
-
-def _stepped(step: str, degrees: float, slots: tuple[int, ...], z_given: bool) -> tuple[int, ...]:
-    """The number of slots of a step: z = 360/step."""
-    z = round(360.0 / degrees)
-    if abs(z * degrees - 360.0) > 360.0 * 1e-6:
-        low, high = int(360.0 / degrees), int(360.0 / degrees) + 1
-        raise GenevaError(
-            f"--step {cut(step)}: 360 degrees are no whole number of such steps; near are "
-            f"{360.0 / high:.7g} (z = {high}) and {360.0 / low:.7g} (z = {low})"
-        )
-    if z_given and z not in slots:
-        raise GenevaError(f"--z: a step of {degrees:.7g} deg takes z = {z}; leave --z out")
-    return (z,)

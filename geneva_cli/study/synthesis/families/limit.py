@@ -18,7 +18,7 @@ from geneva_cli.machine.wheels.classic import gap, half_motion_deg
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 from geneva_cli.numerics.roots import Falsi, least
-from geneva_cli.study.synthesis.closed import MOST
+from geneva_cli.study.synthesis.families.closed import MOST
 
 # parameter, sin f, cos f -> f1 and f2, the second derivative of f by the input angle
 Ratio: TypeAlias = Callable[[float, float, float], tuple[float, float]]

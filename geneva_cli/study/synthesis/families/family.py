@@ -1,0 +1,91 @@
+"""A family: machines of one kind that differ in one free number, or a single machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.classic import rollers_max
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.wish import Wish
+
+EXACT = 1e-6  # share of the motion angle by which the plain crank may miss the wish
+SHORTEST = 0.01  # share of a turn over m that an open end of a wish leaves to motion and to dwell
+
+
+class Family(NamedTuple):
+    """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec.
+
+    At ``known``, where that is in the wish, the machine is one of another family.
+    """
+
+    make: Callable[[float], Spec]
+    low: float = 0.0
+    high: float = 0.0
+    known: float = math.nan
+
+
+def only(spec: Spec) -> Family:
+    """A family of one machine."""
+    return Family(lambda x: spec)
+
+
+class Frame:
+    """What all machines of a wish have in common: speed, sizes, loads, limits."""
+
+    def __init__(self, wish: Wish) -> None:
+        self.wish = wish
+        # one set of tables for all: a thousand of them would take a second to make
+        self.own = wish.frame or Spec(registry.gearing(wish.gearings[0])(wish.z[0]))
+
+    def spec(
+        self,
+        wheel: Gearing,
+        drive: Callable[[float], Drive],
+        m: int,
+        motion_deg: float,
+        motion: Motion | None = None,
+    ) -> Spec:
+        """A machine of the frame; ``drive`` makes its drive for an input speed."""
+        found = drive(self.wish.n_rpm(m, motion_deg))
+        own = self.own
+        return own.but(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
+
+
+def natural_deg(wheel: Gearing) -> float:
+    """The plain crank's motion angle."""
+    return 2.0 * wheel.half_motion_deg(wheel.step)
+
+
+def wanted(wish: Wish, m: int, natural: float) -> Span:
+    """The motion angles for m rollers; without a wish for one the plain crank's own."""
+    found = wish.motion_for(m)
+    return Span(natural, natural) if found is None else found
+
+
+def holds(motion: Span, natural: float) -> bool:
+    """Whether a motion angle is wished for, but for what the plain crank may miss it by."""
+    slack = EXACT * natural
+    return motion.low - slack <= natural <= motion.high + slack
+
+
+def closed_span(motion: Span, m: int) -> Span | None:
+    """A wished span of which an open end is taken near its limit; None where nothing is in it."""
+    whole = 360.0 / m
+    low = motion.low if motion.low > 0.0 else SHORTEST * whole
+    high = motion.high if motion.high < whole else (1.0 - SHORTEST) * whole
+    if motion.low >= whole or motion.high <= 0.0 or motion.empty:
+        return None
+    return Span(min(low, high), high) if not motion.exact else motion
+
+
+def rollers(wish: Wish, natural: float) -> range:
+    """The numbers of rollers to look at: as many as the straight slots take, or those asked for."""
+    if wish.rollers is not None:
+        return range(wish.rollers, wish.rollers + 1)
+    return range(1, rollers_max(natural) + 1)

@@ -1,0 +1,151 @@
+"""Straight slots: the plain crank, also with slots beside the centre, and what drives a crank.
+
+A side-crank, gears and a planet that carries the roller have one roller: several would move the
+wheel differently. On a sphere the angle between the shafts makes the motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.compatible import refuse_clashes
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.epicyclic import Epicyclic
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.classic import half_motion_deg, rollers_max
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.study.synthesis.families import closed
+from geneva_cli.study.synthesis.families.family import (
+    Family,
+    Frame,
+    closed_span,
+    holds,
+    natural_deg,
+    only,
+    rollers,
+    wanted,
+)
+from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.wish import Wish
+
+ASIDE = 0.1  # of L, by which offset slots miss the wheel's centre
+PLANETS = ("sun", "ring")
+
+
+def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+    """The families with straight slots."""
+    natural = natural_deg(wheel)
+    for m in rollers(wish, natural):
+        motion = wanted(wish, m, natural)
+        if holds(motion, natural):
+            yield only(plain(wish, wheel, m))
+            yield from _aside(wish, wheel, m)
+            if m == 1:
+                yield from planets(wish, wheel, natural)
+        free = closed_span(motion, m)
+        if m == 1 and free is not None and not (free.exact and holds(free, natural)):
+            yield from _driven(wish, wheel, natural, free)
+    if not wheel.FLAT:
+        yield from _inclined(wish, wheel)
+
+
+def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
+    """The plain crank."""
+    natural = natural_deg(wheel)
+    return Frame(wish).spec(wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
+
+
+def _aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
+    """Slots that miss the wheel's centre by a tenth of the centre distance: a gentler entry."""
+    if "offset_mm" not in wheel.as_dict():
+        return
+    spec = plain(wish, wheel, m)
+    e = spec.given_distance_mm * ASIDE
+    yield Family(lambda x: spec.with_("wheel.offset_mm", e))
+
+
+def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
+    """A roller on a planet: without a jump at entry, and with its planet's crank left free."""
+    z, frame = wheel.z, Frame(wish)
+    if z not in (3, 4, 6):
+        return
+
+    def make(rp: float | str, fixed: str) -> Spec:
+        def drive(n: float) -> Epicyclic:
+            return Epicyclic(planet_ratio=rp, fixed=fixed, n_rpm=n)
+
+        return frame.spec(wheel, drive, 1, natural)
+
+    for fixed in PLANETS:
+        try:
+            refuse_clashes(make("shockless", fixed))
+        except GenevaError:  # a wheel that it does not drive
+            return
+        yield Family(lambda x, fixed=fixed: make("shockless", fixed))  # type: ignore[misc]
+        l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
+        c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
+        least = -l / (1.0 + c if c > 0.0 else teeth)
+        inside = least * (1.0 - 1e-6), l / (c * c - 1.0) * (1.0 - 1e-9)
+        yield Family(lambda rp, fixed=fixed: make(rp, fixed), *inside)  # type: ignore[misc]
+
+
+def _driven(wish: Wish, wheel: Gearing, natural: float, motion: Span) -> Iterator[Family]:
+    """The drives in front of the crank that make a motion angle."""
+    yield from _between(partial(side_crank, wish, wheel), closed.side_crank, natural, motion)
+    yield from _between(partial(gears, wish, wheel), closed.eccentricity, natural, motion)
+
+
+def _between(
+    make: Callable[[float], Spec],
+    inverse: Callable[[float, float], float],
+    natural: float,
+    motion: Span,
+) -> Iterator[Family]:
+    """A drive whose parameter rises with its motion, as far as it goes."""
+    low, high = (inverse(natural, x) for x in motion)
+    if low <= closed.MOST and high >= -closed.MOST:
+        plain_too = 0.0 if holds(motion, natural) else math.nan
+        yield Family(make, max(low, -closed.MOST), min(high, closed.MOST), plain_too)
+
+
+def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+    """Plain cranks on shafts that meet at another angle than a right one."""
+    z, frame = wheel.z, Frame(wish)
+    least = 2.0 * half_motion_deg(1.0, 1, z)
+    for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
+        motion = wish.motion_for(m)
+        free = closed_span(motion, m) if motion else None
+        if free is None or (free.exact and holds(free, 180.0)):
+            continue
+
+        def make(axes: float, m: int = m) -> Spec:
+            reached = closed.axes_motion(z, axes)
+            inclined = wheel.with_key("axes_deg", axes)
+            return frame.spec(inclined, lambda n: Crank(n_rpm=n, rollers=m), m, reached)
+
+        low, high = (closed.axes(z, x) for x in free)
+        if low <= 180.0 - closed.AXES and high >= closed.AXES:
+            right = 90.0 if holds(free, 180.0) else math.nan
+            yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right)
+
+
+def side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:
+    """A side-crank in front of a wheel; it carries one roller."""
+    motion = closed.side_crank_motion(natural_deg(wheel), A)
+    return Frame(wish).spec(wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
+
+
+def gears(wish: Wish, wheel: Gearing, e: float) -> Spec:
+    """Elliptical gears in front of a wheel, of the phase that the sign of e says."""
+    size, phase = closed.phased(e)
+
+    def drive(n: float) -> EllipticalGears:
+        return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
+
+    return Frame(wish).spec(wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))

@@ -1,0 +1,90 @@
+"""Quantities of a design that a wish names: those it sorts by and those it sets bounds on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.study.fields import Pick, pick
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.sweep.columns import known
+from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.synthesis.rows import Row
+from geneva_cli.study.synthesis.together import numbers
+from geneva_cli.study.synthesis.wish import Wish
+
+
+class Asked(NamedTuple):
+    """The quantities that a wish names, whole, and its bounds on them by these names."""
+
+    pick: Pick | None
+    bounds: tuple[Constraint, ...]
+    sort: str
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The columns beside those of every row."""
+        return self.pick.names if self.pick else ()
+
+
+def asked(wish: Wish, spec: Spec) -> Asked:
+    """Which quantities a wish names; ``spec`` is a design that has them.
+
+    Raises GenevaError, with the nearest name, for one that there is not.
+    """
+    sort = wish.sort.lstrip("-")
+    wanted = [b.name for b in wish.bounds]
+    if not (sort or wanted):
+        return Asked(None, (), "")
+    machine = build(spec)
+    of_sort = pick([sort], machine, "--sort").names if sort else ()
+    of_bounds = pick(wanted, machine, "--subject-to").asked if wanted else ()
+    found = pick([*of_sort, *of_bounds], machine)
+    bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
+    return Asked(found, bounds, of_sort[0] if of_sort else "")
+
+
+def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
+    """The rows with the quantities that are asked for, of those that keep the bounds."""
+    assert wanted.pick
+    names = wanted.names
+    values: Iterable[Sequence[float | int | str | bool | None] | None]
+    if known(names):
+        values = numbers([row.spec for row in found], names)
+    else:
+        work = partial(_values, wanted.pick)
+        values = mapped(work, [row.spec for row in found], cores(), "machines")
+    out = []
+    nearest: dict[str, list[float]] = {b.name: [] for b in wanted.bounds}
+    for row, cells in zip(found, values, strict=True):
+        if cells is None:
+            continue
+        by_name = dict(zip(names, cells, strict=True))
+        for name, seen in nearest.items():
+            cell = by_name[name]
+            seen += [float(cell)] if is_number(cell) else []
+        if all(b.kept(by_name[b.name]) for b in wanted.bounds):
+            out.append(row._replace(asked=tuple(cells)))
+    if not out:
+        raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(found))}")
+    return out
+
+
+def _values(of: Pick, spec: Spec) -> list[float | int | str | bool | None] | None:
+    try:
+        return of.of(build(spec))
+    except GenevaError:  # parts that cannot be drawn have none of their quantities
+        return None
+
+
+def _how_near(wanted: Asked, nearest: dict[str, list[float]], count: int) -> str:
+    said = []
+    for b in wanted.bounds:
+        seen = nearest[b.name]
+        near = (max if b.sign == ">=" else min)(seen) if seen else None
+        said.append(f"{b}" + (f" (nearest {near:.6g})" if near is not None else " (known of none)"))
+    return f"none of {count} machines that grant the rest keeps {' and '.join(said)}"

@@ -1,0 +1,79 @@
+"""The rows with their parts turned, as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.synthesis.built import Built, built
+from geneva_cli.study.synthesis.parts import MAYBE, YES
+from geneva_cli.study.synthesis.rows import Row, Way
+from geneva_cli.study.synthesis.search import Found, search
+from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.table import Table, rows_table
+
+NAMES = ("no", *Way._fields)
+TURNED = 20  # rows whose parts are turned where nothing is said
+
+
+def synthesis_table(
+    wish: Wish, count: int = TURNED, buildable: bool = False, found: Found | None = None
+) -> Table:
+    """One row a machine, numbered from 1, as ``turned`` gives them."""
+    found = found or search(wish)
+    rows = [(one.no, *one.row.way, *one.row.asked) for one in turned(wish, found, count, buildable)]
+    what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
+    by = wish.sort or "lowest peak acceleration"
+    title = f"{what}, {by} first" if len(rows) > 1 else what
+    if buildable:
+        title = (
+            f"{title}, of {len(found.rows)}"
+            if len(rows) != 1
+            else f"1 machine of {len(found.rows)}"
+        )
+    return rows_table((*NAMES, *found.names), rows, f"{wish.words}: {title}.")
+
+
+class Numbered(NamedTuple):
+    """A row and its number, which it keeps where others are hidden."""
+
+    no: int
+    row: Row
+
+
+def turned(
+    wish: Wish, found: Found, count: int = TURNED, buildable: bool = False
+) -> Iterator[Numbered]:
+    """The rows, the first ``count`` of them turned; ``buildable``: the first so many that pass.
+
+    A row that was turned says yes, with sizes that pass, or no; others maybe, or no where that is
+    plain without.
+    """
+    every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
+    among = every if buildable else every[:count]
+    some = [one.row for one in among if one.row.way.parts == MAYBE]
+    work = partial(built, fixed=fixed(wish))
+    shown = mapped(work, [row.spec for row in some], min(len(some), cores()), "machines")
+    passed = 0
+    for one in every:
+        maybe = one.row.way.parts == MAYBE
+        if buildable and (passed >= count or not maybe):
+            continue
+        row = told(one.row, next(shown)) if maybe and (buildable or one.no <= count) else one.row
+        passed += row.way.parts == YES
+        if not buildable or row.way.parts == YES:
+            yield Numbered(one.no, row)
+
+
+def told(row: Row, result: Built) -> Row:
+    """A row whose parts were turned."""
+    said = f"no: {result.trouble}" if result.trouble else YES
+    return row._replace(spec=result.spec, way=row.way._replace(parts=said))
+
+
+def fixed(wish: Wish) -> frozenset[str]:
+    """The sizes that the wish's frame gives, and that stay as they are."""
+    given = wish.frame.size.as_dict() if wish.frame else {}
+    return frozenset(key for key, value in given.items() if value is not None)
