@@ -17,7 +17,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 # From the ground up. A room imports rooms of the floors below its own.
 FLOORS = [
     {"errors", "table"},
-    {"spec", "numerics", "streams", "figure"},
+    {"spec", "numerics", "streams", "figure", "manual"},
     {"machine", "curves"},
     {"analysis", "parts", "specfile", "output"},
     {"verdict", "bench"},
@@ -41,7 +41,7 @@ SHARED = {
     "verdict.checks": {"check", "of_machine", "of_parts"},
     "verdict.report": {"values", "sections"},
 }
-STREAMS = {"app", "streams", "__main__", "specfile", "output", "commands"}
+STREAMS = {"app", "streams", "__main__", "specfile", "output", "manual", "commands"}
 TYPER = {"app", "streams", "__main__", "commands"}
 # What commands know besides designs and studies: laws alone, templates, units and the names of
 # parts; there is no machine yet.

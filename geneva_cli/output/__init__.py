@@ -146,6 +146,17 @@ def show_text(text: str, output: str = "-") -> None:
     _put([text], output, ())
 
 
+def show_markdown(text: str) -> None:
+    """Print a text in Markdown, laid out where a person looks and as it is elsewhere."""
+    if not sys.stdout.isatty():
+        sys.stdout.write(text)
+        return
+    from rich.console import Console
+    from rich.markdown import Markdown
+
+    Console().print(Markdown(text))
+
+
 def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
     """The format that a file's extension names; for standard output, the one for people.
 

@@ -43,6 +43,8 @@ ROWS = [
     Row("--help"),
     Row("--version"),
     Row("table --help"),
+    Row("help"),
+    Row("help cycle"),
     Row("motion --help"),
     Row("table --z 6"),
     Row("table --internal"),

@@ -1,4 +1,4 @@
-"""What the rounding of its points does to the jerk of a spline: README's Accuracy says it."""
+"""What the rounding of its points does to the jerk of a spline, as accuracy.md says."""
 
 import math
 import random
@@ -25,7 +25,7 @@ def test_the_jerk_moves_with_the_third_power_of_the_points(n):
     s = [0.0, *[cycloidal(v) for v in u[1:-1]], 1.0]
     found = doubt([Decimal(v) for v in u], s, False, 3)
     share = found.move / (4.0 * math.pi**2)
-    # README's 0.4 n³ of a double's rounding, 2.2e-16; half of that is half a unit
+    # The manual's 0.4 n³ of a double's rounding, 2.2e-16; half of that is half a unit
     assert 0.05 < share / (n**3 * math.ulp(1.0)) < 1.0
     assert found.decimals >= 16
 

@@ -35,7 +35,7 @@ def test_sample(name):
 
 
 def test_a_point_much_slower_than_its_links():
-    """Its links' rounding is 17 times its own: up to 1,100 before, and what README says now."""
+    """Its links' rounding is 17 times its own: up to 1,100 before, now what accuracy.md says."""
     for text in HARD:
         table = Table()
         with mp.workdps(DIGITS // 2):

@@ -1,4 +1,4 @@
-"""The README's way past one machine, run as it stands there on a local cluster."""
+"""The manual's way past one machine, run as it stands there on a local cluster."""
 
 import os
 import re
@@ -11,7 +11,7 @@ from geneva_cli.study.sweep.request import request
 
 
 def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
-    text = (repo.ROOT / "README.md").read_text(encoding="utf-8")
+    text = (repo.ROOT / "geneva_cli" / "manual" / "choosing.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     (example,) = [block for block in blocks if "dask" in block]
     # each share is a run of the program, which takes longer to start than its rows: 3, not 16

@@ -1,0 +1,123 @@
+"""README and manual: every example is run again and compared, every picture is drawn anew.
+
+``GENEVA_UPDATE=1 pytest tests/commands/test_manual.py`` writes today's outputs and pictures.
+"""
+
+import functools
+import os
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import COMMANDS, app
+from geneva_cli.manual import TOPICS, page
+
+ROOT = repo.ROOT
+README = ROOT / "README.md"
+MANUAL = ROOT / "geneva_cli" / "manual"
+PAGES = [README, *(MANUAL / f"{topic}.md" for topic in TOPICS)]
+UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
+BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
+DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
+SHOWN = re.compile(r'<img src="([^"]+)"')
+NUMBER = re.compile(r"-?\d+\.\d+")
+
+
+def invoke(arguments: list[str]) -> str:
+    result = CliRunner().invoke(app, arguments, prog_name="geneva")
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+@functools.cache
+def run(command: str) -> str:
+    program, *arguments = shlex.split(command)
+    assert program == "geneva"
+    return invoke(arguments)
+
+
+def replay(block: str) -> str:
+    """The block with the output of each of its commands as it is today."""
+    commands = [line[2:] for line in block.splitlines() if line.startswith("$ ")]
+    return "\n".join(f"$ {command}\n{run(command)}" for command in commands)
+
+
+def text_of(file: Path) -> str:
+    return file.read_text(encoding="utf-8")
+
+
+@pytest.fixture(autouse=True)
+def at_root(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+
+
+@pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
+def test_the_examples_print_what_is_shown(file: Path) -> None:
+    text = text_of(file)
+    today = BLOCK.sub(lambda m: f"```console\n{replay(m[1])}```", text)
+    if UPDATE:
+        file.write_text(today, encoding="utf-8")
+    assert text == today or UPDATE
+
+
+@pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
+def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -> None:
+    """To a hundredth of a unit: another processor may round another last digit."""
+    drawn = {}
+    for command, name in DRAWN.findall(text_of(file)):
+        drawn[name] = new = tmp_path / Path(name).name
+        invoke([*shlex.split(command)[1:], "-o", str(new)])
+    assert set(drawn) == set(SHOWN.findall(text_of(file)))
+    for name, new in drawn.items():
+        kept = file.parent / name
+        if UPDATE:
+            kept.write_text(text_of(new), encoding="utf-8")
+        old, today = text_of(kept), text_of(new)
+        assert NUMBER.sub("", old) == NUMBER.sub("", today)
+        numbers = [[float(n) for n in NUMBER.findall(text)] for text in (old, today)]
+        assert numbers[0] == pytest.approx(numbers[1], abs=0.01)
+
+
+def test_no_picture_is_left_over() -> None:
+    shown = {Path(name).name for file in PAGES for name in SHOWN.findall(text_of(file))}
+    assert {file.name for file in (MANUAL / "pictures").iterdir()} == shown
+
+
+@pytest.mark.parametrize("file", [README, MANUAL / "spec.md"], ids=lambda file: file.stem)
+def test_the_spec_that_is_shown_passes(file: Path, tmp_path: Path) -> None:
+    spec = re.search(r"```toml\n(.*?)```", text_of(file), re.DOTALL)
+    assert spec
+    copy = tmp_path / "shown.toml"
+    copy.write_text(spec[1], encoding="utf-8")
+    invoke(["check", str(copy)])
+
+
+def test_the_readme_is_short_and_leads_to_every_page() -> None:
+    text = text_of(README)
+    assert len(text.splitlines()) <= 200
+    assert set(re.findall(r"\(geneva_cli/manual/([a-z-]+)\.md\)", text)) == set(TOPICS)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_is_in_the_manual(command: str) -> None:
+    assert any(f"geneva {command}" in text_of(file) for file in PAGES)
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+def test_pages_begin_with_a_title_and_name_pages_that_exist(topic: str) -> None:
+    text = page(topic)
+    assert text.startswith("# ") and "<img" not in text and "<!--" not in text
+    named = set(re.findall(r"geneva help ([a-z-]+)", text))
+    assert named <= {*TOPICS, *COMMANDS}
+
+
+def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
+    assert invoke(["help", "symbols"]) == page("symbols")
+    assert all(f"\n{topic} " in invoke(["help"]) for topic in TOPICS)
+    assert invoke(["help", "keys"]) == invoke(["keys", "--help"])
+    result = CliRunner().invoke(app, ["help", "symbol"])
+    assert result.exit_code == 2 and 'did you mean "symbols"?' in result.output
