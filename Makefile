@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress cad fuzz bench bench-start dist clean
+.PHONY: demo test lint stress cad editors fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -31,6 +31,11 @@ stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
+
+# 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
+editors: .venv/dev
+	$(BIN)/pip install --quiet "taplo>=0.9,<1" "tombi>=1,<2"
+	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/machine:tests/stress python tests/stress/schema_agrees.py taplo tombi
 
 # Every design's STEP files read by a CAD kernel, which is installed for it (0.5 GB); two minutes.
 cad: .venv/dev

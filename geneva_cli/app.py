@@ -38,6 +38,7 @@ COMMANDS = {
     "synth": "From a wish (tau, k, angle, time, acceleration) to machines for it.",
     "new": "Write a commented spec to start from.",
     "keys": "Every key of a spec: unit, range, default, and what it goes with.",
+    "schema": "JSON Schema of a spec, for editors.",
     "help": "The manual: a page a topic.",
     "bench": "Run time against error: ours beside what else is in use.",
 }

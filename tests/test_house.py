@@ -49,6 +49,7 @@ ALONE = {
     "analysis.law_values",
     "specfile.template",
     "specfile.keys",
+    "specfile.json_schema",
     "curves.pieces",
     "parts.catalogue",
 }

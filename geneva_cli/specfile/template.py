@@ -11,6 +11,7 @@ from geneva_cli.machine.drives.drive import Drive, Example
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
+from geneva_cli.specfile.json_schema import FILE
 from geneva_cli.specfile.writer import keys_of, quoted
 
 # what a plain crank drives
@@ -54,6 +55,7 @@ def template(kind: str) -> str:
         about, tables = drive.EXAMPLE
         given = {**tables, "drive": {"kind": kind, **tables.get("drive", {})}}
     lines = [
+        f"#:schema ./{FILE}",  # for editors: `geneva schema -o` writes it
         f"# A Geneva mechanism: {about}.",
         "# Keys behind a # have the default shown, or none; remove the # to set them.",
         f"title = {quoted(about)}",

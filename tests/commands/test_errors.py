@@ -12,7 +12,16 @@ from typer.testing import CliRunner
 from geneva_cli.app import COMMANDS, app
 
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
-WITHOUT_SPEC = {"table", "laws", "new", "synth", "bench", "keys", "help"}  # commands that read none
+WITHOUT_SPEC = {
+    "table",
+    "laws",
+    "new",
+    "synth",
+    "bench",
+    "keys",
+    "help",
+    "schema",
+}  # commands that read none
 WHEEL = "[wheel]\nz = 6\n"
 SIDE = '[drive]\nkind = "side-crank"\n'
 CURVED = '[motion]\nlaw = "cycloidal"\n'

@@ -45,6 +45,7 @@ ROWS = [
     Row("table --help"),
     Row("help"),
     Row("help cycle"),
+    Row("schema", "json numpy"),  # the laws
     Row("motion --help"),
     Row("table --z 6"),
     Row("table --internal"),

@@ -1,0 +1,156 @@
+"""A spec's tables and keys as JSON Schema, for editors: made from what the reader goes by.
+
+What a value may be depends on the kind of machine that its table names, and is said so. What keys
+must be together (a limit on force needs a load) is left to `geneva check`, and so are a whole
+number that is written 6.0, and nan.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+from geneva_cli.machine import registry
+from geneva_cli.machine.spec import Motion
+from geneva_cli.spec.rules import Csv, OneOf, Range, Words
+from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, Table, fields
+from geneva_cli.spec.tables import LISTS, PLAIN
+from geneva_cli.specfile.writer import GEARING, KIND, LAW
+
+DRAFT = "http://json-schema.org/draft-07/schema#"
+FILE = "geneva.schema.json"  # where the first line of a new spec looks for it
+Schema = dict[str, Any]
+
+
+def schema() -> Schema:
+    """JSON Schema, draft 7, of a spec.
+
+    >>> from geneva_cli.specfile.json_schema import schema
+    >>> schema()["properties"]["load"]["properties"]["efficiency"]["maximum"]
+    1.0
+    """
+    gearings = {name: registry.gearing(name) for name in registry.GEARINGS}
+    drives = {name: registry.drive(name) for name in registry.DRIVES}
+    properties = {
+        "title": {"type": "string", "description": "free text"},
+        "wheel": _of_kinds(GEARING, gearings),
+        "drive": _of_kinds(KIND, drives),
+        "motion": _motion(),
+    }
+    for name, table in PLAIN.items():
+        whole, _, part = name.partition(".")
+        one = _table(fields(table))
+        if part:
+            properties.setdefault(whole, _closed({}))["properties"][part] = one
+        else:
+            properties[name] = {"type": "array", "items": one} if name in LISTS else one
+    head = {"$schema": DRAFT, "title": "A Geneva mechanism: a spec of geneva"}
+    return {**head, **_closed(properties), "required": ["wheel"]}
+
+
+def _closed(properties: Schema) -> Schema:
+    return {"type": "object", "additionalProperties": False, "properties": properties}
+
+
+def _table(keys: tuple[Field, ...]) -> Schema:
+    required = [key.key for key in keys if key.default is REQUIRED]
+    more = {"required": required} if required else {}
+    return {**_closed({key.key: {**_told(key), **_value(key)} for key in keys}), **more}
+
+
+def _of_kinds(word: Field, kinds: Mapping[str, type[Table]]) -> Schema:
+    """A table whose keys depend on a word in it; without the word it is of the default kind."""
+    keys = {name: fields(kind) for name, kind in kinds.items()}
+    return _cases(word, keys, (), keys[word.default], has_default=True)
+
+
+def _motion() -> Schema:
+    """The keys of the motion with those of its law; without a law none is free."""
+    own = fields(Motion)
+    keys = {name: (*fields(registry.law(name)), *own) for name in registry.LAWS}
+    return _cases(LAW, keys, own, (), has_default=False)
+
+
+def _cases(
+    word: Field,
+    keys: Mapping[str, tuple[Field, ...]],
+    shared: tuple[Field, ...],
+    lone: tuple[Field, ...],
+    has_default: bool,
+) -> Schema:
+    """A table with the keys of each kind under the word that names it; foreign ones as read.
+
+    ``lone`` are the keys where the word is not given.
+    """
+    every: dict[str, Field] = {}
+    for fields_ in (shared, *keys.values()):
+        for key in fields_:
+            every.setdefault(key.key, key)
+    is_word = {**_told(word), "type": "string", "enum": list(keys)}
+    named = {"properties": {word.key: {"const": None}}, "required": [word.key]}
+    cases = [{"if": {"not": {"required": [word.key]}}, "then": _case(lone, every)}]
+    for name, own in keys.items():
+        condition = {**named, "properties": {word.key: {"const": name}}}
+        cases.append({"if": condition, "then": _case(own, every)})
+    properties = {word.key: is_word, **{name: _told(key) for name, key in every.items()}}
+    if not has_default:
+        is_word.pop("default", None)
+    return {**_closed(properties), "allOf": cases}
+
+
+def _case(own: tuple[Field, ...], every: Mapping[str, Field]) -> Schema:
+    """The values of a kind's own keys; another kind's key may stand there at its default."""
+    values: Schema = {name: _foreign(key) for name, key in every.items()}
+    values |= {key.key: _value(key) for key in own}
+    required = [key.key for key in own if key.default is REQUIRED]
+    return {"properties": values, **({"required": required} if required else {})}
+
+
+def _foreign(key: Field) -> Schema | bool:
+    return False if key.default in (None, REQUIRED) else {"const": _plain(key.default)}
+
+
+def _told(key: Field) -> Schema:
+    """What an editor shows of a key."""
+    if key.default in (None, REQUIRED):
+        return {"description": key.meaning}
+    return {"description": key.meaning, "default": _plain(key.default)}
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _value(key: Field) -> Schema:
+    """What a key's value may be."""
+    if isinstance(key.rule, Csv):
+        return {"type": "string"}
+    kinds = []
+    number = next((t for t in key.types if t in (int, float)), None)
+    if number:
+        kinds.append(_number(key.rule, whole=number is int))
+    if LIST in key.types:
+        items = _number(key.rule, whole=False)
+        kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
+    words = key.rule.words if isinstance(key.rule, Words) else ()
+    words = key.rule if isinstance(key.rule, OneOf) else words
+    if str in key.types and (words or not number):
+        kinds.append({"type": "string", **({"enum": list(words)} if words else {})})
+    return kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
+
+
+def _number(rule: Range | Words | OneOf, whole: bool) -> Schema:
+    bounds = rule.range if isinstance(rule, Words) else rule
+    assert isinstance(bounds, Range)
+    said: Schema = {"type": "integer" if whole else "number"}
+    for word, bound, bracket in (
+        ("inimum", bounds.low, bounds.ends[0]),
+        ("aximum", bounds.high, bounds.ends[1]),
+    ):
+        if math.isinf(bound):  # inf itself is refused, and is no number of JSON
+            said["m" + word] = math.copysign(sys.float_info.max, bound)
+        else:
+            said[("exclusiveM" if bracket in "()" else "m") + word] = bound
+    return said

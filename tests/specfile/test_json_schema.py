@@ -1,0 +1,79 @@
+"""JSON Schema of a spec: it says what the reader says."""
+
+import json
+import random
+import tomllib
+
+import pytest
+import repo
+import schema_agrees
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+from geneva_cli.specfile.json_schema import FILE, schema
+from geneva_cli.specfile.template import KINDS, template
+
+
+def faults(text):
+    return [error.message for error in schema_agrees.validator().iter_errors(tomllib.loads(text))]
+
+
+@pytest.mark.parametrize("design", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda d: d.stem)
+def test_every_design_keeps_to_it(design):
+    assert faults(design.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_new_spec_keeps_to_it_and_names_it(kind):
+    text = template(kind)
+    assert text.splitlines()[0] == f"#:schema ./{FILE}"
+    assert faults(text) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[wheel]\n",
+        "[wheel]\nz = 2\n",
+        "[wheel]\nz = 6\nwidth = 3\n",
+        '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n',  # no A
+        "[wheel]\nz = 6\n[drive]\nA = 0.3\n",  # of another kind
+        '[wheel]\nz = 6\n[motion]\nlaw = "cycloid"\n',
+        "[wheel]\nz = 6\n[motion]\nalpha0_deg = 3\n",  # without a law
+        '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = "mached"\n',
+        "[wheel]\nz = 6\n[mass]\nmass_kg = 3\n",  # not a list
+        "[wheel]\nz = 6\n[material]\ncolour = 3\n",
+        "[wheel]\nz = 6\n[load]\nefficiency = 1.5\n",
+    ],
+)
+def test_it_refuses_what_the_reader_refuses(text):
+    assert schema_agrees.read(tomllib.loads(text)) is not None
+    assert faults(text)
+
+
+def test_it_agrees_with_the_reader_on_mutated_specs(tmp_path, monkeypatch):
+    """`make editors` compares 2,000, with the checkers of editors too."""
+    monkeypatch.chdir(tmp_path)
+    for name, content in schema_agrees.FILES.items():
+        (tmp_path / name).write_text(content)
+    rng = random.Random(7)
+    texts = [schema_agrees.spec(rng) for _ in range(150)]
+    sound = sum(not faults(text) for text in texts)
+    assert 15 < sound < 135
+    assert [said for text in texts if (said := schema_agrees.disagreement(text))] == []
+
+
+def test_a_wrong_bound_would_be_noticed(tmp_path, monkeypatch):
+    text = '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.9\n'
+    assert not schema_agrees.disagreement(text)
+    wrong = json.loads(json.dumps(schema()).replace('"exclusiveMaximum": 1.0', '"maximum": 0.8'))
+    monkeypatch.setattr(
+        schema_agrees, "validator", lambda: schema_agrees.jsonschema.Draft7Validator(wrong)
+    )
+    assert "0.9 is greater than the maximum of 0.8" in schema_agrees.disagreement(text)
+
+
+def test_the_command_prints_it():
+    result = CliRunner().invoke(app, ["schema"])
+    assert result.exit_code == 0 and json.loads(result.stdout) == schema()
