@@ -48,6 +48,7 @@ TYPER = {"app", "streams", "__main__", "commands"}
 ALONE = {
     "analysis.law_values",
     "specfile.template",
+    "specfile.designs",
     "specfile.keys",
     "specfile.json_schema",
     "curves.pieces",

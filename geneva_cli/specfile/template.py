@@ -7,15 +7,15 @@ from typing import Any
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.drive import Drive, Example
+from geneva_cli.machine.drives.drive import Example
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE
 from geneva_cli.specfile.writer import keys_of, quoted
 
-# what a plain crank drives
-CRANKED = {
+# what people ask for, beside the example that each kind of drive brings
+EXAMPLES = {
     "external": Example("an external wheel, straight slots", {"wheel": {"z": 6}}),
     "internal": Example(
         "an internal wheel: more motion than dwell",
@@ -33,8 +33,42 @@ CRANKED = {
         "curved slots for a given motion law, at the mid condition",
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
     ),
+    "curved-internal": Example(
+        "curved slots of an internal wheel, which a brake holds",
+        {
+            "wheel": {"z": 8, "gearing": "internal", "held_by": "brake"},
+            "motion": {"law": "modified-sine", "alpha0_deg": -50, "ratio": "matched"},
+            "size": {"lock_radius_mm": 0},
+        },
+    ),
+    "offset": Example(
+        "slots beside the wheel's centre: one end gentler than the other",
+        {"wheel": {"z": 6, "offset_mm": 8}},
+    ),
+    "unequal-steps": Example(
+        "steps of two sizes, a roller for each",
+        {"wheel": {"z": 6, "steps_deg": [72, 48]}},
+    ),
+    "side-crank-internal": Example(
+        "an internal wheel behind a side-crank",
+        {
+            "wheel": {"z": 6, "gearing": "internal"},
+            "drive": {"kind": "side-crank", "A": -0.3},
+        },
+    ),
+    "turret": Example(
+        "a turret with its load, its motor and what it is held to",
+        {
+            "wheel": {"z": 8},
+            "drive": {"n_rpm": 40},
+            "size": {"center_distance_mm": 250, "roller_radius_mm": 12, "face_width_mm": 18},
+            "load": {"inertia_kgm2": 1.2, "torque_Nm": 20, "efficiency": 0.95, "friction": 0.05},
+            "motor": {"service_factor": 1.5, "gear_ratio": 35, "speed_variation": 0.1},
+            "limits": {"pin_force_max_N": 500, "contact_stress_max_MPa": 600},
+        },
+    ),
 }
-KINDS = (*CRANKED, *(name for name in registry.DRIVES if name != Crank.NAME))
+KINDS = (*EXAMPLES, *(name for name in registry.DRIVES if name != Crank.NAME))
 
 
 def template(kind: str) -> str:
@@ -47,13 +81,8 @@ def template(kind: str) -> str:
         raise GenevaError(
             f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of {known}'
         )
-    drive: type[Drive] = Crank
-    if kind in CRANKED:
-        about, given = CRANKED[kind]
-    else:
-        drive = registry.drive(kind)
-        about, tables = drive.EXAMPLE
-        given = {**tables, "drive": {"kind": kind, **tables.get("drive", {})}}
+    about, given = example(kind)
+    drive = registry.drive(given.get("drive", {}).get("kind", Crank.NAME))
     lines = [
         f"#:schema ./{FILE}",  # for editors: `geneva schema -o` writes it
         f"# A Geneva mechanism: {about}.",
@@ -69,6 +98,14 @@ def template(kind: str) -> str:
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
         lines += ["", head, *[_line(field, given.get(name, {})) for field in table]]
     return "\n".join(lines) + "\n"
+
+
+def example(kind: str) -> Example:
+    """What a kind's spec is about, and the keys that it sets."""
+    if kind in EXAMPLES:
+        return EXAMPLES[kind]
+    about, tables = registry.drive(kind).EXAMPLE
+    return Example(about, {**tables, "drive": {"kind": kind, **tables.get("drive", {})}})
 
 
 def _line(field: Field, values: dict[str, Any]) -> str:

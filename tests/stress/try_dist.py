@@ -36,6 +36,9 @@ COMMANDS = (
     "profile press-straight.toml --part assembly -o machine.svg",
     "profile press-straight.toml --part assembly -o machine.step",
     "new curved -o new.toml",
+    "new --from-design table-law -o copy/spec.toml",
+    "check copy/spec.toml",
+    "help family",
     "keys drive.A",
     "laws",
 )
@@ -65,6 +68,7 @@ def smoke(geneva, folder, expected):
     """Every command in a folder with the designs; raises for one that fails."""
     here = Path(folder, "designs")
     shutil.copytree(DESIGNS, here)
+    (here / "copy").mkdir()
     alone = {"HOME": str(folder), "PATH": os.environ["PATH"]}
     for command in COMMANDS:
         said = quiet(geneva, *command.split(), cwd=here, env=alone)

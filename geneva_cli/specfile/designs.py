@@ -1,0 +1,49 @@
+"""The designs that come with the program: whole specs to begin with."""
+
+from __future__ import annotations
+
+import os
+
+import tomli
+
+from geneva_cli.errors import GenevaError, cut, nearest
+
+# beside the package in its source tree, in it where it is installed
+_PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+_PLACES = (os.path.join(_PACKAGE, "designs"), os.path.join(os.path.dirname(_PACKAGE), "designs"))
+
+
+def titles() -> dict[str, str]:
+    """The designs' names, and what each is.
+
+    >>> from geneva_cli.specfile.designs import titles
+    >>> titles()["side-crank-z6"]
+    'Side-crank, six slots, A = 0.6'
+    """
+    names = sorted(file for file in os.listdir(_folder()) if file.endswith(".toml"))
+    return {name.removesuffix(".toml"): str(tomli.loads(_text(name))["title"]) for name in names}
+
+
+def design(name: str) -> tuple[str, dict[str, str]]:
+    """The text of a design's spec, and of the files that it names, by their names.
+
+    Raises GenevaError, with the nearest name, for what is no design.
+    """
+    known = titles()
+    if name not in known:
+        raise GenevaError(
+            f"--from-design {cut(name)}: no such design{nearest(name, known)}; "
+            "`geneva new --list` lists them"
+        )
+    text = _text(f"{name}.toml")
+    points = [file for file in os.listdir(_folder()) if file.endswith(".csv")]
+    return text, {file: _text(file) for file in points if f'"{file}"' in text}
+
+
+def _folder() -> str:
+    return next(place for place in _PLACES if os.path.isdir(place))
+
+
+def _text(file: str) -> str:
+    with open(os.path.join(_folder(), file), encoding="utf-8") as opened:
+        return opened.read()
