@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
 from geneva_cli.machine.slot_and_motion import SolvedPath
-from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -105,22 +105,34 @@ def _eased(
     return R + length * run, sense * rate, turn, level
 
 
+def seen_pressure(groove: SolvedPath) -> float:
+    """The greatest pressure angle at LOOKS places all round, degrees: a little less than at all."""
+    R, slope, _ = _distances(groove, _all_round(groove))
+    return math.degrees(math.atan(float((np.abs(slope) / R).max())))
+
+
+def _all_round(groove: SolvedPath) -> Array:
+    return groove.motion.entry_deg + 360.0 * np.arange(LOOKS + 1) / LOOKS
+
+
 def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     """The greatest pressure angle of the groove all round, degrees, and its input angle.
 
     tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
     """
-    grid = groove.motion.entry_deg + 360.0 * np.arange(LOOKS + 1) / LOOKS
+    grid = _all_round(groove)
     R, slope, _ = _distances(groove, grid)
     i = int(np.argmax(np.abs(slope) / R))
     low, high = grid[max(i - 1, 0)], grid[min(i + 1, LOOKS)]
     sense = math.copysign(1.0, slope[i])
 
-    def rises(x: float) -> bool:
-        r, dr, ddr = _distances(groove, np.array([x]))
-        return bool(sense * (r * ddr - dr * dr)[0] > 0.0)
+    def rises(x: Array) -> Any:
+        r, dr, ddr = _distances(groove, x)
+        return sense * (r * ddr - dr * dr) > 0.0
 
-    at_deg = boundary(rises, float(low), float(high))  # a corner of the groove, or a smooth top
+    at_deg = boundary_by_sections(
+        rises, float(low), float(high)
+    )  # a corner of the groove, or a smooth top
     r, dr, _ = _distances(groove, np.array([at_deg]))
     return math.degrees(math.atan(abs(dr[0]) / r[0])), at_deg
 

@@ -52,19 +52,37 @@ class Sizes(NamedTuple):
         return self.arm - self.half_width - self.recess
 
 
-def sizes(plane: Plane) -> Sizes:
-    """The sizes of a machine's parts.
+class Ways(NamedTuple):
+    """What the paths of the rollers' centres leave of wheel and crank, whatever their radius."""
+
+    ends: tuple[float, ...]  # of each kind of slot: how near to the wheel's axis, inside how far
+    arm: float  # least distance of a roller, and of the slots beside it, from the crank's axis
+
+
+def ways(plane: Plane) -> Ways:
+    """The ways of a machine's rollers."""
+    paths = [_pitch(plane, s) for s in plane.kinds]
+    reach = [np.hypot(*points.T) for points in paths]
+    ends = tuple(float(r.min() if plane.sign > 0.0 else r.max()) for r in reach)
+    beside = [_to_slot(plane, s, points) for s, points in zip(plane.kinds, paths, strict=True)]
+    return Ways(ends, min(_arm(plane), *beside))
+
+
+def sizes(plane: Plane, known: Ways | None = None) -> Sizes:
+    """The sizes of a machine's parts; ``known`` its rollers' ways, where somebody has them.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = plane.mechanism.spec, plane.L
+    path = known or ways(plane)
     given, r = spec.size, plane.mechanism.roller_radius_mm
     w = r + given.slot_clearance_mm
     outside = plane.sign > 0.0
     rim = _or(given.wheel_radius_mm, max(mouth(plane, s, r) for s in plane.kinds))
     bottom = _or(given.slot_bottom_clearance_mm, max(given.slot_clearance_mm, r / 20.0))
-    end = min(_end(plane, s, w, bottom) * plane.sign for s in plane.kinds) * plane.sign
-    arm = min(_arm(plane), *[_to_slot(plane, s) for s in plane.kinds])
+    gaps = [0.0 if s.slot.curved else bottom for s in plane.kinds]
+    end = min(e * plane.sign - g - w for e, g in zip(path.ends, gaps, strict=True)) * plane.sign
+    arm = path.arm
     lock = _lock(plane, arm, w, rim)
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
@@ -161,14 +179,6 @@ def _pitch(plane: Plane, engagement: Engagement) -> Array:
     return plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
 
 
-def _end(plane: Plane, engagement: Engagement, w: float, bottom: float) -> float:
-    """How near to the wheel's axis the slot is cut (inside: how far from it)."""
-    reach = np.hypot(*_pitch(plane, engagement).T)
-    if engagement.slot.curved:
-        return float(reach.min() - w if plane.sign > 0.0 else reach.max() + w)
-    return float(reach.min() - bottom - w if plane.sign > 0.0 else reach.max() + bottom + w)
-
-
 def _arm(plane: Plane) -> float:
     """Least distance of the rollers from the crank's axis."""
     turn = np.linspace(0.0, plane.turn_deg, TURN, endpoint=False)
@@ -176,9 +186,8 @@ def _arm(plane: Plane) -> float:
     return float(min(np.hypot(*p.T).min() for p in far))
 
 
-def _to_slot(plane: Plane, engagement: Engagement) -> float:
+def _to_slot(plane: Plane, engagement: Engagement, points: Array) -> float:
     """Distance of the slots beside it from the crank's axis, while the wheel rests."""
-    points = _pitch(plane, engagement)
     return float(min(np.hypot(*(points - rest(plane, engagement, e)).T).min() for e in (-1.0, 1.0)))
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,10 +19,10 @@ import numpy as np
 from geneva_cli.analysis.undercut import undercut
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Plane, plane
-from geneva_cli.parts.sizes import sizes
+from geneva_cli.parts.sizes import Ways, sizes, ways
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
 if TYPE_CHECKING:
@@ -63,6 +64,16 @@ class Parts(NamedTuple):
         return f"no: {self.why}" if self.why else MAYBE
 
 
+@lru_cache(maxsize=1024)
+def suited(spec: Spec) -> tuple[Mechanism, Parts]:
+    """The machine of a spec and its parts, which several steps of a search look at.
+
+    Raises GenevaError for a spec that makes no machine.
+    """
+    mechanism = build(spec)
+    return mechanism, parts(mechanism)
+
+
 def parts(mechanism: Mechanism) -> Parts:
     """The largest usual roller that does, up to L/20; a larger one where the slot needs it.
 
@@ -72,16 +83,17 @@ def parts(mechanism: Mechanism) -> Parts:
     if not spec.is_flat:
         return Parts(spec, None)
     where = plane(mechanism)
-    ways = _slot(where, where.kinds[0])
+    known = ways(where)
+    points = _slot(where, where.kinds[0])
     L, curved = where.L, where.kinds[0].slot.curved
-    least = 0.5 * float(np.hypot(*(ways - ways[::-1]).T).max()) if curved else 0.0
-    wall = _between(ways, spec.wheel.z)
+    least = 0.5 * float(np.hypot(*(points - points[::-1]).T).max()) if curved else 0.0
+    wall = _between(points, spec.wheel.z)
     if spec.size.roller_radius_mm is not None:
         r = spec.size.roller_radius_mm
-        return Parts(spec, _obstacle(where, r, wall) or (ISLAND if r < least else ""))
+        return Parts(spec, _obstacle(where, known, r, wall) or (ISLAND if r < least else ""))
 
     def obstacle(percent: float) -> str:
-        return _obstacle(where, 0.01 * percent * L, wall)
+        return _obstacle(where, known, 0.01 * percent * L, wall)
 
     percent, why = _largest(_radii(least / L), obstacle)
     if percent is None and least > 0.01 * USUAL[-1] * L:
@@ -109,10 +121,10 @@ def _slot(where: Plane, engagement: Engagement) -> Array:
     return where.L * np.column_stack((x.c[0], y.c[0]))
 
 
-def _between(ways: Array, z: int) -> float:
+def _between(points: Array, z: int) -> float:
     """The least distance between the pitch curves of neighbouring slots, mm."""
     b = math.tau / z
-    x, y = ways[::2].T
+    x, y = points[::2].T
     u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
     return float(np.hypot(x[:, None] - u, y[:, None] - v).min())
 
@@ -137,7 +149,7 @@ def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[floa
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
-def _obstacle(where: Plane, r: float, between: float) -> str:
+def _obstacle(where: Plane, known: Ways, r: float, between: float) -> str:
     """What stands in the way of a roller; nothing if it does."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))
@@ -145,7 +157,7 @@ def _obstacle(where: Plane, r: float, between: float) -> str:
     if m > 1 and mechanism.ratio * where.L * math.sin(math.pi / m) <= r:
         return ROLLERS
     try:
-        found = sizes(where._replace(mechanism=mechanism))
+        found = sizes(where._replace(mechanism=mechanism), known)
     except GenevaError as error:
         return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
     if between - 2.0 * found.half_width < found.wall_min:

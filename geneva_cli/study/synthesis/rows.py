@@ -8,17 +8,21 @@ from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
+from geneva_cli.parts.groove import seen_pressure
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.families.curved import law_costs
-from geneva_cli.study.synthesis.parts import Parts, parts
+from geneva_cli.study.synthesis.parts import Parts, suited
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, greatest
 
 MANY = 100  # machines from which on a second process is worth its start
+GROOVE = "groove_pressure_deg"
+NEAR_DEG = 1.0  # of its limit, within which the pressure angle is looked for between places
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
@@ -74,16 +78,29 @@ class Looked(NamedTuple):
 def looked(spec: Spec) -> Looked:
     """A machine built, its parts looked at, and what its limits or its groove ask for checked."""
     try:
-        machine = build(spec)
-        found = parts(machine)
+        machine, found = suited(spec)
     except GenevaError as error:
         return Looked(None, Parts(spec, None), str(error))
     limited = any(value is not None for value in spec.limits.as_dict().values())
     if not found.why and (limited or machine.engagements[0].groove):
-        rows = checks(machine._replace(spec=found.spec), parts=False)
-        failed = ", ".join(c.name for c in rows if c.passes is False)
-        found = found._replace(why=failed or found.why)
+        sized = machine._replace(spec=found.spec)
+        found = found._replace(why=_failing(sized) if limited else _wedged(machine))
     return Looked(machine, found)
+
+
+def _failing(machine: Mechanism) -> str:
+    """The checks that fail, of those that need no parts."""
+    rows = checks(machine, parts=False)
+    return ", ".join(check.name for check in rows if check.passes is False)
+
+
+def _wedged(machine: Mechanism) -> str:
+    """The check of a cam's groove, where it fails: asked only where it is near its limit."""
+    groove = machine.engagements[0].groove
+    if groove is None or seen_pressure(groove) < GROOVE_MAX_DEG - NEAR_DEG:
+        return ""
+    check = greatest(GROOVE, machine)
+    return GROOVE if check and check.passes is False else ""
 
 
 def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:

@@ -74,7 +74,7 @@ def _curved(
         motion = natural  # the limit's own motion is too quick for any R/L inside
 
     def make(m: int) -> Spec:
-        return curved(wish, wheel, m, motion, law)
+        return curved(wish, wheel, law, m, motion)
 
     for m in rollers(wish, natural):
         whole = 2.0 * math.pi / m

@@ -7,7 +7,7 @@ can be built.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from itertools import count
 
 from geneva_cli.analysis.law_values import Characteristic, characteristic
@@ -15,7 +15,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -23,15 +22,16 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     SHORTEST,
     Family,
-    Frame,
     closed_span,
     holds,
+    machine,
     natural_deg,
     only,
     rollers,
     wanted,
 )
-from geneva_cli.study.synthesis.parts import parts
+from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.spans import Span
 from geneva_cli.study.synthesis.wish import Wish
 
 ROUNDING = 2e-15  # share of the natural motion: what a difference of two angles may be off by
@@ -44,38 +44,47 @@ def law_costs(law: str) -> Characteristic:
 
 
 def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """Curved slots, and cams, with each law: the longest motion is the gentlest, see ``best``."""
+    """Curved slots, and cams, with each law: of a range the longest motion, which is the gentlest,
+    and the plain crank's own; where the wish has bounds, any motion that keeps them.
+    """
     if not wheel.FLAT:
         return
     natural = natural_deg(wheel)
     for law in wish.laws:
-
-        def at(m: int, law: str = law, *, high: bool) -> Spec | None:
-            free = closed_span(wanted(wish, m, natural), m)
+        make = partial(curved, wish, wheel, law)
+        spans = {m: closed_span(wanted(wish, m, natural), m) for m in rollers(wish, natural)}
+        for m, free in spans.items():
             if free is None:
-                return None
-            motion = natural if holds(free, natural) and (free.exact or not high) else free.high
-            return curved(wish, wheel, m, motion, law)
+                continue
+            own = holds(free, natural)
+            motion = Span(natural, natural) if own and free.exact else free
+            yield _free(wish, partial(make, m), motion)
+            yield _free(wish, _grooved(partial(make, m)), _until_parallel(wheel, motion))
+            if own:
+                yield only(make(m, natural))
+                yield only(cam(make(m, natural)))
 
-        for high in (True, False):
-            for m in rollers(wish, natural):
-                spec = at(m, high=high)
-                if spec is not None:
-                    yield only(spec)
-                    yield _cam(wish, spec, natural)
-            yield from map(only, more_rollers(wish, natural, lambda m: at(m, high=True)))
+        def longest(m: int, make: Callable[[int, float], Spec] = make) -> Spec | None:
+            free = closed_span(wanted(wish, m, natural), m)
+            return make(m, free.high) if free else None
+
+        yield from map(only, more_rollers(wish, natural, longest))
 
 
-def _cam(wish: Wish, spec: Spec, natural: float) -> Family:
-    """The same, in a range with a motion after which crank and slot are not yet parallel."""
-    m, wheel, motion = spec.drive.rollers, spec.wheel, spec.motion
-    assert motion is not None
-    free = wanted(wish, m, natural)
+def _free(wish: Wish, make: Callable[[float], Spec], motion: Span) -> Family:
+    """The machines of some motions, or without bounds the one of the longest."""
+    return Family(make, motion.low if wish.bounds else motion.high, motion.high)
+
+
+def _grooved(make: Callable[[float], Spec]) -> Callable[[float], Spec]:
+    return lambda motion: cam(make(motion))
+
+
+def _until_parallel(wheel: Gearing, motion: Span) -> Span:
+    """Of a range the motions after which crank and slot are not yet parallel, where there are."""
     parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
-    longest = natural - motion.alpha0_deg
-    if not free.exact and free.low < parallel < longest:
-        spec = curved(wish, wheel, m, parallel, motion.law.NAME)
-    return only(cam(spec))
+    inside = not motion.exact and motion.low < parallel
+    return Span(motion.low, min(motion.high, parallel)) if inside else motion
 
 
 def cam(spec: Spec) -> Spec:
@@ -93,14 +102,14 @@ def more_rollers(wish: Wish, natural: float, make: Callable[[int], Spec | None])
     for m in count(rollers_max(natural) + 1):
         spec = make(m)
         try:
-            if spec is None or parts(build(spec)).why:
+            if spec is None or suited(spec)[1].why:
                 return
         except GenevaError:
             return
         yield spec
 
 
-def curved(wish: Wish, wheel: Gearing, m: int, motion: float, law: str) -> Spec:
+def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """Curved slots, with the shortest alpha_0 that makes the motion."""
     natural = natural_deg(wheel)
     alpha0, spare = natural - motion, ROUNDING * natural
@@ -108,4 +117,4 @@ def curved(wish: Wish, wheel: Gearing, m: int, motion: float, law: str) -> Spec:
     most = alpha0 if wish.acceleration_max else alpha0 + spare
     shortest = closed.shortest(alpha0 - spare, most)
     given = Motion(registry.law(law)(), alpha0_deg=shortest, ratio="matched")
-    return Frame(wish).spec(wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)
+    return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)

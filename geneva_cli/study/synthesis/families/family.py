@@ -16,6 +16,7 @@ from geneva_cli.study.synthesis.wish import Wish
 
 EXACT = 1e-6  # share of the motion angle by which the plain crank may miss the wish
 SHORTEST = 0.01  # share of a turn over m that an open end of a wish leaves to motion and to dwell
+BARE = Spec(registry.gearing("external")(3))  # the tables of a machine that has no frame
 
 
 class Family(NamedTuple):
@@ -35,26 +36,22 @@ def only(spec: Spec) -> Family:
     return Family(lambda x: spec)
 
 
-class Frame:
-    """What all machines of a wish have in common: speed, sizes, loads, limits."""
+def machine(
+    wish: Wish,
+    wheel: Gearing,
+    drive: Callable[[float], Drive],
+    m: int,
+    motion_deg: float,
+    motion: Motion | None = None,
+) -> Spec:
+    """A machine with the sizes, loads and limits of the wish's frame.
 
-    def __init__(self, wish: Wish) -> None:
-        self.wish = wish
-        # one set of tables for all: a thousand of them would take a second to make
-        self.own = wish.frame or Spec(registry.gearing(wish.gearings[0])(wish.z[0]))
-
-    def spec(
-        self,
-        wheel: Gearing,
-        drive: Callable[[float], Drive],
-        m: int,
-        motion_deg: float,
-        motion: Motion | None = None,
-    ) -> Spec:
-        """A machine of the frame; ``drive`` makes its drive for an input speed."""
-        found = drive(self.wish.n_rpm(m, motion_deg))
-        own = self.own
-        return own.but(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
+    ``drive`` makes its drive for an input speed, which is the one that m motions of so many degrees
+    leave of the wish.
+    """
+    own = wish.frame or BARE
+    found = drive(wish.n_rpm(m, motion_deg))
+    return own.but(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
 
 
 def natural_deg(wheel: Gearing) -> float:

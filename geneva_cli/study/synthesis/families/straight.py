@@ -23,9 +23,9 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
-    Frame,
     closed_span,
     holds,
+    machine,
     natural_deg,
     only,
     rollers,
@@ -58,7 +58,7 @@ def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
     """The plain crank."""
     natural = natural_deg(wheel)
-    return Frame(wish).spec(wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
+    return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
 
 
 def _aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
@@ -72,7 +72,7 @@ def _aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
 
 def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
     """A roller on a planet: without a jump at entry, and with its planet's crank left free."""
-    z, frame = wheel.z, Frame(wish)
+    z = wheel.z
     if z not in (3, 4, 6):
         return
 
@@ -80,7 +80,7 @@ def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
         def drive(n: float) -> Epicyclic:
             return Epicyclic(planet_ratio=rp, fixed=fixed, n_rpm=n)
 
-        return frame.spec(wheel, drive, 1, natural)
+        return machine(wish, wheel, drive, 1, natural)
 
     for fixed in PLANETS:
         try:
@@ -116,7 +116,7 @@ def _between(
 
 def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     """Plain cranks on shafts that meet at another angle than a right one."""
-    z, frame = wheel.z, Frame(wish)
+    z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
         motion = wish.motion_for(m)
@@ -127,7 +127,7 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         def make(axes: float, m: int = m) -> Spec:
             reached = closed.axes_motion(z, axes)
             inclined = wheel.with_key("axes_deg", axes)
-            return frame.spec(inclined, lambda n: Crank(n_rpm=n, rollers=m), m, reached)
+            return machine(wish, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, reached)
 
         low, high = (closed.axes(z, x) for x in free)
         if low <= 180.0 - closed.AXES and high >= closed.AXES:
@@ -138,7 +138,7 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 def side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:
     """A side-crank in front of a wheel; it carries one roller."""
     motion = closed.side_crank_motion(natural_deg(wheel), A)
-    return Frame(wish).spec(wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
+    return machine(wish, wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
 
 
 def gears(wish: Wish, wheel: Gearing, e: float) -> Spec:
@@ -148,4 +148,4 @@ def gears(wish: Wish, wheel: Gearing, e: float) -> Spec:
     def drive(n: float) -> EllipticalGears:
         return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
 
-    return Frame(wish).spec(wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))
+    return machine(wish, wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))
