@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
 LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
+FEW = 720  # of them, where a little less will do
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
@@ -106,13 +107,13 @@ def _eased(
 
 
 def seen_pressure(groove: SolvedPath) -> float:
-    """The greatest pressure angle at LOOKS places all round, degrees: a little less than at all."""
-    R, slope, _ = _distances(groove, _all_round(groove))
+    """The greatest pressure angle at FEW places all round, degrees: a little less than at all."""
+    R, slope, _ = _distances(groove, _all_round(groove, FEW))
     return math.degrees(math.atan(float((np.abs(slope) / R).max())))
 
 
-def _all_round(groove: SolvedPath) -> Array:
-    return groove.motion.entry_deg + 360.0 * np.arange(LOOKS + 1) / LOOKS
+def _all_round(groove: SolvedPath, count: int = LOOKS) -> Array:
+    return groove.motion.entry_deg + 360.0 * np.arange(count + 1) / count
 
 
 def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:

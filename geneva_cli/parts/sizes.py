@@ -182,7 +182,8 @@ def _pitch(plane: Plane, engagement: Engagement) -> Array:
 def _arm(plane: Plane) -> float:
     """Least distance of the rollers from the crank's axis."""
     turn = np.linspace(0.0, plane.turn_deg, TURN, endpoint=False)
-    far = [plane.pin(i, turn) - (plane.L, 0.0) for i in range(len(plane.rollers))]
+    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(plane.rollers)])}
+    far = [plane.pin(i, turn) - (plane.L, 0.0) for i in leaders.values()]  # others follow them
     return float(min(np.hypot(*p.T).min() for p in far))
 
 

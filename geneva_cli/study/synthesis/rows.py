@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
@@ -12,7 +12,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.groove import seen_pressure
-from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.families.curved import law_costs
 from geneva_cli.study.synthesis.parts import Parts, suited
 from geneva_cli.study.synthesis.together import numbers
@@ -20,9 +19,8 @@ from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, greatest
 
-MANY = 100  # machines from which on a second process is worth its start
 GROOVE = "groove_pressure_deg"
-NEAR_DEG = 1.0  # of its limit, within which the pressure angle is looked for between places
+NEAR_DEG = 3.0  # of its limit, within which the pressure angle is looked for between places
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
@@ -109,7 +107,7 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
     out = []
-    for found, five in zip(_looked(specs), own, strict=True):
+    for found, five in zip(map(looked, specs), own, strict=True):
         machine = found.machine
         if machine is None:
             errors.append(found.error)
@@ -119,10 +117,6 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
         if values is not None:
             out.append(Row(found.parts.spec, _way(machine, wish, values, found.parts.said)))
     return out
-
-
-def _looked(specs: Sequence[Spec]) -> Iterator[Looked]:
-    yield from mapped(looked, specs, cores() if len(specs) > MANY else 1, "machines")
 
 
 def _way(machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | None) -> Way:

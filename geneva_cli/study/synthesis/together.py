@@ -22,8 +22,9 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
     out: list[list[float] | None] = [None] * len(specs)
     apart: dict[Any, list[int]] = {}
     wide: list[dict[str, float]] = []
+    may: dict[Any, bool] = {}
     for i, spec in enumerate(specs):
-        shape, own = _split(spec)
+        shape, own = _split(spec, may)
         wide.append(own)
         apart.setdefault(shape, []).append(i)
     for members in apart.values():
@@ -42,15 +43,21 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
     return out
 
 
-def _split(spec: Spec) -> tuple[Any, dict[str, float]]:
-    """What a machine must share with others to be one array with them, and its own numbers."""
-    shape: list[Any] = [type(spec.wheel), type(spec.drive), spec.motion and spec.motion.law]
+def _split(spec: Spec, may: dict[Any, bool]) -> tuple[Any, dict[str, float]]:
+    """What a machine must share with others to be one array with them, and its own numbers.
+
+    ``may`` is filled with which keys of a kind may be arrays.
+    """
+    kinds = (type(spec.wheel), type(spec.drive), spec.motion and spec.motion.law)
+    shape: list[Any] = [kinds]
     own = {}
     for table in TABLES:
         for name, value in spec.table(table).items():
             key = f"{table}.{name}"
             number = isinstance(value, (int, float)) and not isinstance(value, bool)
-            if number and may_vary(spec, key):
+            if number and (kinds, key) not in may:
+                may[kinds, key] = may_vary(spec, key)
+            if number and may[kinds, key]:
                 own[key] = value
             else:
                 shape.append((key, value))
