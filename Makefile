@@ -13,8 +13,10 @@ demo: .venv/demo
 	$(BIN)/geneva profile designs/modified-sine-matched.toml --part assembly -o build/machine.svg
 	@echo "written to build/: modified-sine-slot.csv, wheel.dxf, machine.svg"
 
+# Tests start the program some hundred times: even where Python is told to keep nothing compiled,
+# it is compiled once.
 test: .venv/dev lint
-	$(BIN)/pytest -n auto
+	PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n auto --dist worksteal
 
 lint: .venv/dev
 	$(BIN)/ruff check .
