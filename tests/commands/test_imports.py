@@ -86,8 +86,8 @@ ROWS = [
     Row("keys", "tomli numpy"),
     Row("laws"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
-    Row("synth --tau 1/3 --z 6", "numpy"),
-    Row("synth --acceleration-max 0.5 --z 6", "numpy"),
+    Row("synth --tau 1/3 --z 6 --checked 1", "numpy"),
+    Row("synth --acceleration-max 0.5 --z 6 --checked 1", "numpy"),
     Row("synth --motion-deg 180 --z 6 --write 1", "tomli numpy"),
     Row("synth --motion-deg 180 --z 6 --write 4", "tomli numpy"),
     Row("new external", "tomli"),
