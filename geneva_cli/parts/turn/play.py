@@ -28,6 +28,8 @@ ENDS = 24  # positions there,
 DWELL = 5  # in the rest of a dwell, and
 MOTION = 15  # in the rest of a motion; odd, so that mid-motion is one
 STEP = 1e-3  # radians, of the wheel: a roller of r mm reaches (L STEP)^2 / (8 r) into such a step
+AHEAD = 32  # such steps that are looked at together, and
+TOGETHER = 1 << 13  # positions of all times the wheel's pieces, at most
 EXACT = 1e-10  # radians: a play is found to this,
 SHARE = 1e-7  # or to this share of it
 AROUND = 5  # parts into which an interval is cut about a peak
@@ -240,20 +242,27 @@ def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
     No point of the wheel moves farther than the gap in a step, or than a step in which what is
     stepped over is less deep than the parts are known.
     """
-    most = math.radians(search_deg(outlines))
+    most, together = math.radians(search_deg(outlines)), TOGETHER // len(outlines.clash.around)
     count, clash, close = len(way), outlines.clash, outlines.close
     low, high = np.zeros(count), np.full(count, np.inf)
     g_low = clash.gap(pose, low, clash.near) + close
     g_high = np.full(count, -1.0)
     here = np.flatnonzero(g_low >= 0.0)  # where parts overlap as it stands there is no play
     high[g_low < 0.0] = 0.0
+    ahead = 1
     while len(here):
-        x = np.minimum(low[here] + np.maximum(g_low[here] / _reach(outlines), STEP), most)
-        g = clash.gap(pose.at(here), way[here] * x, clash.near) + close
-        free = g >= 0.0
-        low[here[free]], g_low[here[free]] = x[free], g[free]
-        high[here[~free]], g_high[here[~free]] = x[~free], g[~free]
-        here = here[free & (x < most)]
+        first = low[here] + np.maximum(g_low[here] / _reach(outlines), STEP)
+        x = np.minimum(first[:, None] + STEP * np.arange(ahead), most)
+        turned = (way[here, None] * x).ravel()
+        g = clash.gap(pose.at(np.repeat(here, ahead)), turned, clash.near).reshape(x.shape) + close
+        past = np.logical_and.accumulate(g >= 0.0, axis=1).sum(axis=1)  # how many before a stop
+        free, stopped = np.flatnonzero(past > 0), np.flatnonzero(past < ahead)
+        last = free, past[free] - 1
+        low[here[free]], g_low[here[free]] = x[last], g[last]
+        stop = stopped, past[stopped]
+        high[here[stopped]], g_high[here[stopped]] = x[stop], g[stop]
+        here = here[(past == ahead) & (x[:, -1] < most)]
+        ahead = max(1, min(2 * ahead, AHEAD, together // max(len(here), 1)))
     here = np.flatnonzero((high < np.inf) & (high > 0.0))
 
     def left(which: NDArray[np.intp], x: Array, width: float) -> Array:
