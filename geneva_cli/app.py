@@ -20,31 +20,56 @@ from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.streams import leave, open_streams
 
-# The registry: module in geneva_cli.commands -> the line that --help shows.
-COMMANDS = {
-    "table": "Timing and peaks of wheels, one row for each number of slots.",
-    "peaks": "Greatest velocity, acceleration, jerk and power of a design.",
-    "motion": "Position, velocity, acceleration and jerk over a cycle.",
-    "loads": "Torque, forces, stress and power over the cycle; what to buy, how long it lasts.",
-    "plot": "Curves over the cycle, or of a sweep's csv: on the terminal, as SVG, PNG, PDF.",
-    "profile": "The slot: pitch curve, both flanks, pressure angle and curvature.",
-    "vibration": "A load on an elastic shaft: what an index leaves swinging, speeds to avoid.",
-    "report": "One page on a design, for a person.",
-    "tolerance": "Place, play and entry from every dimension's plus or minus.",
-    "check": "Does the design work? Exit status 1 where a check fails.",
-    "compare": "Designs side by side: a column a design, a row a quantity.",
-    "sweep": "Thousands of designs, a row each: keys varied, quantities picked.",
-    "laws": "The motion laws and their characteristic values.",
-    "synth": "From a wish (tau, k, angle, time, acceleration) to machines for it.",
-    "new": "Write a commented spec to start from.",
-    "keys": "Every key of a spec: unit, range, default, and what it goes with.",
-    "schema": "JSON Schema of a spec, for editors.",
-    "help": "The manual: a page a topic.",
-    "bench": "Run time against error: ours beside what else is in use.",
+# The registry: what a person wants -> module in geneva_cli.commands -> the line that --help shows.
+GROUPS = {
+    "Calculate": {
+        "table": "Timing and peaks of wheels, a row for each number of slots.",
+        "peaks": "Greatest velocity, acceleration, jerk and power.",
+        "motion": "Position, velocity, acceleration, jerk over a cycle.",
+        "loads": "Torque, forces, power over the cycle; motor, flywheel, life.",
+        "vibration": "What an index leaves swinging; speeds to avoid.",
+        "tolerance": "Place and play from each dimension's plus or minus.",
+        "laws": "The motion laws and their characteristic values.",
+    },
+    "Judge": {
+        "check": "Does the design work? Exit status 1 where a check fails.",
+        "report": "All of a design on a page, for a person.",
+    },
+    "Choose": {
+        "synth": "From a wish (angle, time, acceleration) to machines for it.",
+        "compare": "Designs side by side, a column each.",
+        "sweep": "Thousands of designs, a row each; the best of them.",
+    },
+    "Draw": {
+        "profile": "Slots, parts and whole machines as csv, dxf, svg, step.",
+        "plot": "Curves over the cycle, or of a sweep's csv.",
+    },
+    "Learn": {
+        "help": "The manual: a page a topic.",
+        "new": "A commented spec to start from.",
+        "keys": "Every key of a spec: unit, range, default, meaning.",
+        "schema": "JSON Schema of a spec, for editors.",
+        "bench": "Run time against error, beside what else is in use.",
+    },
 }
+COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
+WIDEST = max(map(len, COMMANDS))
 MESSAGE_MAX = 1000  # characters
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
+class Command(TyperCommand):
+    """A command whose help ends with examples."""
+
+    examples: tuple[str, ...] = ()
+
+    def format_epilog(self, ctx: Any, formatter: Any) -> None:
+        """The examples, a line each as they are typed."""
+        if self.examples:
+            with formatter.section("Examples"):
+                formatter.write("".join(f"  {line}\n" for line in self.examples))
 
 
 class LazyGroup(TyperGroup):
@@ -58,6 +83,12 @@ class LazyGroup(TyperGroup):
         """Every command, in the order of the registry."""
         return list(COMMANDS)
 
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """The commands by what a person wants."""
+        for name, group in GROUPS.items():
+            with formatter.section(name):
+                formatter.write_dl([(name.ljust(WIDEST), line) for name, line in group.items()])
+
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The real command behind a stub."""
         name, stub, rest = super().resolve_command(ctx, args)
@@ -65,8 +96,10 @@ class LazyGroup(TyperGroup):
             return name, stub, rest
         module = importlib.import_module(f"geneva_cli.commands.{name}")
         one = typer.Typer(add_completion=False, rich_markup_mode=None)
-        one.command(name)(module.run)
-        return name, get_command(one), rest
+        one.command(name, cls=Command, context_settings=HELP)(module.run)
+        command: Any = get_command(one)
+        command.examples = module.EXAMPLES
+        return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; what a user can put right becomes a line and an exit code."""
@@ -102,7 +135,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
-@app.callback(no_args_is_help=True)
+@app.callback(no_args_is_help=True, context_settings=HELP)
 def geneva(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")

@@ -36,7 +36,7 @@ MEMBERS = {
 # Folders of like files, none of which imports another, and what stands beside them: what two
 # share, and the list of them.
 SHARED = {
-    "commands": {"options"},
+    "commands": {"options", "completion"},
     "bench.subjects": set(),
     "verdict.checks": {"check", "of_machine", "of_parts"},
     "verdict.report": {"values", "sections"},

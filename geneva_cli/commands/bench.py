@@ -8,6 +8,8 @@ import typer
 
 from geneva_cli.commands.options import Format, Output
 
+EXAMPLES = ("geneva bench peaks --quick",)
+
 
 def run(
     subject: Annotated[

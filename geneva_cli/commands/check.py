@@ -10,6 +10,11 @@ import typer
 from geneva_cli.commands.options import Format, Given, Output
 from geneva_cli.errors import clean
 
+EXAMPLES = (
+    "geneva check spec.toml",
+    "geneva check spec.toml --set size.slot_clearance_mm=0.05",
+)
+
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],

@@ -6,17 +6,29 @@ from typing import Annotated
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Format, Given, Output
+
+EXAMPLES = ("geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",)
 
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="KEY=VALUES", help="One spec through values: drive.A=0,0.3,0.6."),
+        typer.Option(
+            metavar="KEY=VALUES",
+            help="One spec through values: drive.A=0,0.3,0.6.",
+            autocompletion=completion.keys,
+        ),
     ] = None,
     pick: Annotated[
-        str, typer.Option(metavar="FIELD,...", help="Only these, as acceleration.max,dwell_s.")
+        str,
+        typer.Option(
+            metavar="FIELD,...",
+            help="Only these, as acceleration.max,dwell_s.",
+            autocompletion=completion.listed(completion.fields),
+        ),
     ] = "",
     ratio: Annotated[
         bool, typer.Option("--ratio", help="Numbers over the first design's.")

@@ -6,11 +6,24 @@ from typing import Annotated, Any
 
 import typer
 
+from geneva_cli.commands import completion
+
+EXAMPLES = (
+    "geneva help",
+    "geneva help cycle",
+    "geneva help peaks",
+)
+
 
 def run(
     context: typer.Context,
     topic: Annotated[
-        str, typer.Argument(metavar="[TOPIC]", help="A page or a command; all pages without.")
+        str,
+        typer.Argument(
+            metavar="[TOPIC]",
+            help="A page or a command; all pages without.",
+            autocompletion=completion.words(completion.topics),
+        ),
     ] = "",
 ) -> None:
     """The manual: a page a topic. Of a command it shows the options."""

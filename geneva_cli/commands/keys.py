@@ -6,12 +6,23 @@ from typing import Annotated
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Format, Output
+
+EXAMPLES = (
+    "geneva keys drive",
+    "geneva keys size.center_distance_mm",
+)
 
 
 def run(
     word: Annotated[
-        str, typer.Argument(metavar="[TABLE|KEY]", help="drive, drive.A or A; all without.")
+        str,
+        typer.Argument(
+            metavar="[TABLE|KEY]",
+            help="drive, drive.A or A; all without.",
+            autocompletion=completion.words(completion.tables_and_keys),
+        ),
     ] = "",
     output: Output = "-",
     format: Format = "",

@@ -8,6 +8,11 @@ import typer
 
 from geneva_cli.commands.options import Format, Output
 
+EXAMPLES = (
+    "geneva laws",
+    "geneva laws --lambda 0.1 --format csv",
+)
+
 
 def run(
     shape: Annotated[

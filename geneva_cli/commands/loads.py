@@ -10,6 +10,12 @@ from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, wa
 
 ROWS = 361
 
+EXAMPLES = (
+    "geneva loads spec.toml",
+    "geneva loads spec.toml -o cycle.csv",
+    "geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json",
+)
+
 
 def run(
     spec: SpecPath,

@@ -8,6 +8,11 @@ import typer
 
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
 
+EXAMPLES = (
+    "geneva motion spec.toml --samples 13",
+    "geneva motion spec.toml -o motion.csv",
+)
+
 
 def run(
     spec: SpecPath,

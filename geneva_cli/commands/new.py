@@ -1,9 +1,4 @@
-"""``geneva new``.
-
-geneva new curved -o spec.toml
-geneva new --list
-geneva new --from-design turret -o spec.toml
-"""
+"""``geneva new``."""
 
 from __future__ import annotations
 
@@ -12,17 +7,33 @@ from typing import Annotated
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Output
 from geneva_cli.errors import GenevaError
+
+EXAMPLES = (
+    "geneva new curved -o curved.toml",
+    "geneva new --list",
+    "geneva new --from-design turret -o turret.toml",
+)
 
 
 def run(
     kind: Annotated[
         str,
-        typer.Argument(metavar="[KIND]", help="curved, turret, a kind of drive, ...: see --list."),
+        typer.Argument(
+            metavar="[KIND]",
+            help="curved, turret, a kind of drive, ...: see --list.",
+            autocompletion=completion.words(completion.kinds),
+        ),
     ] = "",
     from_design: Annotated[
-        str, typer.Option(metavar="NAME", help="A copy of one of the designs, as it is.")
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="A copy of one of the designs, as it is.",
+            autocompletion=completion.words(completion.designs),
+        ),
     ] = "",
     list_: Annotated[
         bool, typer.Option("--list", help="All kinds and designs, and what they are.")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.errors import clean
 from geneva_cli.output import FORMATS
 
@@ -26,7 +27,12 @@ SpecPath: TypeAlias = Annotated[
 ]
 Given: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="A key over the file's, as drive.n_rpm=90."),
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="A key over the file's, as drive.n_rpm=90.",
+        autocompletion=completion.keys,
+    ),
 ]
 Output: TypeAlias = Annotated[
     str,
@@ -34,7 +40,12 @@ Output: TypeAlias = Annotated[
 ]
 Format: TypeAlias = Annotated[
     str,
-    typer.Option("--format", metavar="FORMAT", help=one_of(FORMATS)),
+    typer.Option(
+        "--format",
+        metavar="FORMAT",
+        help=one_of(FORMATS),
+        autocompletion=completion.words(lambda: FORMATS),
+    ),
 ]
 
 

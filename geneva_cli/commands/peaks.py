@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
 
+EXAMPLES = (
+    "geneva peaks spec.toml",
+    "geneva peaks spec.toml --set wheel.z=5 --format json",
+)
+
 
 def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.

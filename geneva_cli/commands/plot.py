@@ -6,8 +6,14 @@ from typing import Annotated
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Given, Output, say, warn
 from geneva_cli.errors import GenevaError, cut
+
+EXAMPLES = (
+    "geneva plot spec.toml --show velocity",
+    "geneva plot spec.toml -o motion.svg",
+)
 
 
 def run(
@@ -16,7 +22,12 @@ def run(
         typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
     ],
     show: Annotated[
-        str, typer.Option(metavar="QUANTITY,...", help="Only these, as velocity,pin_force_N.")
+        str,
+        typer.Option(
+            metavar="QUANTITY,...",
+            help="Only these, as velocity,pin_force_N.",
+            autocompletion=completion.listed(completion.quantities),
+        ),
     ] = "",
     x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Of a csv: along.")] = "",
     y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Of a csv: up.")] = "",

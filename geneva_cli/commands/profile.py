@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import DRAWN, FORMATS
@@ -16,12 +17,21 @@ if TYPE_CHECKING:
     from geneva_cli.design import Design
     from geneva_cli.parts.proof import Proof
 
+EXAMPLES = (
+    "geneva profile spec.toml --samples 9",
+    "geneva profile spec.toml --part wheel -o wheel.dxf",
+    "geneva profile spec.toml --part assembly -o machine.svg",
+    "geneva profile spec.toml --part parts",
+)
+
 
 def run(
     spec: SpecPath,
     part: Annotated[
         str,
-        typer.Option(metavar="PART", help=one_of(PARTS)),
+        typer.Option(
+            metavar="PART", help=one_of(PARTS), autocompletion=completion.words(lambda: PARTS)
+        ),
     ] = "slot",
     tolerance: Annotated[
         float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
@@ -30,19 +40,36 @@ def run(
         int | None, typer.Option(metavar="N", help="This many rows instead, evenly (tables).")
     ] = None,
     curves: Annotated[
-        str, typer.Option(metavar="KIND", help="Curved walls as arcs, or as spline for CAD.")
+        str,
+        typer.Option(
+            metavar="KIND",
+            help="Curved walls as arcs, or as spline for CAD.",
+            autocompletion=completion.words(lambda: ("arcs", "spline")),
+        ),
     ] = "arcs",
     kerf: Annotated[
         float | None,
         typer.Option(metavar="MM", help="Paths for a cut so wide: half of it beside the part."),
     ] = None,
-    units: Annotated[str, typer.Option(metavar="UNIT", help="Of drawings: mm or inch.")] = "mm",
+    units: Annotated[
+        str,
+        typer.Option(
+            metavar="UNIT",
+            help="Of drawings: mm or inch.",
+            autocompletion=completion.words(lambda: ("mm", "inch")),
+        ),
+    ] = "mm",
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
     given: Given = None,
     output: Output = "-",
     format: Annotated[
         str,
-        typer.Option("--format", metavar="FORMAT", help=one_of((*FORMATS, *DRAWN))),
+        typer.Option(
+            "--format",
+            metavar="FORMAT",
+            help=one_of((*FORMATS, *DRAWN)),
+            autocompletion=completion.words(lambda: (*FORMATS, *DRAWN)),
+        ),
     ] = "",
 ) -> None:
     """A part as points, or as a drawing to cut: the slot, the wheel, the crank, or all together.

@@ -6,6 +6,11 @@ import typer
 
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
 
+EXAMPLES = (
+    "geneva report spec.toml",
+    "geneva report spec.toml -o report.json",
+)
+
 
 def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
     """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.

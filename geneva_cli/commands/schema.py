@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from geneva_cli.commands.options import Output
 
+EXAMPLES = ("geneva schema -o geneva.schema.json",)
+
 
 def run(output: Output = "-") -> None:
     """JSON Schema (draft-07) of a spec: editors complete and check its keys with it."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Format, Given, SpecPath
 from geneva_cli.errors import GenevaError, cut
 
@@ -16,17 +17,29 @@ if TYPE_CHECKING:
 
 Rows: TypeAlias = list[list[Any]]
 
+EXAMPLES = (
+    "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
+    "geneva sweep spec.toml --vary size.roller_radius_mm=8:16:1 --pick smallest_gap_mm -o all.csv",
+)
+
 
 def run(
     spec: SpecPath,
     vary: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="KEY=VALUES", help="drive.A=0:0.9:0.1, wheel.z=3..12, motion.law=a,b; repeat."
+            metavar="KEY=VALUES",
+            help="drive.A=0:0.9:0.1, wheel.z=3..12, motion.law=a,b; repeat.",
+            autocompletion=completion.keys,
         ),
     ] = None,
     pick: Annotated[
-        str, typer.Option(metavar="FIELD,...", help="Quantities, as acceleration.max,dwell_s.")
+        str,
+        typer.Option(
+            metavar="FIELD,...",
+            help="Quantities, as acceleration.max,dwell_s.",
+            autocompletion=completion.listed(completion.fields),
+        ),
     ] = "",
     random: Annotated[
         int | None, typer.Option(metavar="N", help="N designs drawn from the box, not the grid.")
@@ -35,7 +48,11 @@ def run(
     check: Annotated[bool, typer.Option("--check", help="Add whether all checks pass.")] = False,
     subject_to: Annotated[
         list[str] | None,
-        typer.Option(metavar="BOUND", help='Only rows that keep it: "dwell_s >= 0.8"; repeat.'),
+        typer.Option(
+            metavar="BOUND",
+            help='Only rows that keep it: "dwell_s >= 0.8"; repeat.',
+            autocompletion=completion.words(completion.fields),
+        ),
     ] = None,
     pareto: Annotated[
         str,

@@ -8,12 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from geneva_cli.commands import completion
 from geneva_cli.commands.options import Format, Given, Output, warn
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
     from geneva_cli.study.synthesis.wish import Wish
+
+EXAMPLES = (
+    "geneva synth --motion-deg 180 --z 6 --checked 0",
+    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort jerk.max --checked 0",
+)
 
 
 def run(
@@ -34,7 +40,11 @@ def run(
     ] = "",
     subject_to: Annotated[
         list[str] | None,
-        typer.Option(metavar="BOUND", help='Wish: "jerk.max <= 5", any quantity; repeat.'),
+        typer.Option(
+            metavar="BOUND",
+            help='Wish: "jerk.max <= 5", any quantity; repeat.',
+            autocompletion=completion.words(completion.fields),
+        ),
     ] = None,
     z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24")] = "",
     internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
@@ -44,7 +54,12 @@ def run(
         int | None, typer.Option(metavar="M", help="Rollers; without: see above.")
     ] = None,
     law: Annotated[
-        str, typer.Option(metavar="NAME", help="Law of curved slots and cams, or all.")
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Law of curved slots and cams, or all.",
+            autocompletion=completion.words(completion.laws),
+        ),
     ] = "modified-sine",
     from_: Annotated[
         str,
@@ -52,7 +67,12 @@ def run(
     ] = "",
     given: Given = None,
     sort: Annotated[
-        str, typer.Option(metavar="FIELD", help="Least of it first; -FIELD: the greatest.")
+        str,
+        typer.Option(
+            metavar="FIELD",
+            help="Least of it first; -FIELD: the greatest.",
+            autocompletion=completion.words(completion.fields),
+        ),
     ] = "",
     checked: Annotated[
         int, typer.Option(metavar="N", help="Turn the parts of so many rows; 0 for none.")

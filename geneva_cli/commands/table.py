@@ -10,6 +10,12 @@ from geneva_cli.commands.options import Format, Output
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
 
+EXAMPLES = (
+    "geneva table --z 3..12",
+    "geneva table --z 4,6 --internal --format csv",
+    "geneva table --z 6 --A 0.6 --n 90",
+)
+
 
 def run(
     z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.")] = "3..12",

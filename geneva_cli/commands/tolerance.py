@@ -8,6 +8,10 @@ import typer
 
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, warn
 
+EXAMPLES = (
+    "geneva tolerance spec.toml --samples 4096 --radius 150 --set tolerance.slot_angle_deg=0.01",
+)
+
 
 def run(
     spec: SpecPath,

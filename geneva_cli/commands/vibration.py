@@ -8,6 +8,8 @@ import typer
 
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
 
+EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
+
 
 def run(
     spec: SpecPath,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion
-from geneva_cli.spec.rules import Csv
+from geneva_cli.spec.rules import Csv, OneOf, Words
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, Table, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import GEARING, KIND, LAW, quoted
@@ -75,6 +75,41 @@ def about(word: str) -> list[Key]:
             "`geneva keys` lists all"
         )
     return some
+
+
+def full_names() -> dict[str, str]:
+    """Every key as ``table.key``, and its meaning."""
+    return {f"{_bare(k)}.{k.key}": k.meaning for k in every() if k.table}
+
+
+def words_of(name: str) -> tuple[str, ...]:
+    """The words that a key may be, of every kind that has it; none for other keys.
+
+    >>> words_of("load.friction_at")
+    ('slot', 'pin')
+    """
+    words = {
+        "wheel.gearing": registry.GEARINGS,
+        "drive.kind": registry.DRIVES,
+        "motion.law": registry.LAWS,
+    }
+    if name in words:
+        return tuple(words[name])
+    table, _, key = name.rpartition(".")
+    kinds: list[type[Table]] = [
+        *map(registry.gearing, registry.GEARINGS),
+        *map(registry.drive, registry.DRIVES),
+        *map(registry.law, registry.LAWS),
+        Motion,
+        *PLAIN.values(),
+    ]
+    rules = [f.rule for kind in kinds if table == kind.TABLE for f in fields(kind) if f.key == key]
+    some = [rule.words for rule in rules if isinstance(rule, Words)]
+    return tuple(dict.fromkeys(word for rule in (*some, *_lists(rules)) for word in rule))
+
+
+def _lists(rules: list[Any]) -> list[OneOf]:
+    return [rule for rule in rules if isinstance(rule, OneOf)]
 
 
 def _bare(key: Key) -> str:

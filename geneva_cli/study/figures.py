@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from geneva_cli.analysis.figures import LeftOut, figure
+from geneva_cli.analysis.figures import OF_NAME, LeftOut, figure
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
@@ -14,6 +14,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.names import short_name
 
+QUANTITIES = tuple(OF_NAME)  # what may be drawn of a design
 FAMILY = 12  # curves of a panel that are told apart
 FEW = 40  # points of a curve that are marked
 RANDOM = "drawn at random"  # rows of which nearly each has values of its own

@@ -1,4 +1,4 @@
-"""What designs are called where several stand side by side."""
+"""What designs are called where several stand side by side, and their quantities."""
 
 from __future__ import annotations
 
@@ -15,3 +15,19 @@ def short_name(path: str, paths: Sequence[str], taken: Collection[str] = ()) -> 
     stems = [os.path.splitext(os.path.basename(p))[0] for p in paths]
     stem = stems[list(paths).index(path)]
     return stem if stems.count(stem) == 1 and stem not in taken else path
+
+
+def usual_fields() -> list[str]:
+    """The names of what a loaded wheel of straight slots can be asked for, as ``velocity.max``.
+
+    They stand for those of all machines where there is no design yet, as in a shell's completion.
+    """
+    from geneva_cli.machine.mechanism import build
+    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.wheels.external import External
+    from geneva_cli.spec.tables import Load, Size
+    from geneva_cli.study.fields import QUICK, cycle, values
+
+    load = Load(inertia_kgm2=1.0, torque_Nm=1.0)
+    machine = build(Spec(External(6), size=Size(face_width_mm=10.0), load=load))
+    return list(values(machine, (*QUICK, cycle)))

@@ -1,0 +1,90 @@
+"""What the shell may put for an option's value: `geneva --install-completion` turns it on.
+
+Each takes what is typed so far; where nothing is offered the shell offers files.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+Offer = tuple[str, str]  # a word, and what it is
+
+
+def words(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
+    """Offers some words."""
+
+    def offer(typed: str) -> list[str]:
+        return [name for name in names() if name.startswith(typed)]
+
+    return offer
+
+
+def listed(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
+    """Offers one more word of a list with commas between."""
+
+    def offer(typed: str) -> list[str]:
+        before, comma, begun = typed.rpartition(",")
+        some = words(names)(begun.removeprefix("-"))
+        return [f"{before}{comma}{name}" for name in some if name not in before.split(",")]
+
+    return offer
+
+
+def keys(typed: str) -> list[Offer]:
+    """The keys of a spec as ``table.key=``; behind the sign, the words that it may be."""
+    from geneva_cli.specfile.keys import full_names, words_of
+
+    key, given, begun = typed.partition("=")
+    if given:
+        return [(f"{key}={word}", "") for word in words_of(key) if word.startswith(begun)]
+    return [(f"{name}=", about) for name, about in full_names().items() if name.startswith(typed)]
+
+
+def tables_and_keys() -> Iterable[str]:
+    """What ``geneva keys`` takes."""
+    from geneva_cli.specfile.keys import full_names
+
+    names = full_names()
+    return [*dict.fromkeys(name.rpartition(".")[0] for name in names), *names]
+
+
+def laws() -> Iterable[str]:
+    """The motion laws."""
+    from geneva_cli.specfile.keys import words_of
+
+    return words_of("motion.law")
+
+
+def kinds() -> Iterable[str]:
+    """What ``geneva new`` writes."""
+    from geneva_cli.specfile.template import KINDS
+
+    return KINDS
+
+
+def designs() -> Iterable[str]:
+    """The designs that come with the program."""
+    from geneva_cli.specfile.designs import titles
+
+    return titles()
+
+
+def topics() -> Iterable[str]:
+    """The pages of the manual."""
+    from geneva_cli.manual import TOPICS
+
+    return TOPICS
+
+
+def fields() -> Iterable[str]:
+    """The quantities of a design."""
+    from geneva_cli.study.names import usual_fields
+
+    return usual_fields()
+
+
+def quantities() -> Iterable[str]:
+    """What ``geneva plot`` draws."""
+    from geneva_cli.study.figures import QUANTITIES
+
+    return QUANTITIES

@@ -1,0 +1,98 @@
+"""What a command says of itself: groups, examples that run, and words that the shell may put."""
+
+import importlib
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import COMMANDS, GROUPS, app
+from geneva_cli.manual import TOPICS
+
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
+EXAMPLES = [
+    (name, example)
+    for name in COMMANDS
+    for example in importlib.import_module(f"geneva_cli.commands.{name}").EXAMPLES
+]
+
+
+def geneva(*words, cwd=None):
+    result = CliRunner().invoke(app, [*words], prog_name="geneva")
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_help_lists_the_commands_by_what_a_person_wants():
+    said = geneva("-h")
+    assert said == geneva("--help")
+    for group, commands in GROUPS.items():
+        block = said.partition(f"\n{group}:\n")[2].partition("\n\n")[0]
+        assert [line.split()[0] for line in block.splitlines()] == list(commands)
+    assert max(map(len, said.splitlines())) <= 80
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_of_a_command_ends_with_its_examples(name):
+    said = geneva(name, "-h")
+    shown = said.partition("\nExamples:\n")[2].splitlines()
+    assert [line.strip() for line in shown] == [e for n, e in EXAMPLES if n == name] != []
+
+
+@pytest.mark.parametrize(("name", "example"), EXAMPLES, ids=[e for _, e in EXAMPLES])
+def test_an_example_runs_as_it_stands(name, example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(repo.DESIGNS / "turret.toml", "spec.toml")
+    program, *words = example.split()
+    assert program == "geneva" and name in words[:1]
+    geneva(*words)
+
+
+def offered(line):
+    """What bash is offered for the last word of a line."""
+    words = line.split(" ")
+    asked = {
+        "_GENEVA_COMPLETE": "complete_bash",
+        "COMP_WORDS": line,
+        "COMP_CWORD": str(len(words) - 1),
+    }
+    run = subprocess.run(
+        [GENEVA], env={**os.environ, **asked}, capture_output=True, text=True, timeout=60
+    )
+    assert run.stderr == ""
+    return run.stdout.split()
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("geneva to", ["tolerance"]),
+        ("geneva peaks spec.toml --set drive.ec", ["drive.eccentricity="]),
+        ("geneva peaks spec.toml --set load.friction_at=", None),
+        ("geneva profile spec.toml --part whe", ["wheel"]),
+        ("geneva profile spec.toml --format d", ["dxf"]),
+        ("geneva peaks spec.toml --format j", ["json"]),
+        ("geneva synth --law cyc", ["cycloidal"]),
+        ("geneva new slider", ["slider-crank"]),
+        ("geneva new --from-design tur", ["turret"]),
+        ("geneva keys drive.ph", ["drive.phase"]),
+        ("geneva help square", ["square-root"]),
+        ("geneva plot spec.toml --show jerk,veloc", ["jerk,velocity"]),
+        ("geneva compare spec.toml --pick acceleration.en", None),
+        ("geneva loads sp", []),  # files: the shell's own
+    ],
+)
+def test_a_shell_completes_words(line, words):
+    found = offered(line)
+    if words is not None:
+        assert found == words
+    else:
+        assert len(found) >= 2
+
+
+def test_every_topic_is_offered():
+    assert offered("geneva help ") == list(TOPICS)
