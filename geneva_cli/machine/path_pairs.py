@@ -1,116 +1,65 @@
 """Entry and exit on a roller's closed path: the pairs of places that a wheel's slots could take.
 
-From both the path's tangents meet in one point, equally far away, at the wheel's index angle. All
-pairs of places are looked at on a grid, and Newton takes those near to both conditions, of one
-path or of many designs' together.
+A wheel with straight radial slots takes a roller without shock where the roller's path enters along
+one slot and leaves along the next, equally far from the wheel's centre O: with the unit tangents t1
+and t2 there,
+
+    O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
+
+so that the chord P2 - P1 is parallel to t1 + t2. All the way between them the pin goes round the
+wheel's centre one way. So the tangent, seen from its ray, turns from -t1 to t2 without passing the
+ray again, and from entry to exit it turns by pi - 2b in all, against the wheel; at either end
+it turns that way too, or not at all.
+
+That makes the search one of boxes: an interval of crank angles between two samples for the entry,
+and one for the exit. A box is laid aside where the turn, or the chord's part across t1 + t2, has
+one sign in all of it, as the cubics through the samples' values and slopes have it. What is left
+is halved, until both change so evenly over the box that Newton finds its only pair.
 """
 
 from __future__ import annotations
 
-import copy
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Iterator
-from decimal import Decimal
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
-from geneva_cli.numerics.digits import PI
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
+from geneva_cli.machine.path_samples import Points, Samples, joined, points
+from geneva_cli.machine.roller_path import Path
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-GRID = 144  # places on the path that are tried for entry and for exit
-MARGIN = 0.5  # of a cell's range of index angles, by which it may lie beside the wanted one
-STRIDE = 0.1  # radians: a step of Newton is no longer
-STEPS = 30
-CLOSE = 1e-9  # radians: after so short a step, the last bits
+THIRD = 1.0 / 3.0
+ALIKE = 0.1  # of a box's width, by which its corners may differ in where they say the pair is
+ROUNDING = 1e-9
+MARGIN = 0.1  # of what a quantity's cubics span in a box, by which they may be wrong
+HALVINGS = 8  # of a box
+BESIDE = 0.5  # of a box's width, by which its pair may lie beside it
+STEPS = 12  # of Newton in a box
+CLOSE = 1e-6  # radians: after so short a step of Newton, half of the digits and all of them next
+FLAT = 1e-5  # of the index angle along the family of pairs: less slope is a double root
 DOUBTFUL = 1e-5  # radians of the index angle: nearer than that without a root, it may be double
 
-BLOCK = 64  # designs whose grid is looked at together: it stays in the processor's cache
 
-LONG_PI = np.longdouble(str(PI))
-
-
-class Way(Protocol):
-    """The pin's way since a moment."""
-
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """(x, y), from sin d and 1 - cos d of the crank's angle d since then."""
-
-
-def rounded(x: Any) -> Any:
-    """A Decimal, or long doubles, rounded to doubles; one number as a float."""
-    if isinstance(x, Decimal) or not np.ndim(x):
-        return float(x)
-    return np.asarray(x, dtype=np.float64)
-
-
-class Path(ABC):
-    """A roller's closed path about the crank's axis, in millimetres.
-
-    ``rough`` are its numbers: floats, or arrays (n, 1) of many designs. ``exact`` are the same as
-    Decimals of 50 digits, or of many designs as long doubles.
-    """
-
-    rough: Any
-    exact: Any
-
-    def of(self, which: Any) -> Path:
-        """The paths of some of the designs."""
-        some = copy.copy(self)
-        for name in ("rough", "exact"):
-            numbers = (x[which] if np.ndim(x) else x for x in vars(self)[name])
-            vars(some)[name] = type(self.rough)(*numbers)
-        return some
-
-    def in_long_doubles(self) -> Path:
-        """The path with long doubles for exact numbers, as for many designs."""
-        some = copy.copy(self)
-        long = (np.longdouble(str(x)) if isinstance(x, Decimal) else x for x in self.exact)
-        some.exact = type(self.exact)(*long)
-        return some
-
-    @abstractmethod
-    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """A unit vector on the link that carries the roller; exact: jets of such numbers."""
-
-    @abstractmethod
-    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """The crank's pin A, which carries the link."""
-
-    @abstractmethod
-    def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """The other joint B's distance from A along the link, and the line of the force there."""
-
-    @abstractmethod
-    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """The pin (x, y) for a crank of this direction."""
-
-    @abstractmethod
-    def about(self, sine: Any, cosine: Any) -> Way:
-        """The pin's way since the crank stood there, written so that it vanishes there; sine and
-        cosine are exact.
-        """
-
-    def at(self, phi: Coefficient, order: int) -> tuple[Jet, Jet]:
-        """The pin for a crank angle in radians."""
-        return self.place(*sin_cos(Jet.variable(phi, order)))
-
-
-class Ends(NamedTuple):
-    """Entry and exit in two columns: place, velocity, unit tangent and the rate at which it turns,
-    with the designs' numbers.
-    """
+class Pairs(NamedTuple):
+    """Pairs of places of designs, entry first, in two columns."""
 
     which: Any
-    phi: Array
-    p: Any
-    v: Any
-    t: Any
-    turn: Array
+    at: Points
+
+    def taken(self, where: Any) -> Pairs:
+        """Some of the pairs."""
+        return Pairs(self.which[where], self.at.taken(where))
+
+
+class Found(NamedTuple):
+    """Pairs; and places where there is none, or where a double root may be."""
+
+    pairs: Pairs
+    doubtful: Pairs
 
 
 class Residual(NamedTuple):
@@ -128,84 +77,240 @@ class Residual(NamedTuple):
     sense: Array
 
 
-class Pairs(NamedTuple):
-    """Pairs, entry first; and places where Newton found none, but a double root may be."""
+class _Side(NamedTuple):
+    """An interval of crank angles: the places at both ends, and the turn between them."""
 
-    found: Ends
-    doubtful: Ends
+    first: Points
+    last: Points
+    turn: Array
 
-
-def pairs(path: Path, grid: Ends, b: Array) -> Pairs:
-    """All pairs of m designs of half an index angle b, (m, 1), from their places on the grid."""
-    seeds = []
-    for start in range(0, len(b), BLOCK):
-        part = slice(start, start + BLOCK)
-        seeds += [(start + i, phi) for i, phi in _seeds(grid.p[part], grid.t[part], b[part])]
-    which, phi = (np.concatenate(parts) for parts in zip(*seeds, strict=True))
-    found, doubtful = _solved(path, b, which, phi)
-    return Pairs(_in_order(found), _in_order(doubtful))
+    def taken(self, where: Any) -> _Side:
+        return _Side(self.first.taken(where), self.last.taken(where), self.turn[where])
 
 
-def on_grid(path: Path, count: int) -> Ends:
-    """The grid's places on the paths of designs, in rows."""
-    phi = np.arange(GRID, dtype=np.float64) * (math.tau / GRID)
-    x, y = path.at(phi, 1)
-    p, v = (np.broadcast_to(x.c[k] + 1j * y.c[k], (count, GRID)) for k in (0, 1))
-    speed = np.abs(v)
-    t = np.divide(v, speed, out=np.zeros_like(v), where=speed > 0.0)  # none where the point rests
-    return Ends(np.arange(count), phi, p, v, t, phi)
+class _Boxes(NamedTuple):
+    """Intervals for entry and exit; ``turn`` is that from the first entry to the first exit."""
+
+    which: Any
+    sense: Array  # of the wheel
+    entry: _Side
+    exit: _Side
+    turn: Array
+
+    def taken(self, where: Any) -> _Boxes:
+        entry, exit_ = (side.taken(where) for side in (self.entry, self.exit))
+        return _Boxes(self.which[where], self.sense[where], entry, exit_, self.turn[where])
 
 
-def _seeds(p: Any, t: Any, b: Array) -> Iterator[tuple[Any, Array]]:
-    """Designs, and the middles of cells of the grid, in which both conditions may be met.
-
-    Either order of entry and exit has the same conditions, so that half of all pairs stand for all.
-    A cell is taken where both change sign between its corners; the index angle, which may be
-    stationary, also where it comes near to that.
-    """
-    step = math.tau / GRID
-    wanted = np.cos(2.0 * b)
-    pp, tt = np.concatenate((p, p), axis=1), np.concatenate((t, t), axis=1)
-    rows: list[tuple[Array, Array]] = []  # of pairs (i, i + m): what is left of both conditions
-    for m in range(1, GRID // 2 + 3):
-        chord, other = pp[:, m : m + GRID] - p, tt[:, m : m + GRID]
-        both = other + t
-        across = chord.imag * both.real - chord.real * both.imag
-        angle = -(other.real * t.real + other.imag * t.imag) - wanted
-        rows.append((across, angle))
-        if m < 3:
-            continue
-        # corners (i, j-1), (i, j), (i+1, j) and (i+1, j-1), j = i + m
-        low, high = [], []
-        for far, near, nearest in zip(rows[2], rows[1], rows.pop(0), strict=True):
-            after, last = np.roll(near, -1, axis=1), np.roll(nearest, -1, axis=1)
-            low.append(np.minimum(np.minimum(far, near), np.minimum(after, last)))
-            high.append(np.maximum(np.maximum(far, near), np.maximum(after, last)))
-        margin = MARGIN * (high[1] - low[1])
-        meets = (low[0] <= 0.0) & (high[0] >= 0.0)
-        meets &= (low[1] <= margin) & (high[1] >= -margin)
-        which, i = np.nonzero(meets)
-        yield which, np.stack(((i + 0.5) * step, (i + m - 0.5) * step), axis=1)
+def pairs(path: Path, samples: Iterable[Samples], b: Array) -> Found:
+    """All pairs of designs of half an index angle b, (n, 1), from samples of their paths."""
+    wanted = math.pi - 2.0 * b[:, 0]
+    boxes = joined([_of_samples(some, wanted[some.which]) for some in samples])
+    found = []
+    for depth in range(HALVINGS + 1):
+        told = _told(boxes, wanted)
+        last = depth == HALVINGS
+        tried = np.arange(len(told.near)) if last else np.flatnonzero(told.alike & told.near)
+        ends, close = _solved(path, boxes.taken(tried), told.phi[tried], b)
+        found.append(ends.taken(close))
+        rest = np.concatenate((np.flatnonzero(~told.alike), tried[~close]))
+        if last or not len(rest):
+            break
+        boxes = _halved(path, boxes.taken(rest))
+        boxes = boxes.taken(_may_turn(boxes, wanted))
+        boxes = boxes.taken(_may_meet(boxes))
+    return Found(joined(found), ends.taken(~close))
 
 
-def ends_at(path: Path, which: Any, phi: Array) -> Ends:
+def _span(width: Any, turn: Array, first: Any, last: Any) -> tuple[Array, Array]:
+    """The least and the greatest of a cubic's coefficients (Bernstein) that turns by ``turn``."""
+    a, c = THIRD * width * first, turn - THIRD * width * last
+    low = np.minimum(np.minimum(a, c), np.minimum(turn, 0.0))
+    high = np.maximum(np.maximum(a, c), np.maximum(turn, 0.0))
+    margin = MARGIN * (high - low)
+    return low - margin, high + margin
+
+
+def _against(width: Any, turn: Array, first: Any, last: Any, sense: Any) -> Any:
+    """Whether the tangent turns against the wheel anywhere in an interval."""
+    middle = 1.5 * turn / width - 0.25 * (first + last)
+    return np.minimum(np.minimum(first * sense, last * sense), middle * sense) <= 0.0
+
+
+def _of_samples(samples: Samples, wanted: Array) -> _Boxes:
+    """Boxes of neighbouring samples in which there may be a pair."""
+    at, angle = samples.at, samples.angle
+    count = angle.shape[1] - 1
+    first, last = slice(None, -1), slice(1, None)
+    turn = angle[:, last] - angle[:, first]
+    width = at.phi[:, last] - at.phi[:, first]
+    rates = at.turn[:, first], at.turn[:, last]
+    low, high = (x + angle[:, first] for x in _span(width, turn, *rates))
+    whole = angle[:, -1:]  # a turn later; no number where the linkage does not close all round
+    possible = (width > 0.0) & (whole == whole)
+    found = []
+    for sense in (1.0, -1.0):
+        use = possible & _against(width, turn, *rates, sense)
+        least, most = np.where(use, low, np.inf), np.where(use, high, -np.inf)
+        target = -sense * wanted[:, None]
+        # exits from the entry's own interval on, a turn round
+        first_exit, last_exit = (
+            sliding_window_view(np.concatenate((x, x + whole), axis=1), count, axis=1)[:, :count]
+            for x in (least, most)
+        )
+        near = first_exit <= (most + target)[:, :, None]
+        near &= last_exit >= (least + target)[:, :, None]
+        near[:, :, 0] = False
+        cell, ahead = np.divmod(np.flatnonzero(near), count)
+        row, entry = np.divmod(cell, count)
+        exit_ = (entry + ahead) % count
+        may = _may_meet_of(at, width, row, entry, exit_)
+        found.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
+    row, entry, exit_, sense = joined(found)
+    round_ = np.where(exit_ < entry, 1.0, 0.0)
+    start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
+    one, two = (
+        _Side(at.taken((row, of)), at.taken((row, of + 1)), turn[row, of]) for of in (entry, exit_)
+    )
+    near_end, far_end = (
+        end._replace(phi=end.phi + math.tau * round_) for end in (two.first, two.last)
+    )
+    two = _Side(near_end, far_end, two.turn)
+    return _Boxes(samples.which[row], sense, one, two, start)
+
+
+def _may_meet_of(at: Points, width: Array, row: Any, entry: Any, exit_: Any) -> Any:
+    """``_may_meet`` of boxes between samples."""
+    count = at.phi.shape[1]
+    numbers = np.stack([x.ravel() for x in _numbers(at)])
+    corners = [
+        [np.take(numbers, row * count + of + i, axis=1) for i in (0, 1)] for of in (entry, exit_)
+    ]
+    return _may_be_zero(corners[0], corners[1], width[row, entry], width[row, exit_])
+
+
+def _numbers(at: Points) -> tuple[Array, ...]:
+    """Place, unit tangent, speed and turn."""
+    return at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn
+
+
+def _may_turn(boxes: _Boxes, wanted: Array) -> Any:
+    """Whether both ends may turn against the wheel, and the tangent by what is wanted."""
+    spans = []
+    good = np.ones(len(boxes.which), dtype=bool)
+    for side in (boxes.entry, boxes.exit):
+        width = side.last.phi - side.first.phi
+        rates = side.first.turn, side.last.turn
+        good &= _against(width, side.turn, *rates, boxes.sense)
+        spans.append(_span(width, side.turn, *rates))
+    (e_low, e_high), (x_low, x_high) = spans
+    target = -boxes.sense * wanted[boxes.which] - boxes.turn
+    return good & (x_low - e_high <= target) & (x_high - e_low >= target)
+
+
+def _may_meet(boxes: _Boxes) -> Any:
+    """Whether the chord may be parallel to the tangents' sum."""
+    entry, exit_ = boxes.entry, boxes.exit
+    corners = [[_numbers(side.first), _numbers(side.last)] for side in (entry, exit_)]
+    return _may_be_zero(corners[0], corners[1], _width(entry), _width(exit_))
+
+
+def _width(side: _Side) -> Array:
+    width: Array = side.last.phi - side.first.phi
+    return width
+
+
+def _across(one: Any, two: Any) -> tuple[Array, Array, Array]:
+    """The chord's part across the tangents' sum, and its slopes by entry and by exit."""
+    px, py, tx, ty, v, w = one
+    qx, qy, ux, uy, v_out, w_out = two
+    cx, cy, q = qx - px, qy - py, ux * ty - uy * tx
+    by_entry = v * q + w * (cx * tx + cy * ty)
+    by_exit = v_out * q + w_out * (cx * ux + cy * uy)
+    return cx * (ty + uy) - cy * (tx + ux), by_entry, by_exit
+
+
+def _may_be_zero(entries: Any, exits: Any, wide: Array, high: Array) -> Any:
+    """Whether the chord's part across may vanish in boxes so wide and so high."""
+    least: Any = np.inf
+    most: Any = -np.inf
+    for i, one in enumerate(entries):
+        for j, two in enumerate(exits):
+            away, by_entry, by_exit = _across(one, two)
+            e = by_entry * wide * (-THIRD if i else THIRD)
+            x = by_exit * high * (-THIRD if j else THIRD)
+            least = np.minimum(least, away + np.minimum(e, 0.0) + np.minimum(x, 0.0))
+            most = np.maximum(most, away + np.maximum(e, 0.0) + np.maximum(x, 0.0))
+    margin = MARGIN * (most - least)
+    return (least <= margin) & (most >= -margin)
+
+
+class _Told(NamedTuple):
+    """Whether all corners of a box tell the same of the pair that is nearest, and what."""
+
+    alike: Any
+    near: Any  # whether it is in the box or beside it
+    phi: Array
+
+
+def _told(boxes: _Boxes, wanted: Array) -> _Told:
+    """Where a step of Newton leads from each corner: if to one place, the box has one pair."""
+    entry, exit_ = boxes.entry, boxes.exit
+    wide, high = _width(entry), _width(exit_)
+    over = boxes.turn + boxes.sense * wanted[boxes.which]
+    told = []
+    for i, one in enumerate((_numbers(entry.first), _numbers(entry.last))):
+        for j, two in enumerate((_numbers(exit_.first), _numbers(exit_.last))):
+            away, by_entry, by_exit = _across(one, two)
+            rest = over + j * exit_.turn - i * entry.turn
+            turn, turn_out = one[-1], two[-1]
+            det = by_entry * turn_out + by_exit * turn
+            e = (rest * by_exit - away * turn_out) / det
+            x = -(rest * by_entry + away * turn) / det
+            told.append((i + e / wide, j + x / high))
+    places = np.array(told)  # corner, side, box; in widths of the box
+    middle = places.mean(axis=0)
+    apart = np.abs(places - middle).max(axis=(0, 1))
+    beside = np.abs(middle - 0.5).max(axis=0) - 0.5
+    phi = np.stack((entry.first.phi + middle[0] * wide, exit_.first.phi + middle[1] * high), axis=1)
+    return _Told(apart <= ALIKE, beside <= BESIDE, phi)
+
+
+def _halved(path: Path, boxes: _Boxes) -> _Boxes:
+    """Four boxes of each."""
+    halves = []
+    for side in (boxes.entry, boxes.exit):
+        phi = 0.5 * (side.first.phi + side.last.phi)
+        middle = points(path.roughly(boxes.which), phi[:, None]).taken((slice(None), 0))
+        halves.append((_side(side.first, middle), _side(middle, side.last)))
+    parts = []
+    for i, entry in enumerate(halves[0]):
+        for j, exit_ in enumerate(halves[1]):
+            turn = boxes.turn
+            if i:
+                turn = turn - halves[0][0].turn
+            if j:
+                turn = turn + halves[1][0].turn
+            parts.append(_Boxes(boxes.which, boxes.sense, entry, exit_, turn))
+    halved: _Boxes = joined(parts)
+    return halved
+
+
+def _side(first: Points, last: Points) -> _Side:
+    return _Side(first, last, np.angle(last.t * first.t.conj()))
+
+
+def ends_at(path: Path, which: Any, phi: Array) -> Pairs:
     """Places of designs at entry and exit angles, in two columns."""
-    x, y = path.of(which).at(phi, 2)
-    p, v, a = (c + 1j * d for c, d in zip(x.derivatives(), y.derivatives(), strict=True))
-    speed = np.abs(v)
-    return Ends(which, phi, p, v, v / speed, (v.conj() * a).imag / (speed * speed))
+    return Pairs(which, points(path.roughly(which), phi))
 
 
-def taken(ends: Ends, where: Any) -> Ends:
-    """Some of the pairs."""
-    return Ends(*(part[where] for part in ends))
-
-
-def residual(ends: Ends, b: Array) -> Residual:
+def residual(ends: Pairs, b: Array) -> Residual:
     """Of pairs of places, and of all designs' half index angles (m, 1)."""
-    (p, q), (t, u), (v, w) = ends.p.T, ends.t.T, ends.v.T
+    at = ends.at
+    (p, q), (t, u), (v, w) = at.p.T, at.t.T, at.v.T
     chord, both = q - p, (t + u).conj()
-    turn, turn_out = ends.turn.T
+    turn, turn_out = at.turn.T
     by_exit = (w * both + chord * (1j * turn_out * u).conj()).imag
     by_entry = (chord * (1j * turn * t).conj() - v * both).imag
     angle = np.angle(-u * t.conj())
@@ -215,14 +320,20 @@ def residual(ends: Ends, b: Array) -> Residual:
     return Residual((chord * both).imag, by_entry, by_exit, excess, det, sense)
 
 
-def _solved(path: Path, b: Array, which: Any, phi: Array) -> tuple[Ends, Ends]:
-    """Newton from seeds: the pairs that it finds, and where it ends in doubt."""
-    done: list[Ends] = []
-    doubtful = []
-    for step in range(STEPS):
-        ends = ends_at(path, which, phi)
+def _solved(path: Path, boxes: _Boxes, phi: Array, b: Array) -> tuple[Pairs, Any]:
+    """Newton from places in boxes: where it ends, and whether that is a pair in the box."""
+    low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
+    high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)
+    width = high - low
+    phi = np.clip(phi, low - BESIDE * width, high + BESIDE * width)
+    close = np.zeros(len(phi), dtype=bool)
+    live = np.arange(len(phi))
+    for _ in range(STEPS):
+        if not len(live):
+            break
+        ends = ends_at(path, boxes.which[live], phi[live])
         rest = residual(ends, b)
-        turn, turn_out = ends.turn.T
+        turn, turn_out = ends.at.turn.T
         excess = rest.sense * rest.excess
         move = np.stack(
             (
@@ -232,31 +343,11 @@ def _solved(path: Path, b: Array, which: Any, phi: Array) -> tuple[Ends, Ends]:
             axis=1,
         )
         move /= rest.det[:, None]
-        longest = np.abs(move).max(axis=1)
-        move *= np.minimum(1.0, STRIDE / longest)[:, None]
-        phi = phi + move
-        found = longest < CLOSE
-        if found.any():
-            done.append(ends_at(path, which[found], phi[found]))
-        apart = phi[:, 1] - phi[:, 0]
-        live = ~found & (longest < math.inf) & (apart > 0.0) & (apart < math.tau)
-        if step == STEPS - 1:
-            # slowly towards each other: at a cusp, which is no pair
-            live &= (np.abs(rest.excess) < DOUBTFUL) & (apart > math.tau / GRID)
-            doubtful.append(taken(ends, live))
-        which, phi = which[live], phi[live]
-        if not len(which):
-            break
-    if not done:
-        done.append(ends_at(path, which[:0], phi[:0]))
-    last = doubtful[0] if doubtful else taken(ends, slice(0, 0))
-    return Ends(*(np.concatenate(parts) for parts in zip(*done, strict=True))), last
-
-
-def _in_order(ends: Ends) -> Ends:
-    """Entry first: from there the path heads for the exit."""
-    ahead = ((ends.p[:, 1] - ends.p[:, 0]) * ends.t.sum(axis=1).conj()).real > 0.0
-    later = np.stack((ends.phi[:, 1], ends.phi[:, 0] + math.tau), axis=1)
-    phi = np.where(ahead[:, None], ends.phi, later)
-    rest = (np.where(ahead[:, None], part, part[:, ::-1]) for part in ends[2:])
-    return Ends(ends.which, phi, *rest)
+        move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
+        phi[live] += move
+        off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
+        inside = (off <= BESIDE + ROUNDING).all(axis=1)
+        done = np.abs(move).max(axis=1) < CLOSE
+        close[live] = done & inside
+        live = live[~done & inside]
+    return ends_at(path, boxes.which, phi), close

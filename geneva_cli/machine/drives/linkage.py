@@ -13,13 +13,15 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Self, ca
 import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine import wheel_for_path, wheels_for_paths
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
-from geneva_cli.machine.path_pairs import LONG_PI, Path, rounded
-from geneva_cli.machine.wheel_for_path import Fit, LinkJoints
+from geneva_cli.machine.link import LinkJoints
+from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
+from geneva_cli.machine.roller_path import LONG_PI, Path, rounded
+from geneva_cli.machine.wheel_for_path import fit
 from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels_for_paths import fits_many
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, smaller
@@ -67,10 +69,10 @@ class Linkage(PinPath):
         if self.varies or is_array(step.b):
             engagement, L = self._of_many(step)
         else:
-            fit = self._chosen(wheel_for_path.fits(path, step))
-            if fit is None:
+            found = fit(path, step, self._wanted)
+            if found is None:
                 raise _none_fits(spec.wheel.z)
-            engagement, L = wheel_for_path.engagement(path, fit, step)
+            engagement, L = engagement_of(path, found, step)
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, library(L).hypot(1.0 - x.c[0], y.c[0]), L)
 
@@ -96,12 +98,10 @@ class Linkage(PinPath):
         """Whether its links are those of many designs."""
         return any(is_array(value) for key, value in vars(self).items() if key != "n_rpm")
 
-    def _chosen(self, found: list[Fit]) -> Fit | None:
-        """Of the wheels that fit, the gentlest first, the one that is asked for."""
-        if self.entry_deg is None or not found:
-            return found[0] if found else None
-        wanted = math.radians(self.entry_deg)
-        return min(found, key=lambda f: abs(math.remainder(float(f.entry) - wanted, math.tau)))
+    @property
+    def _wanted(self) -> float | None:
+        """The crank's angle near which the roller is to enter, in radians."""
+        return None if self.entry_deg is None else radians(self.entry_deg)
 
     def _one(self, i: int) -> Self:
         """The linkage of the i-th design. Raises GenevaError for one that is marked as refused."""
@@ -114,21 +114,22 @@ class Linkage(PinPath):
 
     def _of_many(self, step: Step) -> tuple[Engagement, float]:
         """The engagements and the centre distances of many designs; those without are marked."""
-        wanted = None if self.entry_deg is None else radians(self.entry_deg)
         path = self.roller_path.in_long_doubles()
-        found = wheels_for_paths.fits_many(path, step.b, wanted)
+        found = fits_many(path, step.b, self._wanted)
         for i in found.alone:
             p, q = (int(np.broadcast_to(x, found.entry.shape)[i, 0]) for x in step)
             try:
                 one = self._one(i)
-                fit = one._chosen(wheel_for_path.fits(one.roller_path, Step(p, q)))
+                fit_i = fit(one.roller_path, Step(p, q), one._wanted)
             except GenevaError:
-                fit = None
-            values = (float(fit.entry), float(fit.exit), fit.sense) if fit else (math.nan,) * 3
+                fit_i = None
+            values = (
+                (float(fit_i.entry), float(fit_i.exit), fit_i.sense) if fit_i else (math.nan,) * 3
+            )
             for array, value in zip(found[:3], values, strict=True):
                 array[i, 0] = value
         refuse(found.entry != found.entry, lambda: _none_fits(step.q))
-        return wheels_for_paths.engagement_many(path, found, step)
+        return engagement_many(path, found, step)
 
 
 def _none_fits(z: int) -> GenevaError:

@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.linkage import Linkage, RodPath, refuse_proportions
 from geneva_cli.machine.layout import Dimension, Layout
-from geneva_cli.machine.path_pairs import Way, rounded
+from geneva_cli.machine.roller_path import Way, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 

@@ -1,0 +1,159 @@
+"""The engagement of a wheel that a linkage's path can drive, of one design or of many."""
+
+from __future__ import annotations
+
+from decimal import localcontext
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from geneva_cli.machine import path_and_slot
+from geneva_cli.machine.engagement import Anchor, Engagement
+from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
+from geneva_cli.machine.link import Link, LinkJoints
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.roller_path import LONG_PI, Path, Way, rounded
+from geneva_cli.machine.wheel_for_path import Fit
+from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
+from geneva_cli.numerics import digits
+from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+
+ANCHORS = 4  # on either side of the middle: near the wheel a path is all bends
+
+
+def engagement_of(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
+    """The engagement of a wheel that fits, and the centre distance; the crank's axis is the origin.
+
+    Every place is worked out in 50 digits and rounded once.
+    """
+    with localcontext(digits.FIFTY):
+        ox, oy = fit.centre
+        L = (ox * ox + oy * oy).sqrt()
+        middle = (fit.entry + fit.exit) / 2
+        places = [
+            ExactPoint.of(path, middle + (fit.exit - middle) * i / ANCHORS)
+            for i in range(-ANCHORS, ANCHORS + 1)
+        ]
+        rays = [(p.p[0] - ox, p.p[1] - oy) for p in places]
+        first, last = unit(rays[0]), unit(rays[-1])
+        half_way = (first[0] + last[0], first[1] + last[1])
+        inside = [fit.sense * angle(half_way, ray) for ray in rays[1:-1]]
+        ahead = fit.sense * angle((-ox, -oy), rays[ANCHORS])
+        anchors = tuple(
+            Anchor(
+                digits.to_degrees(p.phi - middle),
+                wheel,
+                float(length(ray) / L),
+                along_ray(
+                    path.about(p.sine, p.cosine),
+                    (float(ray[0]), float(ray[1])),
+                    fit.sense,
+                    float(L),
+                    end,
+                ),
+            )
+            for p, ray, wheel, end in zip(
+                places,
+                rays,
+                (-step.b, *inside, step.b),
+                (-1.0, *[0.0] * len(inside), 1.0),
+                strict=True,
+            )
+        )
+    anchored = AnchoredPath(anchors, ahead)
+    motion = Followed(anchored, step.b, mirrored=False)
+    body = Link(path, float(middle), fit.sense)
+    ahead_x, ahead_y = float(-ox / L), float(-oy / L)
+    joints = LinkJoints(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
+    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, joints), float(L)
+
+
+def engagement_many(path: Path, found: Fits, step: Step) -> tuple[Engagement, float]:
+    """The engagements of the wheels that fit, and their centre distances, (n, 1).
+
+    Every place is worked out in long doubles, where the computer has them, and rounded once.
+    """
+    path, found, step = _alike(path, found, step)
+    b, sense = step.b, found.sense
+    with np.errstate(all="ignore"):
+        entry, exit_ = polished(path, found, step)
+    middle = (entry + exit_) / 2
+    phi = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
+    places = [long_point(path, x) for x in phi]
+    (p, t), (q, u) = places[0], places[-1]
+    rho = np.abs(q - p) / np.abs(t + u)
+    centre = ((p + rho * t) + (q - rho * u)) / 2
+    rays: list[Any] = [place - centre for place, _ in places]
+    L: Any = np.abs(centre)
+    half_way = rays[0] / np.abs(rays[0]) + rays[-1] / np.abs(rays[-1])
+    inside = [sense * rounded(np.angle(ray * half_way.conj())) for ray in rays[1:-1]]
+    ends = (-1.0, *[0.0] * len(inside), 1.0)
+    distance = rounded(L)
+    anchors = tuple(
+        Anchor(
+            rounded((x - middle) * (180 / LONG_PI)),
+            wheel,
+            rounded(np.abs(ray) / L),
+            along_ray(
+                path.about(np.sin(x), np.cos(x)),
+                (rounded(ray.real), rounded(ray.imag)),
+                sense,
+                distance,
+                end,
+            ),
+        )
+        for x, ray, wheel, end in zip(phi, rays, (-b, *inside, b), ends, strict=True)
+    )
+    ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
+    anchored = AnchoredPath(anchors, ahead)
+    motion = Followed(anchored, b, mirrored=False)
+    mid = rounded(middle)
+    line = rounded(-centre.real / L), rounded(-centre.imag / L)
+    joints = LinkJoints(path, mid, sense, distance, *line)
+    body = Link(path, mid, sense)
+    return path_and_slot.engagement(0.0, anchored, motion, -sense, body, joints), distance
+
+
+def _alike(path: Path, found: Fits, step: Step) -> tuple[Path, Fits, Step]:
+    """With the first design that has a wheel in the place of those that have none.
+
+    These are refused already; and long doubles that are no numbers take a hundred times as long.
+    """
+    fits = found.entry[:, 0] == found.entry[:, 0]
+    if fits.all() or not fits.any():
+        return path, found, step
+    which = np.where(fits, np.arange(len(fits)), fits.argmax())
+    entry, exit_, sense = (x[which] for x in found[:3])
+    p, q = (cast(Any, x)[which] if np.ndim(x) else x for x in step)
+    return path.of(which), Fits(entry, exit_, sense, found.alone), Step(p, q)
+
+
+class AlongRay(NamedTuple):
+    """The pin's way along a ray (x, y) and across it, positive with the wheel."""
+
+    way: Way
+    x: float
+    y: float
+    scale: float
+    sense: float
+
+    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """``tau`` radians of the crank later."""
+        x, y = self.way(*sine_versine(Jet.variable(tau, order)))
+        along = (x * self.x + y * self.y) * self.scale
+        across = (y * self.x - x * self.y) * (self.sense * self.scale)
+        return along, across
+
+
+def along_ray(way: Way, ray: tuple[float, float], sense: float, L: float, end: float) -> AlongRay:
+    """The pin's way along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
+
+    There it is the velocity that ``way`` itself gives, so that nothing at all is left across it.
+    """
+    ux, uy = ray
+    if end:
+        x, y = way(*sine_versine(Jet.variable(0.0, 1)))
+        ux, uy = end * x.c[1], end * y.c[1]
+    return AlongRay(way, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)

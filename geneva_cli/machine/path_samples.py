@@ -1,0 +1,179 @@
+"""A closed path in samples so near each other that its direction is known between them.
+
+The direction of the path between two samples is taken for the cubic of their directions and of the
+rates at which they turn. Where that does not foretell the turn from one sample to the next, as
+where the path all but comes to a cusp, it is sampled again midway.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.roller_path import Path
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+COUNT = 48  # samples of a turn that every path has
+FIRST = 0.3  # of a step, where they begin: symmetrical paths have their cusps at 0 and at pi
+FORETOLD = 0.05  # radians by which the turn between samples may differ from what they foretell
+DEEPEST = 14  # halvings: what is narrower than a crank angle of 1e-5 radians is a cusp
+CELLS = 1 << 17  # pairs of samples looked at together: they stay in the processor's cache
+
+
+class Points(NamedTuple):
+    """Places of a path at crank angles ``phi``: place, velocity and acceleration as complex
+    numbers, unit tangent, speed and the rate at which the tangent turns.
+    """
+
+    phi: Any
+    p: Any
+    v: Any
+    a: Any
+    t: Any
+    speed: Any
+    turn: Any
+
+    def taken(self, where: Any) -> Points:
+        """Some of the points."""
+        return Points(*(part[where] for part in self))
+
+
+class Samples(NamedTuple):
+    """A turn of some designs, a row each: the last column is the first, one turn later.
+
+    ``angle`` is the tangent's, without jumps. Rows with fewer samples repeat their last one.
+    """
+
+    which: Any  # the designs' numbers
+    at: Points
+    angle: Array
+
+
+def points(path: Path, phi: Any) -> Points:
+    """Places of the path; a design's angles are a row."""
+    x, y = path.at(phi, 2)
+    shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
+    p, v, a = (
+        np.broadcast_to(c + 1j * d, shape)
+        for c, d in zip(x.derivatives(), y.derivatives(), strict=True)
+    )
+    speed = np.abs(v)
+    t = np.divide(v, speed, out=np.zeros_like(v), where=speed != 0.0)  # none where the point rests
+    turn = (v.real * a.imag - v.imag * a.real) / (speed * speed)
+    return Points(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
+
+
+def sampled(path: Path, count: int) -> Iterator[Samples]:
+    """All ``count`` designs, in blocks of as many as have about as many samples."""
+    step = math.tau / COUNT
+    phi = np.broadcast_to((np.arange(COUNT + 1) + FIRST) * step, (count, COUNT + 1))
+    base = points(path, phi)
+    left, right = _neighbours(base)
+    turned = _turned(left, right)
+    row, column = np.nonzero(_missed(left, right, turned))
+    extra = _between(path, row, left.taken((row, column)), right.taken((row, column)))
+    more = np.bincount(extra[0], minlength=count) if extra else np.zeros(count, dtype=int)
+    every = np.arange(count)
+    plain = every[more == 0]
+    for part in _blocks(np.full(len(plain), COUNT)):
+        yield _samples(plain[part], base.taken(plain[part]), turned[plain[part]])
+    if extra:
+        whose, added = extra
+        crowded = np.flatnonzero(more)
+        crowded = crowded[np.argsort(more[crowded])]
+        for part in _blocks(COUNT + more[crowded]):
+            at = _padded(crowded[part], base, whose, added)
+            yield _samples(crowded[part], at, _turned(*_neighbours(at)))
+
+
+def _neighbours(at: Points) -> tuple[Points, Points]:
+    return at.taken((slice(None), slice(None, -1))), at.taken((slice(None), slice(1, None)))
+
+
+def _turned(left: Points, right: Points) -> Array:
+    """The turn from one sample to the other, less than half a turn."""
+    (a, b), (c, d) = ((one.t.real, one.t.imag) for one in (left, right))
+    turn: Array = np.arctan2(a * d - b * c, a * c + b * d)
+    return turn
+
+
+def _missed(left: Points, right: Points, turned: Array) -> Any:
+    """Whether the rates at two samples do not foretell the turn from one to the other."""
+    half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
+    return np.abs(turned - half) > FORETOLD
+
+
+def _between(path: Path, which: Any, left: Points, right: Points) -> tuple[Any, Points] | None:
+    """What is added between samples of designs, until all is foretold."""
+    found = []
+    for _ in range(DEEPEST):
+        if not len(which):
+            break
+        phi = 0.5 * (left.phi + right.phi)
+        middle = points(path.roughly(which), phi[:, None]).taken((slice(None), 0))
+        found.append((which, middle))
+        halves = ((left, middle), (middle, right))
+        missed = [_missed(*half, _turned(*half)) for half in halves]
+        left, right = (
+            joined([half[side].taken(m) for half, m in zip(halves, missed, strict=True)])
+            for side in (0, 1)
+        )
+        which = np.concatenate([which[m] for m in missed])
+    return joined(found) if found else None
+
+
+def _blocks(counts: Any) -> Iterator[slice]:
+    """Runs of rows whose pairs of samples are no more than ``CELLS``."""
+    start = 0
+    while start < len(counts):
+        rows = max(1, CELLS // int(counts[start]) ** 2)
+        stop = min(start + rows, len(counts))
+        while stop - start > 1 and (stop - start) * int(counts[stop - 1]) ** 2 > 2 * CELLS:
+            stop = (start + stop) // 2
+        yield slice(start, stop)
+        start = stop
+
+
+def _padded(rows: Any, base: Points, whose: Any, added: Points) -> Points:
+    """The samples of some designs with those added, in order."""
+    number = np.full(int(whose.max(initial=0)) + 1, -1)
+    number[rows] = np.arange(len(rows))
+    mine = number[whose] >= 0
+    first = np.repeat(np.arange(len(rows)), base.phi.shape[1])
+    row = np.concatenate((first, number[whose[mine]]))
+    parts = [np.concatenate((a[rows].ravel(), b[mine])) for a, b in zip(base, added, strict=True)]
+    order = np.lexsort((parts[0], row))
+    row = row[order]
+    counts = np.bincount(row)
+    starts = np.cumsum(counts) - counts
+    width = int(counts.max())
+    # beyond its own count a row stays at its last sample
+    place = starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)
+    return Points(*(part[order][place] for part in parts))
+
+
+def _samples(which: Any, at: Points, turned: Array) -> Samples:
+    """Samples with the tangent's angle, which is the sum of the turns."""
+    angle = np.zeros(at.phi.shape)
+    np.cumsum(turned, axis=1, out=angle[:, 1:])
+    return Samples(which, at, angle)
+
+
+def joined(parts: Any) -> Any:
+    """Records of arrays, one after the other."""
+    one = parts[0]
+    if isinstance(one, tuple):
+        fields = [joined(field) for field in zip(*parts, strict=True)]
+        return tuple(fields) if type(one) is tuple else type(one)(*fields)
+    return np.concatenate(parts)
+
+
+def blocks(count: int, size: int) -> Iterator[slice]:
+    """All of so many rows, in blocks; one where there is none."""
+    for start in range(0, max(count, 1), size):
+        yield slice(start, min(start + size, count))
