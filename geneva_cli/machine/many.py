@@ -22,8 +22,8 @@ whoever varies them takes the designs apart first, and asks ``may_vary`` which k
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -143,9 +143,8 @@ def _changed(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> 
     """The same object with every array (n, 1) in it changed; what holds none is itself."""
     if _is_array(thing):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
-    if not isinstance(thing, (tuple, list)) and not _is_ours(thing):
-        return thing
-    if isinstance(thing, Points):
+    kind: Any = type(thing)
+    if not _may_hold(kind):
         return thing
     if id(thing) not in done:
         done[id(thing)] = _anew(thing, change, done)
@@ -153,20 +152,25 @@ def _changed(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> 
 
 
 def _anew(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> Any:
+    kind: Any = type(thing)
     if isinstance(thing, (tuple, list)):
         parts = [_changed(part, change, done) for part in thing]
         if all(a is b for a, b in zip(parts, thing, strict=True)):
             return thing
-        return type(thing)(parts) if type(thing) in (tuple, list) else type(thing)(*parts)
+        return kind(parts) if kind in (tuple, list) else kind(*parts)
     held = vars(thing)
     values = {name: _changed(value, change, done) for name, value in held.items()}
     if all(values[name] is value for name, value in held.items()):
         return thing
-    new = copy.copy(thing)
+    new = kind.__new__(kind)
     vars(new).update(values)
     return new
 
 
-def _is_ours(thing: Any) -> bool:
-    """Whether it is an object of the machine or of its spec, whose numbers may be arrays."""
-    return type(thing).__module__.startswith(("geneva_cli.machine.", "geneva_cli.spec."))
+@cache
+def _may_hold(kind: Any) -> bool:
+    """Whether it is a kind of object of the machine or of its spec, whose numbers may be arrays."""
+    if issubclass(kind, Points):
+        return False
+    ours = kind.__module__.startswith(("geneva_cli.machine.", "geneva_cli.spec."))
+    return ours or issubclass(kind, (tuple, list))

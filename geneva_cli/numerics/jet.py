@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from geneva_cli.numerics.arrays import library
@@ -114,6 +115,10 @@ def _circle(
 ) -> tuple[Jet, Jet]:
     """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
     s, c = [sine], [cosine]
+    if all(isinstance(a, float) and not a for a in slope[2:]):  # an even turn, as the input's own
+        for k in range(1, len(slope)):
+            s, c = [*s, slope[1] * c[-1] / k], [*c, -(slope[1] * s[-1]) / k]
+        return Jet(s), Jet(c)
     for k in range(1, len(slope)):
         s.append(_convolve(slope, c, k, 1) / k)
         c.append(-_convolve(slope, s, k, 1) / k)
@@ -172,8 +177,8 @@ def piecewise(
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
     Of one design each piece sees only its own part of an array of angles. Of many designs, whose
-    cuts may differ, each piece that holds anywhere sees all of it once, and its own part is chosen:
-    so it pays to ask for angles that lie in one piece.
+    cuts may differ, each piece sees the columns in which it holds anywhere, and its own part of
+    them is chosen: so it pays to ask for angles that lie in one piece.
     """
     if isinstance(x, float) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[bisect_left(cuts, x)](x)
@@ -183,7 +188,39 @@ def piecewise(
     if angles.ndim < 2 and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return _by_parts(angles, np.searchsorted(cuts, angles), pieces)
     index = sum((angles > cut).astype(np.int8) for cut in cuts)
-    first, last = int(index.min(initial=len(cuts))), int(index.max(initial=0))
+    return (_by_columns if angles.shape == index.shape and index.shape[-1] > 1 else _by_choice)(
+        x, index, pieces
+    )
+
+
+def _by_columns(
+    x: Coefficient, index: Coefficient, pieces: Sequence[Callable[[Coefficient], Jet]]
+) -> Jet:
+    """Of angles (n, k) of designs: columns that lie in one piece are seen by no other."""
+    import numpy as np
+
+    low, high = index.min(axis=0), index.max(axis=0)
+    new = np.flatnonzero((np.diff(low) != 0) | (np.diff(high) != 0)) + 1
+    if not len(new):
+        return _by_choice(x, index, pieces)
+    out: list[Coefficient] = []
+    for i, j in pairwise([0, *new.tolist(), x.shape[1]]):
+        part = (slice(None), slice(i, j))
+        found = _by_choice(x[part], index[part], pieces).c
+        # designs lie side by side in memory
+        out = out or [np.empty(x.shape[::-1]).T for _ in found]
+        for total, some in zip(out, found, strict=True):
+            total[part] = some
+    return Jet(out)
+
+
+def _by_choice(
+    x: Coefficient, index: Coefficient, pieces: Sequence[Callable[[Coefficient], Jet]]
+) -> Jet:
+    """Each piece that holds anywhere sees all angles, and its own part is chosen."""
+    import numpy as np
+
+    first, last = int(index.min(initial=len(pieces) - 1)), int(index.max(initial=0))
     if first >= last:
         return pieces[last](x)
     with np.errstate(all="ignore"):  # outside their own part formulas may have no value

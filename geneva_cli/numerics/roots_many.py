@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.budget import ask
-from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN, STEPS, TIE
+from geneva_cli.numerics.roots import DEEPEST, PREDICTED, STEPS, TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     Whole: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
     Which: TypeAlias = slice | Whole
 
-BLOCK = 512  # designs scanned at a time: 17 places of each are 70 kB a number of a formula
+SCAN = 12  # intervals of the first scan, an even number
+BLOCK = 1024  # designs scanned at a time: 13 places of each are 110 kB a number of a formula
 GROUP = 16 * BLOCK  # designs refined together
 CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a Newton step, the last bit
 FALSI = 0.02  # of a bracket: the next place is no nearer to its ends
@@ -201,20 +202,21 @@ def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
 
 
 def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
-    x = a + (b - a) * _UNIT
+    # Designs lie side by side in memory: each operation runs along all of them.
+    samples = np.empty((3, SCAN + 1, len(a))).transpose(0, 2, 1)
+    x, value, slope = samples
+    x[:] = a + (b - a) * _UNIT
     x[:, -1:] = b
-    samples = np.empty((3, *x.shape))
-    samples[0], (samples[1], samples[2]) = x, f(x, slice(start, start + len(a)), 1)
-    _, value, slope = samples
+    value[:], slope[:] = f(x, slice(start, start + len(a)), 1)
     low, high = value.min(axis=1), value.max(axis=1)
     left, middle, right = samples[:, :, :-1:2], samples[:, :, 1::2], samples[:, :, 2::2]
     missed = _missed(left, middle, right, low[:, None], high[:, None])
     turn = _turns(slope[:, :-1], slope[:, 1:])
     turn[:, ::2] &= ~missed
     turn[:, 1::2] &= ~missed
-    row, column = np.nonzero(turn)
+    column, row = np.nonzero(turn.T)
     turns = _Pairs(row + start, samples[:, row, column], samples[:, row, column + 1])
-    row, column = np.nonzero(missed)
+    column, row = np.nonzero(missed.T)
     left, middle, right = (s[:, row, column] for s in (left, middle, right))
     row += start
     halves = _joined([_Pairs(row, left, middle), _Pairs(row, middle, right)])

@@ -37,3 +37,14 @@ def test_objectives():
 def test_no_objective(text):
     with pytest.raises(GenevaError, match="min:FIELD or max:FIELD"):
         objective(text)
+
+
+def test_of_blocks_the_same_front_is_left():
+    """What came block by block is chosen as if it had come at once, equal rows with it."""
+    random = np.random.default_rng(3)
+    rows = [(*(float(v) for v in row), i) for i, row in enumerate(random.integers(0, 9, (300, 2)))]
+    found = []
+    for start in range(0, len(rows), 40):
+        some = [*found, *rows[start : start + 40]]
+        found = [some[i] for i in front(some, (0, 1), (1.0, -1.0))]
+    assert found == [rows[i] for i in front(rows, (0, 1), (1.0, -1.0))]

@@ -41,11 +41,13 @@ class OffsetFollowed(Followed):
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
         """The slot's direction, taken from the nearest anchor: exactly at rest at both ends."""
         (entry, mid, exit_), cuts = self.path.anchors, self.path.cuts
+        first, last = (self._from_end(end, order) for end in (entry, exit_))
         if are_designs(input_deg, *cuts):  # one formula serves both ends
-            end = chosen(input_deg, (mid.input_deg,), (entry, exit_))
-            first = last = self._from_end(end, order)
-        else:
-            first, last = (self._from_end(end, order) for end in (entry, exit_))
+
+            def nearer(x: Coefficient) -> Jet:
+                return self._from_end(chosen(x, (mid.input_deg,), (entry, exit_)), order)(x)
+
+            first = last = nearer
         return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order), last])
 
     def _from_end(self, anchor: Anchor, order: int) -> Callable[[Coefficient], Jet]:

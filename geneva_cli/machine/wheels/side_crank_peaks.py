@@ -16,9 +16,9 @@ The velocity is greatest where the acceleration, without what vanishes with sin 
 
     h = (1-l²) C² rho - g (c - g l) D A (1-A²)        (g = 1 outside, -1 inside; c = cos f)
 
-Outside it has no zero, and the peak is at mid-motion: D <= 1 - l² and c - l <= c for c >= l, and
-C² >= 1 - A², so that h >= (1-l²) (1-A²) (rho - A c) > 0 for A > 0, and a sum of positive terms for
-A < 0. Inside it has none for A <= 0.
+The velocity falls where h > 0. Outside h has no zero, and the peak is at mid-motion: D <= 1 - l²
+and c - l <= c for c >= l, and C² >= 1 - A², so that h >= (1-l²) (1-A²) (rho - A c) > 0 for A > 0,
+and a sum of positive terms for A < 0. Inside it has none for A <= 0.
 
 Source: theory of the side-crank, f = atan2(sin phi, A + cos phi) and its derivatives, with the
 triangle of base, crank and coulisse put in for phi.
@@ -42,7 +42,7 @@ SCAN = 10  # intervals of the scan; 8 miss none of a million designs, 6 miss twe
 SCAN_ONE = 16  # of one design
 BLOCK = 8192  # designs at a time: what the scan works on stays in the processor's cache
 CLOSE = 1e-7  # a Newton step this short has converged: the next error is its square
-STEPS = 60
+SOON, STEPS = 3, 60  # steps of Newton: in a block, and at most
 EXACT_Z = 64  # from here on, rounding pi/z costs less than half a unit in the last place
 
 
@@ -113,15 +113,21 @@ def _end(m: Any, w: Wheel) -> tuple[Any, Any]:
     return w.tan * f1 * f1, _input(m, w, s, c, C, rho)
 
 
-def _slope(m: Any, w: Wheel, s: Any, c: Any, v: Any) -> Any:
-    """The acceleration's slope over f, divided by f1² and by l (1-l²): only its sign counts."""
-    C, rho = _front(m, w, s, c)
-    D = w.rest2 + 2.0 * w.l * v
-    N = v * (w.big - 2.0 * w.l * v) - w.rest2
-    p = w.A * w.minus / (rho * C * C)  # f2 / (f1² sin f)
+def _slope(m: Any, w: Wheel, c: Any) -> Any:
+    """The acceleration's slope over f, divided by f1² and by l (1-l²): only its sign counts.
+
+    It is taken times (C D)³, which is positive; (1-A²) / rho is C - A cos f.
+    """
+    Ac, c2 = w.A * c, c * c
+    s2, C2 = 1.0 - c2, w.minus + Ac * Ac
+    C = m.sqrt(C2)
+    v = 1.0 - w.sign * c
+    lv = 2.0 * w.l * v
+    D = w.rest2 + lv
+    N = v * (w.big - lv) - w.rest2
     g1 = w.sign * (w.rest - v) / (w.rest * (1.0 + w.l))
-    # times D³, which is positive
-    return w.sign * N - D * (3.0 * p * s * s - D * g1 * p * (c + 3.0 * w.A * s * s / C))
+    front = w.A * (C - Ac) * D  # f2 / (f1² sin f), times C² D
+    return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
 
 
 def _slopes(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
@@ -146,11 +152,14 @@ def _slopes(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
     return g3 + 3.0 * g2 * f2 + g1 * f2_f, g4 + 5.0 * g3 * f2 + 4.0 * g2 * f2_f + g1 * f2_ff
 
 
-def _rest(m: Any, w: Wheel, s: Any, c: Any, v: Any) -> Any:
-    """h: the acceleration without what vanishes with sin f."""
-    C, rho = _front(m, w, s, c)
+def _rest(m: Any, w: Wheel, c: Any) -> Any:
+    """h / rho, by its sign the acceleration without what vanishes with sin f."""
+    Ac = w.A * c
+    C2 = w.minus + Ac * Ac
+    v = 1.0 - w.sign * c
     D = w.rest2 + 2.0 * w.l * v
-    return w.rest * (1.0 + w.l) * C * C * rho - w.sign * (w.rest - v) * D * w.A * w.minus
+    # (1-A²) / rho is C - A cos f
+    return w.rest * (1.0 + w.l) * C2 - w.sign * (w.rest - v) * D * w.A * (m.sqrt(C2) - Ac)
 
 
 def _rests(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
@@ -186,15 +195,12 @@ def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     w = _wheel(sign, l, one_minus_sin_pi(1, z), cos_b, half, A)
     best = _end(math, w)
     step = half / SCAN_ONE
-    s, c, before = 0.0, 1.0, 0.0
-    sin_d, cos_d = math.sin(step), math.cos(step)
+    before = 0.0
     for i in range(SCAN_ONE + 1):
-        at = (s, c) if i < SCAN_ONE else w.end
-        here = _slope(math, w, at[0], at[1], 1.0 - w.sign * at[1])
+        here = _slope(math, w, math.cos(i * step) if i < SCAN_ONE else w.end[1])
         if before * here < 0.0:
             best = max(best, _value(math, w, _root(w, (i - 1) * step, i * step, before)))
         before = here
-        s, c = s * cos_d + c * sin_d, c * cos_d - s * sin_d
     return best[0], -best[1] / DEGREE
 
 
@@ -229,11 +235,8 @@ def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     import numpy as np
 
     w, shape = _designs(z, internal, A)
-    size, at = np.empty(len(w.l)), np.empty(len(w.l))
-    for start in range(0, len(w.l), BLOCK):
-        part = _take(w, slice(start, start + BLOCK))
-        found = _greatest(part, *_end(np, part), ACCELERATION)
-        size[start : start + BLOCK], at[start : start + BLOCK] = found
+    size, at = _end(np, w)
+    _compete(w, size, at, ACCELERATION)
     at /= -DEGREE
     return size.reshape(shape), at.reshape(shape)
 
@@ -252,14 +255,9 @@ def velocity_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     size = w.l / (np.where(w.sign > 0.0, w.rest, 1.0 + w.l) * (1.0 + w.A))
     at = np.zeros(len(size))
     several = np.flatnonzero((w.sign < 0.0) & (w.A > 0.0))
-    for start in range(0, len(several), BLOCK):
-        which = several[start : start + BLOCK]
-        some = _take(w, which)
-        # where h has two zeros, they lie on both sides of c = 0
-        one = np.ones(len(which))
-        right = some._replace(half=0.5 * np.pi * one, end=(one, 0.0 * one))
-        found = _greatest(right, size[which], at[which], VELOCITY)
-        size[which], at[which] = _greatest(some, *found, VELOCITY, 0.5 * np.pi)
+    some, best, place = _take(w, several), size[several], at[several]
+    _compete(some, best, place, VELOCITY)
+    size[several], at[several] = best, place
     at /= -DEGREE
     return size.reshape(shape), (at + 0.0).reshape(shape)
 
@@ -302,70 +300,115 @@ def _wheels(z: Any, internal: Any, A: Any) -> Wheel:
 class Search(NamedTuple):
     """A quantity: what is zero where it may be greatest, that with its slope, and its size."""
 
-    zero: Callable[..., Any]  # module, wheel, sin f, cos f, 1 - cos f (inside 1 + cos f)
+    zero: Callable[..., Any]  # module, wheel, cos f
     slopes: Callable[..., tuple[Any, Any]]  # module, wheel, f
     value: Callable[..., tuple[Any, Any]]  # module, wheel, f: size and input angle
     close: float = CLOSE  # h may be all but flat where it is zero
+    only_rising: bool = False  # where it falls through zero, the quantity is least
 
 
 ACCELERATION = Search(_slope, _slopes, _value)
-VELOCITY = Search(_rest, _rests, _velocity, 1e-11)
+VELOCITY = Search(_rest, _rests, _velocity, 1e-11, True)
 
 
-def _greatest(w: Wheel, size: Any, at: Any, search: Search, start: float = 0.0) -> tuple[Any, Any]:
-    """The greatest sizes and their places from ``start`` on, or those that are known already."""
+class Brackets(NamedTuple):
+    """Where a search's function changes sign: designs, the places beside it, a guess between."""
+
+    which: Any
+    low: Any
+    guess: Any
+    high: Any
+    falling: Any
+
+
+def _compete(w: Wheel, size: Any, at: Any, search: Search) -> None:
+    """Puts greater sizes, with their places, where ``size`` and ``at`` have less.
+
+    Designs go through in blocks; the few that Newton is not soon done with wait for each other.
+    """
     import numpy as np
 
-    step = (w.half - start) / SCAN
-    s, c = np.full(len(step), math.sin(start)), np.full(len(step), math.cos(start))
-    sin_d, cos_d = np.sin(step), np.cos(step)
-    before = np.zeros(len(step))
+    late = []
+    for first in range(0, len(size), BLOCK):
+        block = slice(first, first + BLOCK)
+        part = _take(w, block)
+        found = _scanned(part, search)
+        left = _refined(part, (size[block], at[block]), search, found, SOON)
+        late.append(left._replace(which=left.which + first))
+    if late:
+        joined = Brackets(*(np.concatenate(parts) for parts in zip(*late, strict=True)))
+        _refined(w, (size, at), search, joined, STEPS)
+
+
+def _scanned(w: Wheel, search: Search) -> Brackets:
+    """The changes of sign between the places of a scan."""
+    import numpy as np
+
+    step = w.half / SCAN
+    c, c_next = np.ones(len(step)), np.cos(step)
+    turn = 2.0 * c_next
+    last = before = np.zeros(len(step))
     brackets = []
     for i in range(SCAN + 1):
-        if i == SCAN:
-            s, c = w.end
-        here = search.zero(np, w, s, c, 1.0 - w.sign * c)
-        changed = np.flatnonzero(before * here < 0.0)
-        if len(changed):
-            left, right = before[changed], here[changed]
-            brackets.append((changed, i - 1.0 + left / (left - right), left > 0.0))
-        before = here
-        s, c = s * cos_d + c * sin_d, c * cos_d - s * sin_d
-    if brackets:
-        which, node, rising = (np.concatenate(parts) for parts in zip(*brackets, strict=True))
-        found, near = _take(w, which), step[which]
-        low = start + np.floor(node) * near
-        f = _roots(search, found, (low, start + node * near, low + near), rising)
-        value, where = search.value(np, found, f)
-        # A design may have several roots: the greatest is written last.
-        order = np.argsort(value)
-        order = order[value[order] > size[which[order]]]
-        size[which[order]], at[which[order]] = value[order], where[order]
-    return size, at
+        here = search.zero(np, w, c if i < SCAN else w.end[1])
+        turned = before * here < 0.0
+        which = np.flatnonzero(turned & (here > 0.0) if search.only_rising else turned)
+        left, right, near = before[which], here[which], step[which]
+        # a straight line through the first two, a parabola through three
+        share = _crossing(last[which] if i > 1 else 2.0 * left - right, left, right)
+        low = (i - 1.0) * near
+        brackets.append((which, low, low + share * near, low + near, left > 0.0))
+        last, before = before, here
+        c, c_next = c_next, turn * c_next - c
+    return Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
+
+
+def _crossing(last: Any, left: Any, right: Any) -> Any:
+    """Where the parabola through values at -1, 0 and 1 is zero between the latter two."""
+    import numpy as np
+
+    tilt, bend = 0.5 * (right - last), 0.5 * (right + last) - left
+    root = np.copysign(np.sqrt(np.maximum(tilt * tilt - 4.0 * bend * left, 0.0)), right)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = -2.0 * left / (tilt + root)
+    return np.where((share > 0.0) & (share < 1.0), share, 0.5)
 
 
 def _take(w: Wheel, which: Any) -> Wheel:
     return Wheel(*[tuple(p[which] for p in v) if isinstance(v, tuple) else v[which] for v in w])
 
 
-def _roots(search: Search, w: Wheel, places: tuple[Any, Any, Any], rising: Any) -> Any:
-    """Newton from a place inside each bracket; those that have converged drop out."""
+def _refined(
+    w: Wheel, best: tuple[Any, Any], search: Search, found: Brackets, steps: int
+) -> Brackets:
+    """Newton in each bracket, so many steps; what it found is put in ``best``, the rest returned.
+
+    Those that have converged drop out.
+    """
     import numpy as np
 
-    a, x, b = places
-    out, live = x.copy(), np.arange(len(x))
-    for _ in range(STEPS):
-        slope, bend = search.slopes(np, w, x)
-        left = (slope > 0.0) == rising
+    some = _take(w, found.which)
+    _, a, x, b, falling = found
+    out, live, part = np.full(len(x), np.nan), np.arange(len(x)), some
+    for _ in range(steps):
+        slope, bend = search.slopes(np, part, x)
+        left = (slope > 0.0) == falling
         a, b = np.where(left, x, a), np.where(left, b, x)
         with np.errstate(divide="ignore", invalid="ignore"):
             new = x - slope / bend
         new = np.where((new > a) & (new < b), new, 0.5 * (a + b))
-        out[live] = new
-        far = np.flatnonzero(np.abs(new - x) >= search.close)
+        far = np.abs(new - x) >= search.close
+        out[live] = np.where(far, np.nan, new)
+        far = np.flatnonzero(far)
+        if len(far) < len(live):
+            part, a, b, falling, live = _take(part, far), a[far], b[far], falling[far], live[far]
+        x = new[far]
         if not len(far):
             break
-        if len(far) < len(live):
-            w, a, b, rising, live = _take(w, far), a[far], b[far], rising[far], live[far]
-        x = new[far]
-    return out
+    size, at = best
+    value, where = search.value(np, some, out)
+    more = np.flatnonzero(value > size[found.which])
+    # A design may have several roots: the greatest is written last.
+    order = more[np.argsort(value[more])]
+    size[found.which[order]], at[found.which[order]] = value[order], where[order]
+    return Brackets(found.which[live], a, x, b, falling)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -60,23 +60,25 @@ class Winner(NamedTuple):
         return [*notes, *title, *written(spec)]
 
 
-def winner(found: Sweep, rows: Sequence[Row], asked: Asked) -> Winner:
-    """The best of the rows of a sweep, refined over those of its keys that were given as spans.
+def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner:
+    """The best of the rows of a sweep, which come some at a time and are not kept.
 
-    Raises GenevaError, saying how near the designs come, where none keeps the bounds.
+    It is refined over those of its keys that were given as spans. Raises GenevaError, saying how
+    near the designs come, where none keeps the bounds.
     """
     search = Search(found, asked)
-    kept = [row for row in rows if search.keeps(row)]
-    if not kept:
-        raise GenevaError(_none(found, rows, asked))
-    kept.sort(key=search.cost)  # the first of equals stays first
-    best = min((search.refined(row) for row in kept[:STARTS]), key=search.cost)
+    tally = Tally(search)
+    for rows in every:
+        tally.add(rows)
+    if not tally.first:
+        raise GenevaError(tally.none())
+    best = min((search.refined(row) for row in tally.first), key=search.cost)
     best = found.row(search.keys(best))  # built alone, which is what counts
     assert search.keeps(best), best
     values = dict(zip(found.names, best, strict=True))
     numbers = {name: float(v) for name, v in values.items() if is_number(v)}
     binding = tuple(c for c in asked.constraints if c.binds(numbers[c.name]))
-    return Winner(numbers, found.machine(search.keys(best)), len(rows), len(kept), binding)
+    return Winner(numbers, found.machine(search.keys(best)), tally.tried, tally.feasible, binding)
 
 
 class Search:
@@ -141,17 +143,44 @@ class Search:
         return min((r for r in (start, *seen.values()) if self.keeps(r)), key=self.cost)
 
 
-def _none(found: Sweep, rows: Sequence[Row], asked: Asked) -> str:
-    """What to say where no design keeps the bounds: how many keep each, and how near they come."""
-    at = {name: i for i, name in enumerate(found.names)}
-    said = []
-    for c in asked.constraints:
-        values = [float(v) for row in rows if is_number(v := row[at[c.name]])]
-        if values:
-            nearest = max(values) if c.sign == ">=" else min(values)
-            count = sum(c.kept(v) for v in values)
-            said.append(f"{c} is kept by {count:,}, the nearest being {nearest:.6g}")
-        else:
-            said.append(f"{c.name} is known of none")
-    why = "; ".join(said) or "none has the quantity"
-    return f"--best: none of {len(rows):,} designs will do: {why}"
+class Tally:
+    """What is kept of rows that go by: the ``first`` few of the best, and how near the others come.
+
+    ``kept`` and ``nearest`` are of each bound: how many designs keep it, and the value of the one
+    that is nearest to keeping it, or farthest inside.
+    """
+
+    def __init__(self, search: Search) -> None:
+        self.search = search
+        self.tried = self.feasible = 0
+        self.first: list[Row] = []
+        self.kept = [0] * len(search.bounds)
+        self.nearest: list[float | None] = [None] * len(search.bounds)
+
+    def add(self, rows: Sequence[Row]) -> None:
+        """More rows."""
+        kept = [row for row in rows if self.search.keeps(row)]
+        self.tried += len(rows)
+        self.feasible += len(kept)
+        # the first of equals stays first
+        self.first = sorted((*self.first, *kept), key=self.search.cost)[:STARTS]
+        for k, (i, c) in enumerate(self.search.bounds):
+            values = [float(v) for row in rows if is_number(v := row[i])]
+            self.kept[k] += sum(c.kept(v) for v in values)
+            before = self.nearest[k]
+            values += [] if before is None else [before]
+            if values:
+                self.nearest[k] = max(values) if c.sign == ">=" else min(values)
+
+    def none(self) -> str:
+        """What to say where no design keeps the bounds."""
+        said = [
+            f"{c.name} is known of none"
+            if nearest is None
+            else f"{c} is kept by {count:,}, the nearest being {nearest:.6g}"
+            for (_, c), count, nearest in zip(
+                self.search.bounds, self.kept, self.nearest, strict=True
+            )
+        ]
+        why = "; ".join(said) or "none has the quantity"
+        return f"--best: none of {self.tried:,} designs will do: {why}"

@@ -50,19 +50,21 @@ class Request(NamedTuple):
             return
         from geneva_cli.study.sweep.front import front
 
-        rows = [row for block in kept for row in block]
         at = [names.index(o.name) for o in self.objectives]
-        found = front(rows, at, [o.sign for o in self.objectives])
+        signs = [o.sign for o in self.objectives]
+        found: list[list[Cell]] = []
+        for block in kept:  # what a row of an earlier block beats is kept no longer
+            rows = [*found, *block]
+            found = [rows[i] for i in front(rows, at, signs)]
         if found:
-            yield [rows[i] for i in found]
+            yield found
 
     def best(self, every: Iterable[list[list[Cell]]]) -> list[str]:
         """The best design, refined, as the lines of a spec."""
         from geneva_cli.study.sweep.best import Asked, winner
 
         asked = Asked(self.objectives[0], self.constraints)
-        rows = [row for block in every for row in block]
-        return winner(self.sweep, rows, asked).lines(asked)
+        return winner(self.sweep, every, asked).lines(asked)
 
 
 def request(
