@@ -5,7 +5,10 @@ The wheel's axis is the origin and the crank's lies on the x axis, as in the ass
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 
 class Pivot(NamedTuple):
@@ -22,6 +25,18 @@ class Dimension(NamedTuple):
     name: str
     value: float | str
     unit: str = ""
+
+
+class Link(NamedTuple):
+    """A body between joints, in mm at input angles: a bar, or a plate of three joints.
+
+    ``joints`` are the x and y of each, arrays along the input angles. With a radius it is a circle
+    about its one joint: the pitch circle of a gear.
+    """
+
+    name: str
+    joints: tuple[tuple[Array, Array], ...]
+    radius_mm: float = 0.0
 
 
 Layout: TypeAlias = tuple[Pivot | Dimension, ...]

@@ -9,7 +9,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.machine.engagement import Displacement, Engagement
-from geneva_cli.machine.layout import Layout
+from geneva_cli.machine.layout import Layout, Link
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Table
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
     from geneva_cli.machine.spec import Spec
     from geneva_cli.machine.wheels.gearing import Gearing
+    from geneva_cli.numerics.jet import Array
     from geneva_cli.numerics.spline import Doubt
 
 
@@ -121,6 +122,16 @@ class Drive(Table):
 
         >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
         Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
+        """
+        return ()
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """What turns the crank or carries the roller, at input angles from mid-motion.
+
+        >>> from numpy import array
+        >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
+        >>> [float(v[0]) for v in drive.links(plan, 1.0, array([0.0]))[0].joints[1]]
+        [20.0, 0.0]
         """
         return ()
 

@@ -16,16 +16,17 @@ from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
-from geneva_cli.machine.layout import Dimension, Layout, Pivot
+from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range, Words
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.jet import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,6 +108,22 @@ class Epicyclic(PinPath):
             Dimension("fixed teeth / planet teeth", teeth),
             Dimension("planet's pitch radius", planet, "mm"),
             Dimension("fixed gear's pitch radius", planet * teeth, "mm"),
+        )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """Carrier, the planet's arm, and the pitch circles of planet and fixed gear."""
+        joints = cast(PlanetJoints, plan.engagements[0].joints)
+        L, still, turn = plan.center_distance_mm, 0.0 * input_deg, radians(input_deg)
+        R0, rp, c = L * joints.R0, L * joints.rp, joints.c
+        m, axis = library(turn), (still + L, still)
+        planet = L - R0 * m.cos(turn), R0 * m.sin(turn)
+        roller = planet[0] - rp * m.cos(c * turn), planet[1] + rp * m.sin(c * turn)
+        radius = R0 / abs(c)
+        return (
+            Link("carrier", (axis, planet)),
+            Link("planet's arm", (planet, roller)),
+            Link("planet", (planet,), radius),
+            Link("fixed gear", (axis,), radius * abs(c - 1.0)),
         )
 
 

@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
-from geneva_cli.machine.drives.linkage import Linkage, RodPath, refuse_proportions
+from geneva_cli.machine.drives.linkage import Joint, Linkage, RodPath, refuse_proportions
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.roller_path import Way, rounded
 from geneva_cli.numerics.arrays import larger, smaller
@@ -39,6 +39,7 @@ class FourBar(Linkage):
 
     NAME: ClassVar[str] = "four-bar"
     WORDS: ClassVar[str] = "a point of a four-bar linkage"
+    CARRIER: ClassVar[str] = "coupler"
     EXAMPLE: ClassVar[Example] = Example(
         "the roller on a four-bar's coupler",
         {
@@ -101,6 +102,10 @@ class FourBar(Linkage):
             Dimension("angle BAC", self.point_deg, "deg"),
             Dimension("branch", self.branch),
         )
+
+    def holder(self, end: Joint) -> dict[str, tuple[Joint, ...]]:
+        """The rocker."""
+        return {"rocker": (end, (0.0 * end[0] + self.ground_mm, 0.0 * end[0]))}
 
     @property
     def roller_path(self) -> CouplerPath:

@@ -18,7 +18,7 @@ from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import Carried, same
 from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
-from geneva_cli.machine.layout import Dimension, Layout
+from geneva_cli.machine.layout import Dimension, Layout, Link
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
@@ -29,6 +29,7 @@ from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.jet import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +80,19 @@ class GearSector(PinPath):
             Dimension("handover, from the line of centres", math.degrees(handover), "deg"),
             Dimension("crank gear's pitch radius", L * u / (1.0 + u), "mm"),
             Dimension("wheel gear's pitch radius", L / (1.0 + u), "mm"),
+        )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """The crank with its rollers, one at each end of the sector, and both pitch circles."""
+        L, still = plan.center_distance_mm, 0.0 * input_deg
+        u, axis, R = self._handover(math.asin(plan.ratio))[0], (still + L, still), L * plan.ratio
+        m = library(input_deg)
+        ends = [radians(input_deg + side * 0.5 * self.sector_deg) for side in (1.0, -1.0)]
+        rollers = [(L - R * m.cos(a), R * m.sin(a)) for a in ends]
+        return (
+            Link("crank", (axis, *rollers)),
+            Link("crank gear", (axis,), L * u / (1.0 + u)),
+            Link("wheel gear", ((still, still),), L / (1.0 + u)),
         )
 
     def _half_angle(self, z: int) -> float:

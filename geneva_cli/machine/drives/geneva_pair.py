@@ -9,16 +9,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.layout import Dimension, Layout, Pivot
+from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels import poses
-from geneva_cli.numerics.angles import of_each, sin_cos_pi
+from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
 from geneva_cli.spec.rules import Z_MAX, Range
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +65,15 @@ class GenevaPair(Transmission):
             Dimension("first centre distance", L, "mm"),
             Dimension("first crank radius", L * poses.Step(1, self.first_z).sin_cos[0], "mm"),
         )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """The first crank, and the first wheel's rim."""
+        L, step = plan.center_distance_mm, poses.Step(1, self.first_z)
+        turn, still = radians(input_deg), 0.0 * input_deg
+        m, R = library(turn), L * step.sin_cos[0]
+        pin = 2.0 * L - R * m.cos(turn), -sign * R * m.sin(turn)
+        rim = Link("first wheel", ((still + L, still),), L * step.sin_cos[1])
+        return Link("first crank", ((still + 2.0 * L, still), pin)), rim
 
     def about(self, crank_deg: float) -> About:
         """About an angle of the second crank within the first wheel's step, degrees."""

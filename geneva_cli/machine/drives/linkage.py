@@ -8,14 +8,24 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import reduce
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple, Self, cast
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    Self,
+    TypeAlias,
+    TypeVar,
+    cast,
+)
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.layout import Dimension, Layout, Pivot
+from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.link import LinkJoints
 from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
 from geneva_cli.machine.roller_path import LONG_PI, Path, rounded
@@ -32,7 +42,10 @@ from geneva_cli.spec.tables import DISTANCE_MM
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.jet import Array
 
+Place = TypeVar("Place", float, "Array")
+Joint: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
 LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
 
 
@@ -44,6 +57,7 @@ class Linkage(PinPath):
     """
 
     LOCKS: ClassVar[bool] = False
+    CARRIER: ClassVar[str]  # the link that carries the roller
     entry_deg: Annotated[
         float | None, Range(-360.0, 360.0), "crank angle near entry, where several wheels fit"
     ] = None
@@ -78,9 +92,7 @@ class Linkage(PinPath):
 
     def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
         """A point of the linkage's own frame, about the crank's axis, in the machine's."""
-        at = cast(LinkJoints, plan.engagements[0].joints)
-        ahead, aside = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
-        return Pivot(name, plan.center_distance_mm + ahead, aside)
+        return Pivot(name, *self._placed(plan, x, y))
 
     def linked(self, plan: Plan) -> Layout:
         """Joints of crank and roller at input 0; the sense in which the crank turns."""
@@ -92,6 +104,37 @@ class Linkage(PinPath):
             self.placed(plan, "roller C", roller[0].c[0], roller[1].c[0]),
             Dimension("crank turns", "counterclockwise" if at.sense > 0.0 else "clockwise"),
         )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """Crank, the link that carries the roller, and what holds that link besides."""
+        at = cast(LinkJoints, plan.engagements[0].joints)
+        turn = radians(input_deg) + at.middle
+        direction = sin_cos(Jet((turn,)))
+        pin, unit, roller = (
+            (x.c[0], y.c[0])
+            for x, y in (f(*direction) for f in (at.path.joint, at.path.link, at.path.place))
+        )
+        reach = at.path.hold(*direction)[0]
+        end = pin[0] + reach * unit[0], pin[1] + reach * unit[1]
+        joints = {
+            "crank": ((0.0 * turn, 0.0 * turn), pin),
+            self.CARRIER: (pin, end, roller),
+            **self.holder(end),
+        }
+        return tuple(
+            Link(name, tuple(self._placed(plan, x, y) for x, y in ends))
+            for name, ends in joints.items()
+        )
+
+    def _placed(self, plan: Plan, x: Place, y: Place) -> tuple[Place, Place]:
+        """Places of the linkage's own frame, about the crank's axis, in the machine's."""
+        at = cast(LinkJoints, plan.engagements[0].joints)
+        ahead, aside = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
+        return plan.center_distance_mm + ahead, aside
+
+    @abstractmethod
+    def holder(self, end: Joint) -> dict[str, tuple[Joint, ...]]:
+        """What holds the carrying link at its end B: its name and joints, in the own frame."""
 
     @property
     def varies(self) -> bool:

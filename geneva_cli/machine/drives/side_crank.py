@@ -7,15 +7,20 @@ of the Maltese cross mechanism with a side-crank drive".
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import PeakKnown
-from geneva_cli.machine.layout import Dimension, Layout, Pivot
+from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import Range
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +63,15 @@ class SideCrank(Transmission):
             Dimension("input crank r", r, "mm"),
             Dimension("base offset a", self.A * r, "mm"),
         )
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """The input crank, whose pin slides in the coulisse, which is the Geneva crank."""
+        L, r = plan.center_distance_mm, plan.ratio * plan.center_distance_mm
+        turn, still = radians(input_deg), 0.0 * input_deg
+        m = library(turn)
+        axis = still + (L - sign * self.A * r), still
+        pin = axis[0] - sign * r * m.cos(turn), r * m.sin(turn)
+        return Link("input crank", (axis, pin)), Link("coulisse", ((still + L, still), pin))
 
     def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
         """The peak acceleration of plain wheels."""

@@ -12,7 +12,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
-from geneva_cli.machine.drives.linkage import Linkage, RodPath, refuse_proportions
+from geneva_cli.machine.drives.linkage import Joint, Linkage, RodPath, refuse_proportions
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.roller_path import Way, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
@@ -34,6 +34,7 @@ class SliderCrank(Linkage):
 
     NAME: ClassVar[str] = "slider-crank"
     WORDS: ClassVar[str] = "a point of a slider-crank"
+    CARRIER: ClassVar[str] = "rod"
     EXAMPLE: ClassVar[Example] = Example(
         "the roller on a slider-crank's rod",
         {
@@ -73,6 +74,13 @@ class SliderCrank(Linkage):
             Dimension("roller from A", self.point_mm, "mm"),
             Dimension("angle BAC", self.point_deg, "deg"),
         )
+
+    def holder(self, end: Joint) -> dict[str, tuple[Joint, ...]]:
+        """The slider, and its line as far as it can get."""
+        still = 0.0 * end[0]
+        foot, ahead = still, still + (self.crank_mm + self.rod_mm)
+        line = still + self.height_mm
+        return {"slider": (end,), "slider's line": ((foot, line), (ahead, line))}
 
     @property
     def roller_path(self) -> SlidingRod:
