@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -52,12 +52,11 @@ def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
     """The rows with the quantities that are asked for, of those that keep the bounds."""
     assert wanted.pick
     names = wanted.names
-    values: Iterable[Sequence[float | int | str | bool | None] | None]
-    if known(names):
-        values = numbers([row.spec for row in found], names)
-    else:
-        work = partial(_values, wanted.pick)
-        values = mapped(work, [row.spec for row in found], cores(), "machines")
+    specs = [row.spec for row in found]
+    together = numbers(specs, names) if known(names) else [None] * len(specs)
+    alone = [spec for spec, one in zip(specs, together, strict=True) if one is None]
+    rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
+    values = [one or next(rest) for one in together]
     out = []
     nearest: dict[str, list[float]] = {b.name: [] for b in wanted.bounds}
     for row, cells in zip(found, values, strict=True):

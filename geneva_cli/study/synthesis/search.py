@@ -12,7 +12,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.sweep.columns import known
-from geneva_cli.study.sweep.constraints import is_number
+from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import families
@@ -20,6 +20,8 @@ from geneva_cli.study.synthesis.families.family import natural_deg
 from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
 from geneva_cli.study.synthesis.rows import Row, Way, rows
 from geneva_cli.study.synthesis.wish import Wish
+
+PEAK = "acceleration.max"
 
 
 class Found(NamedTuple):
@@ -40,7 +42,10 @@ def search(wish: Wish) -> Found:
     first = next((spec for f in every if (spec := _buildable(f.make, f.low))), None)
     wanted = asked(wish, first) if first else Asked(None, (), "")
     quick = [b for b in wanted.bounds if known([b.name])]
-    specs = [_limited(wish, spec) for spec in dict.fromkeys(best(every, quick))]
+    if wish.acceleration_max is not None:
+        quick.append(Constraint(PEAK, "<=", wish.acceleration_max))
+    one_each = best(every, quick, nearest=wish.any_motion)
+    specs = [_limited(wish, spec) for spec in dict.fromkeys(one_each)]
     found = [row for row in rows(wish, specs, errors) if _kept(wish, row)]
     if not found:
         raise GenevaError(_out_of_reach(wish, reached, errors))

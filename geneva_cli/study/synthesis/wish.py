@@ -49,9 +49,15 @@ class Wish(NamedTuple):
         return self.frame is not None or not {"cycle", "motion_s", "dwell_s"}.isdisjoint(self.spans)
 
     @property
+    def any_motion(self) -> bool:
+        """Whether any motion will do that keeps some bound."""
+        bounded = bool(self.bounds) or self.acceleration_max is not None
+        return bounded and self.asks_nothing(1)
+
+    @property
     def only_acceleration(self) -> bool:
         """Whether a peak acceleration is all that is asked of the motion."""
-        return self.acceleration_max is not None and self.asks_nothing(1)
+        return self.any_motion and not self.bounds
 
     def cycle_s(self, m: int) -> Span:
         """The cycle times that are wished for; with a frame and no other wish its own."""

@@ -18,7 +18,7 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.curved import cam, curved, law_costs, more_rollers
 from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
-from geneva_cli.study.synthesis.families.straight import gears, plain, planets, side_crank
+from geneva_cli.study.synthesis.families.straight import driven, gears, plain, planets, side_crank
 from geneva_cli.study.synthesis.wish import Wish
 
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
@@ -27,6 +27,8 @@ MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding
 def below(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Family]:
     """The families of a wheel; peaks that are as low as a drive brings them go to ``reached``."""
     yield from map(only, _specs(wish, wheel, reached))
+    if not wheel.FLAT:
+        yield from driven(wish, wheel)
     if wish.rollers in (None, 1):
         yield from planets(wish, wheel, natural_deg(wheel))
 
@@ -36,15 +38,15 @@ def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
     natural = natural_deg(wheel)
     every = rollers(wish, natural)
     peak = acceleration_peak(build(plain(wish, wheel, 1)).engagements[0]).max
-    if peak <= wish.acceleration_max:
+    gentle = peak <= wish.acceleration_max
+    if gentle:
         yield from (plain(wish, wheel, m) for m in every)
-        return
-    if not wish.rollers or natural * wish.rollers < 360.0:
+    elif not wish.rollers or natural * wish.rollers < 360.0:
         reached.append(peak)
     if not wheel.FLAT:
         return
     limit = wish.acceleration_max * (1.0 - MARGIN)
-    if 1 in every:
+    if 1 in every and not gentle:
         yield from _driven(wish, wheel, limit, reached)
     for law in wish.laws:
         yield from _curved(wish, wheel, limit, law, reached)

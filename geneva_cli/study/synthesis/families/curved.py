@@ -58,8 +58,8 @@ def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
                 continue
             own = holds(free, natural)
             motion = Span(natural, natural) if own and free.exact else free
-            yield _free(wish, partial(make, m), motion)
-            yield _free(wish, _grooved(partial(make, m)), _until_parallel(wheel, motion))
+            yield _free(wish, partial(make, m), motion, natural)
+            yield _free(wish, _grooved(partial(make, m)), _until_parallel(wheel, motion), natural)
             if own:
                 yield only(make(m, natural))
                 yield only(cam(make(m, natural)))
@@ -71,9 +71,10 @@ def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         yield from map(only, more_rollers(wish, natural, longest))
 
 
-def _free(wish: Wish, make: Callable[[float], Spec], motion: Span) -> Family:
+def _free(wish: Wish, make: Callable[[float], Spec], motion: Span, natural: float) -> Family:
     """The machines of some motions, or without bounds the one of the longest."""
-    return Family(make, motion.low if wish.bounds else motion.high, motion.high)
+    low = motion.low if wish.bounds else motion.high
+    return Family(make, low, motion.high, plain=natural)
 
 
 def _grooved(make: Callable[[float], Spec]) -> Callable[[float], Spec]:

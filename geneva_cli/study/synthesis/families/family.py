@@ -22,13 +22,15 @@ BARE = Spec(registry.gearing("external")(3))  # the tables of a machine that has
 class Family(NamedTuple):
     """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec.
 
-    At ``known``, where that is in the wish, the machine is one of another family.
+    At ``plain`` it moves as the plain crank does; at ``known`` it is a machine of another family
+    that grants the wish. Both may be none.
     """
 
     make: Callable[[float], Spec]
     low: float = 0.0
     high: float = 0.0
     known: float = math.nan
+    plain: float = math.nan
 
 
 def only(spec: Spec) -> Family:
@@ -60,9 +62,11 @@ def natural_deg(wheel: Gearing) -> float:
 
 
 def wanted(wish: Wish, m: int, natural: float) -> Span:
-    """The motion angles for m rollers; without a wish for one the plain crank's own."""
+    """The motion angles for m rollers; without a wish for one any, or the plain crank's own."""
     found = wish.motion_for(m)
-    return Span(natural, natural) if found is None else found
+    if found is None:
+        return Span(0.0, 360.0 / m) if wish.any_motion else Span(natural, natural)
+    return found
 
 
 def holds(motion: Span, natural: float) -> bool:

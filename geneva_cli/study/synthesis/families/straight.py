@@ -48,11 +48,7 @@ def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
             yield from _aside(wish, wheel, m)
             if m == 1:
                 yield from planets(wish, wheel, natural)
-        free = closed_span(motion, m)
-        if m == 1 and free is not None and not (free.exact and holds(free, natural)):
-            yield from _driven(wish, wheel, natural, free)
-    if not wheel.FLAT:
-        yield from _inclined(wish, wheel)
+    yield from driven(wish, wheel)
 
 
 def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
@@ -95,8 +91,17 @@ def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
         yield Family(lambda rp, fixed=fixed: make(rp, fixed), *inside)  # type: ignore[misc]
 
 
-def _driven(wish: Wish, wheel: Gearing, natural: float, motion: Span) -> Iterator[Family]:
-    """The drives in front of the crank that make a motion angle."""
+def driven(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+    """What changes the plain crank's motion: a drive in front of it, the angle of the shafts."""
+    natural = natural_deg(wheel)
+    motion = closed_span(wanted(wish, 1, natural), 1) if wish.rollers in (None, 1) else None
+    if motion is not None and not (motion.exact and holds(motion, natural)):
+        yield from _in_front(wish, wheel, natural, motion)
+    if not wheel.FLAT:
+        yield from _inclined(wish, wheel)
+
+
+def _in_front(wish: Wish, wheel: Gearing, natural: float, motion: Span) -> Iterator[Family]:
     yield from _between(partial(side_crank, wish, wheel), closed.side_crank, natural, motion)
     yield from _between(partial(gears, wish, wheel), closed.eccentricity, natural, motion)
 
@@ -111,7 +116,7 @@ def _between(
     low, high = (inverse(natural, x) for x in motion)
     if low <= closed.MOST and high >= -closed.MOST:
         plain_too = 0.0 if holds(motion, natural) else math.nan
-        yield Family(make, max(low, -closed.MOST), min(high, closed.MOST), plain_too)
+        yield Family(make, max(low, -closed.MOST), min(high, closed.MOST), plain_too, 0.0)
 
 
 def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
@@ -119,8 +124,7 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
-        motion = wish.motion_for(m)
-        free = closed_span(motion, m) if motion else None
+        free = closed_span(wanted(wish, m, 180.0), m)
         if free is None or (free.exact and holds(free, 180.0)):
             continue
 
@@ -132,7 +136,7 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         low, high = (closed.axes(z, x) for x in free)
         if low <= 180.0 - closed.AXES and high >= closed.AXES:
             right = 90.0 if holds(free, 180.0) else math.nan
-            yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right)
+            yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right, 90.0)
 
 
 def side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:
