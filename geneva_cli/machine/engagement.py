@@ -50,8 +50,11 @@ Vector: TypeAlias = tuple[Jet, Jet]
 class Joints(Protocol):
     """What holds the roller's body where that is not the crank: links without mass or friction."""
 
-    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
-        """Reactions to a force at the pin's centre and a couple, both on the roller's body.
+    def __call__(
+        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions to each of some loads: a force at the pin's centre and a couple, both on the
+        roller's body. ``path`` is the pin's, one order higher than the loads.
 
         Those on the crank's shaft in its bearings, and at what guides the body besides: rocker,
         slider, groove or fixed gear. In units of the force, the couple in units of it times L;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.machine.engagement import Vector, cross
@@ -33,18 +34,22 @@ class LinkJoints(NamedTuple):
     x: float  # direction of the line of centres from the wheel's axis, on the path's axes
     y: float
 
-    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
+    def __call__(
+        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, which are those at A, and of the third body."""
-        tau = Jet.variable(radians(input_deg) + self.middle, moment.order)
+        tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
         sine, cosine = sin_cos(tau)
-        across = force[1] * self.sense
-        F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
         ex, ey = self.path.link(sine, cosine)
         px, py = self.path.place(sine, cosine)
         ax, ay = self.path.joint(sine, cosine)
         arm, h = self.path.hold(sine, cosine)
-        # moments about A
-        turning = cross((px - ax, py - ay), F) + moment * (self.sense * self.L)
-        push = turning / (cross((ex * arm, ey * arm), h)) * -1.0
-        third = h[0] * push, h[1] * push
-        return (F[0] + third[0], F[1] + third[1]), third
+        place, lever = (px - ax, py - ay), cross((ex * arm, ey * arm), h)
+        out = []
+        for force, moment in loads:
+            across = force[1] * self.sense
+            F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
+            push = (cross(place, F) + moment * (self.sense * self.L)) / lever * -1.0  # about A
+            third = h[0] * push, h[1] * push
+            out.append(((F[0] + third[0], F[1] + third[1]), third))
+        return out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol
 
@@ -20,7 +21,7 @@ from geneva_cli.machine.engagement import (
 )
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import are_designs, chosen, library
+from geneva_cli.numerics.arrays import are_alike, are_designs, chosen, library, picked
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
 
 if TYPE_CHECKING:
@@ -46,6 +47,11 @@ class AnchoredPath:
             *[0.5 * (a + b) for a, b in pairwise(inner)],
             inner[-1] + NEAR_END * (last - inner[-1]),
         ]
+
+    @cached_property
+    def alike(self) -> bool:
+        """Whether the anchors differ in numbers alone."""
+        return are_alike(self.anchors)
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
@@ -144,6 +150,13 @@ class Followed(Motion):
         anchors, cuts = self.path.anchors, self.path.cuts
         if are_designs(input_deg, cuts[0], cuts[-1]):
             return about(chosen(input_deg, cuts, anchors))(input_deg)
+        if not isinstance(input_deg, float) and input_deg.size and self.path.alike:
+            import numpy as np
+
+            # one call for all anchors, and for those alone that serve an angle
+            index = np.searchsorted(cuts, input_deg)
+            low, high = int(index.min()), int(index.max())
+            return about(picked(index - low, anchors[low : high + 1]))(input_deg)
         return piecewise(input_deg, cuts, [about(a) for a in anchors])
 
 

@@ -58,6 +58,42 @@ def chosen(x: Any, cuts: Sequence[Any], records: Sequence[Any]) -> Any:
     return out
 
 
+def picked(index: Any, records: Sequence[Any]) -> Any:
+    """The record of each index, its numbers as arrays of the index's shape where they differ.
+
+    Records are tuples of the same shape; what they hold besides numbers is the same in all.
+
+    >>> import numpy as np
+    >>> picked(np.array([1, 0, 1]), ((1.0, 5.0), (2.0, 5.0)))
+    (array([2., 1., 2.]), 5.0)
+    """
+    first = records[0]
+    if all(one is first for one in records):
+        return first
+    if isinstance(first, tuple):
+        parts = [picked(index, part) for part in zip(*records, strict=True)]
+        return type(first)(*parts) if type(first) is not tuple else tuple(parts)
+    if all(one == first for one in records):
+        return first
+    import numpy
+
+    return numpy.array(records)[index]
+
+
+def are_alike(records: Sequence[Any]) -> bool:
+    """Whether records differ in numbers alone, so that ``picked`` can pick of them.
+
+    >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
+    (True, False)
+    """
+    first = records[0]
+    if all(one is first for one in records):
+        return True
+    if isinstance(first, tuple):
+        return all(map(are_alike, zip(*records, strict=True)))
+    return all(isinstance(one, _PLAIN) for one in records)
+
+
 def are_designs(x: Any, *numbers: Any) -> bool:
     """Whether angles are (n, k), or one of some numbers differs from design to design."""
     plain = isinstance(x, float) or x.ndim < 2

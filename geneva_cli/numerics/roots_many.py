@@ -60,6 +60,31 @@ class Greatest(NamedTuple):
     x: Array
 
 
+class Roots(NamedTuple):
+    """Places of roots, the last Newton steps to them, and what the functions were before those."""
+
+    x: Array
+    step: Array
+    last: list[Array]
+
+
+def roots_between(
+    f: Callable[[Array, Whole], tuple[Array, ...]],
+    a: Array,
+    b: Array,
+    ends: tuple[Array, Array],
+    close: float,
+) -> Roots:
+    """Roots as of ``roots_many`` of functions known at a and b, where their signs differ.
+
+    ``f(x, which)`` begins with value and derivative; what follows is kept of its last call.
+    """
+    with np.errstate(all="ignore"):
+        chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
+        start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
+        return Roots(*_newton(f, a, b, start, ends[0] < 0.0, close))
+
+
 def roots_many(
     slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array, close: float = 0.0
 ) -> Array:

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 Functions: TypeAlias = "Callable[[Array, Whole], tuple[Array, Array]]"
 
 ROUNDING = 1e-12  # share of a value that no sampling makes any surer
+NOISE = 1e-15  # share of a function's greatest size that has no sign
+TINY = 1e-16  # share of a value that no double shows
+NARROW = 1e-6  # share of all spans within which a place is told well enough
 CROWDED = 16  # places towards each end, each four times as near to it as the one before
 
 
@@ -44,10 +47,22 @@ class Scan(NamedTuple):
         same: Mask = self.span[1:] == self.span[:-1]
         return same
 
-    def changes(self, row: int) -> Whole:
-        """The samples after which a function has the other sign."""
-        negative = np.signbit(self.value[row])
-        return np.flatnonzero((negative[:-1] != negative[1:]) & self.joined)
+    def noise(self, row: int) -> float:
+        """Size of a function's values that is rounding, beside its greatest."""
+        size = abs(self.value[row])
+        return NOISE * float(np.max(size[np.isfinite(size)], initial=0.0))
+
+    def changes(self, row: int) -> tuple[Whole, Whole]:
+        """The samples between which a function changes sign: those before, and those after.
+
+        What is rounding beside the function's greatest size has no sign: between two samples there
+        may be some of it.
+        """
+        value = self.value[row]
+        sure = np.flatnonzero(abs(value) > self.noise(row))
+        negative, span = np.signbit(value[sure]), self.span[sure]
+        turns = (negative[:-1] != negative[1:]) & (span[:-1] == span[1:])
+        return sure[:-1][turns], sure[1:][turns]
 
 
 @cache
@@ -134,11 +149,17 @@ def hopeful(found: Scan, row: int) -> list[int]:
     the cubic's slopes, and by what the scan lets a cubic miss.
     """
     value, slope = found.value[row], found.slope[row]
+    width = float(np.ptp(found.x))
     if not np.isfinite(value).any():
         return []
     low, high = (float(side[row, 0]) for side in _range(found.value))
+    if high - low <= ROUNDING * max(abs(low), abs(high)):
+        return []  # a constant, whose slopes are rounding
     with np.errstate(invalid="ignore"):
         turns = (slope[:-1] > 0.0) & (slope[1:] <= 0.0) & found.joined
         rise = np.diff(found.x) * (slope[:-1] - slope[1:]) * (4.0 / 27.0)
-        reach = np.maximum(value[:-1], value[1:]) + rise + 4.0 * PREDICTED * (high - low)
-        return [int(i) for i in np.flatnonzero(turns & (reach >= high))]
+        top = np.maximum(value[:-1], value[1:])
+        reach = top + rise + 4.0 * PREDICTED * (high - low)
+        # where a narrow pair holds no more than rounding, its samples are the top
+        more = (rise > TINY * max(abs(low), abs(high))) | (np.diff(found.x) > NARROW * width)
+        return [int(i) for i in np.flatnonzero(turns & more & (reach >= high))]

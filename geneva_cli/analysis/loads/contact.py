@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import all_true, library
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sqrt
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> C
     At mid-motion of a curved slot only the values have a limit, that of the way in: there
     ``order`` must be 0.
     """
-    if is_straight(engagement):
+    if is_straight(engagement) or all_true(input_deg != 0.0):
         return _beside(engagement, input_deg, order)
 
     def beside(x: Coefficient) -> Jet:
@@ -122,7 +122,8 @@ def _held(
     """The joints' reactions to three unit loads at the pin."""
     if engagement.joints is None:
         return None
-    px, py = engagement.path(x, lever.order)
+    path = engagement.path(x, lever.order + 1)
+    px, py = (_cut(jet, lever.order) for jet in path)
     square = px * px + py * py
     # the tangent of which M . t and M x t are known
     tx, ty = (px * lever - py * aside) / square, (py * lever + px * aside) / square
@@ -133,7 +134,7 @@ def _held(
         (tangent, none),
         ((none, none), none + 1.0),
     )
-    return tuple(engagement.joints(x, force, couple) for force, couple in loads)
+    return tuple(engagement.joints(x, path, loads))
 
 
 def _middle(engagement: Engagement) -> list[float]:

@@ -105,8 +105,8 @@ def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> list[float]
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
     out = []
-    for i in found.changes(0):
-        low, high, number = float(found.x[i]), float(found.x[i + 1]), int(found.span[i])
+    for i, j in zip(*found.changes(0), strict=True):
+        low, high, number = float(found.x[i]), float(found.x[j]), int(found.span[i])
 
         def here(way: float, low: float = low, number: int = number) -> tuple[float, float]:
             return above(low + way, number)

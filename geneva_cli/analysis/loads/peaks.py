@@ -22,7 +22,7 @@ from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.numerics.roots import root
-from geneva_cli.numerics.roots_many import roots_many
+from geneva_cli.numerics.roots_many import Roots, roots_between
 from geneva_cli.numerics.scan import Scan, hopeful, scan
 
 if TYPE_CHECKING:
@@ -132,16 +132,18 @@ def _cut_at_zeros(
         return _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
-    after = found.changes(0)
-    after = after[_inner(found)[after]]
-    number = found.span[after]
+    before, after = found.changes(0)
+    inner = _inner(found)[before]
+    before, after = before[inner], after[inner]
+    number = found.span[before]
 
     def zero(way: Array, which: Whole) -> tuple[Array, Array]:
-        x, span = found.x[after[which]] + way, number[which]
+        x, span = found.x[before[which]] + way, number[which]
         value, slope = _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
-        return value[0], slope[0]
+        return np.where(abs(value[0]) > bar, value[0], 0.0), slope[0]
 
-    cuts = _zeros(zero, found, after)
+    value, bar = found.value[0], found.noise(0)
+    cuts = found.x[before] + _zeros(zero, found, before, after, value[before], value[after]).x
     out = []
     for i, piece in enumerate(pieces):
         places = [piece.start, *cuts[number == i].tolist(), piece.end]
@@ -167,13 +169,20 @@ def _inner(found: Scan) -> Mask:
     return inner
 
 
-def _zeros(of: Callable[[Array, Whole], tuple[Array, Array]], found: Scan, after: Whole) -> Array:
-    """Zeros between samples and the next, to a last place of the bracket: near 0 doubles are finer
-    than angles, so ``of`` takes the way from the first sample on.
+def _zeros(
+    of: Callable[[Array, Whole], tuple[Array, ...]],
+    found: Scan,
+    before: Whole,
+    after: Whole,
+    *ends: Array,
+) -> Roots:
+    """Zeros between samples, of functions known at both, to a last place of the bracket.
+
+    Near 0 doubles are finer than angles, so ``of`` takes the way from the first sample on.
     """
-    width = found.x[after + 1] - found.x[after]
-    ways: Array = found.x[after] + roots_many(of, 0.0 * width, width, STEP)
-    return ways
+    width = found.x[after] - found.x[before]
+    first, last = ends
+    return roots_between(of, 0.0 * width, width, (first, last), STEP)
 
 
 def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
@@ -232,26 +241,29 @@ def _tops(
     inner = _inner(found)
     hopes = [(row, i) for row in range(len(found.value)) for i in hopeful(found, row) if inner[i]]
     out: list[list[tuple[float, float]]] = [[] for _ in found.value]
+    for number, i in hopes:  # a sample may be the top itself
+        if found.slope[number, i + 1] == 0.0:
+            out[number].append((float(found.x[i + 1]), float(found.value[number, i + 1])))
+    hopes = [(number, i) for number, i in hopes if found.slope[number, i + 1]]
     if not hopes:
         return out
-    row, after = (np.array(side) for side in zip(*hopes, strict=True))
+    row, before = (np.array(side) for side in zip(*hopes, strict=True))
 
-    def jets(x: Array, which: Whole, order: int) -> list[Coefficient]:
-        """Taylor coefficients, each of the row that is asked for."""
-        asked = rows(contact(engagement, x, order), *signs[:, found.span[after[which]]])
-        pick = row[which], np.arange(len(x))
-        every = [
-            [np.broadcast_to(one.value.c[k], x.shape) for one in asked] for k in range(order + 1)
-        ]
-        return [np.array(each)[pick] for each in every]
+    def jets(way: Array, which: Whole) -> tuple[Array, Array, Array]:
+        """Slope, bend and value, each of the row that is asked for."""
+        at = contact(engagement, found.x[before[which]] + way, 2)
+        asked = [one.value.c for one in rows(at, *signs[:, found.span[before[which]]])]
+        pick = row[which], np.arange(len(way))
+        value, slope, bend = (
+            np.array([np.broadcast_to(c[k], way.shape) for c in asked])[pick] for k in range(3)
+        )
+        return slope, 2.0 * DEGREE * bend, value
 
-    def slope(way: Array, which: Whole) -> tuple[Array, Array]:
-        c = jets(found.x[after[which]] + way, which, 2)
-        return c[1], 2.0 * c[2] * DEGREE
-
-    x = _zeros(slope, found, after)
-    for i, place, value in zip(row, x.tolist(), jets(x, np.arange(len(x)), 0)[0], strict=True):
-        out[i].append((place, float(value)))
+    slopes = found.slope[row, before], found.slope[row, before + 1]
+    way, step, (slope, _, value) = _zeros(jets, found, before, before + 1, *slopes)
+    value = value + 0.5 * DEGREE * slope * step  # on the parabola through the last place but one
+    for i, place, most in zip(row, (found.x[before] + way).tolist(), value.tolist(), strict=True):
+        out[i].append((place, most))
     return out
 
 

@@ -6,8 +6,9 @@ Any law that turns the wheel on at mid-motion can be had so, with one slot and a
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Needs, Plan
@@ -67,30 +68,33 @@ class Cam(PinPath):
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
         body = Turning(-wheel.SIGN)  # the roller slides along the crank, and turns with it
-        slot, joints = RadialSlot(path), Slide(path)
+        slot, joints = RadialSlot(path), Slide()
         engagement = Engagement(0.0, path, slot, turned, groove=path, body=body, joints=joints)
         ratio = path.distances(0.0, 0)[1].c[0]
         return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
 
 
-class Slide(NamedTuple):
+class Slide:
     """The roller's slide cut free: the groove's wall holds it, and the crank across its arm.
 
     What the crank holds besides is a couple.
     """
 
-    path: SolvedPath
-
-    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
-        """Reactions of the crank's shaft, and of the groove."""
-        order = moment.order
-        x, y = self.path(input_deg, order + 1)
+    def __call__(
+        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions of the crank's shaft, and of the groove, to each load."""
+        x, y = path
         wall = y.derivative() * -1.0, x.derivative()
-        arm = Jet(x.c[: order + 1]) - 1.0, Jet(y.c[: order + 1])
+        arm = Jet(x.c[:-1]) - 1.0, Jet(y.c[:-1])
         across = arm[1] * -1.0, arm[0]
         turning = cross(wall, across)
-        push, hold = cross(force, wall) / turning, cross(force, across) / (turning * -1.0)
-        return (across[0] * push, across[1] * push), (wall[0] * hold, wall[1] * hold)
+        out = []
+        for force, _ in loads:
+            push, hold = cross(force, wall) / turning, cross(force, across) / (turning * -1.0)
+            crank = across[0] * push, across[1] * push
+            out.append((crank, (wall[0] * hold, wall[1] * hold)))
+        return out
 
 
 def _half_way(law: Law) -> float:

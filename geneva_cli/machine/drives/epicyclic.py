@@ -8,6 +8,7 @@ this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b. The
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
@@ -137,14 +138,19 @@ class PlanetJoints(NamedTuple):
     rp: Coefficient
     c: Coefficient
 
-    def __call__(self, input_deg: Coefficient, force: Vector, moment: Jet) -> tuple[Vector, Vector]:
-        """Reactions of the carrier's shaft, and of the fixed gear."""
-        turn = Jet.variable(radians(input_deg), moment.order)
+    def __call__(
+        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions of the carrier's shaft, and of the fixed gear, to each load."""
+        turn = Jet.variable(radians(input_deg), path[0].order - 1)
         (s, c), (sp, cp) = sin_cos(turn), sin_cos(turn * self.c)
         across, planet = (s * -1.0, c * -1.0), (cp * -self.rp, sp * self.rp)
-        push = (cross(planet, force) + moment) * (self.c / self.R0)
-        third = across[0] * push, across[1] * push
-        return (force[0] + third[0], force[1] + third[1]), third
+        out = []
+        for force, moment in loads:
+            push = (cross(planet, force) + moment) * (self.c / self.R0)
+            third = across[0] * push, across[1] * push
+            out.append(((force[0] + third[0], force[1] + third[1]), third))
+        return out
 
 
 class Arms(NamedTuple):
