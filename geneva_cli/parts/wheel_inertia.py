@@ -12,12 +12,14 @@ from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
 
+FINE = 2e-6  # of the centre distance: what walls may hide there is not felt in a mass
+
 
 def wheel_body(mechanism: Mechanism) -> Body | None:
     """The wheel's mass and inertia about its axis, hubs left out; None where no thickness is given.
 
     J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem:
-    exact for lines and arcs, and to a billionth for curved walls. Raises GenevaError where the
+    exact for lines and arcs, and to a millionth for curved walls. Raises GenevaError where the
     machine has no flat parts, or its sizes leave none.
     """
     spec = mechanism.spec
@@ -51,7 +53,7 @@ def _slot(where: Plane, size: Sizes, engagement: Engagement) -> tuple[Contour, M
     if engagement.slot.curved:
         from geneva_cli.parts.walls.chain import chain  # much, which straight slots do without
 
-        pieces = [piece.samples() for piece in chain(where, size, engagement)]
+        pieces = [piece.samples() for piece in chain(where, size, engagement, FINE)]
         walls = total(swept(*piece) for piece in pieces)
         start, end = pieces[0][0][0].tolist(), pieces[-1][0][-1].tolist()
     else:

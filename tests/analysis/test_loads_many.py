@@ -6,7 +6,7 @@ from design_arrays import MACHINES, alone, drawn
 
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.many import LOADS, are_smooth, extremes_of_many
-from geneva_cli.analysis.loads.summary import QUANTITIES
+from geneva_cli.analysis.loads.quantities import ends_of
 from geneva_cli.machine.many import many
 from geneva_cli.spec.tables import Load
 
@@ -28,7 +28,7 @@ def test_as_one_by_one(name):
     loads = extremes_of_many(found.machine)
     for row, i in enumerate(found.which):
         cycle = Cycle(alone(spec, varied, i))
-        for load, one in zip(LOADS, cycle.extremes(*[QUANTITIES[q] for q in LOADS]), strict=True):
+        for load, one in zip(LOADS, ends_of(cycle, *LOADS), strict=True):
             here = [values[row] for values in loads[load]]
             # both are within some 1e-15 of the load's greatest size; 1e-13 near a sector's limit
             size = 1e-13 * max(abs(one.max), abs(one.min))

@@ -52,14 +52,16 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact:
     return Contact._make([*[jet.c[0] for jet in found[:-1]], None])
 
 
-def contact(engagement: Engagement, input_deg: Coefficient, order: int = 0) -> Contact:
+def contact(
+    engagement: Engagement, input_deg: Coefficient, order: int = 0, joints: bool = True
+) -> Contact:
     """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
-    At mid-motion of a curved slot only the values have a limit, that of the way in: there
-    ``order`` must be 0.
+    Without ``joints`` nothing is asked of what holds the roller's body. At mid-motion of a curved
+    slot only the values have a limit, that of the way in: there ``order`` must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
-        return _beside(engagement, input_deg, order)
+        return _beside(engagement, input_deg, order, joints=joints)
 
     def beside(x: Coefficient) -> Jet:
         return Jet([c for jet in _beside(engagement, x, order)[:-1] for c in jet.c])
@@ -80,7 +82,11 @@ def is_straight(engagement: Engagement) -> bool:
 
 
 def _beside(
-    engagement: Engagement, x: Coefficient, order: int, rates: Jet | None = None
+    engagement: Engagement,
+    x: Coefficient,
+    order: int,
+    rates: Jet | None = None,
+    joints: bool = True,
 ) -> Contact:
     """Wherever the pin moves in its slot, or the slot is straight.
 
@@ -112,7 +118,7 @@ def _beside(
     touches = constant + engagement.slot.touches(x)
     spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
-    held = _held(engagement, x, lever, aside)
+    held = _held(engagement, x, lever, aside) if joints else None
     return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches, held)
 
 

@@ -58,7 +58,8 @@ class Cycle:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.given: Setting = setting(mechanism)
-        self.found: dict[str, Extremes] = {}  # by name, as ``ends_of`` looks for them
+        # of each engagement, by name, as ``ends_of`` looks for them
+        self.found: dict[str, list[Extremes]] = {}
 
     @property
     def is_loaded(self) -> bool:
@@ -108,17 +109,18 @@ class Cycle:
             at = contacts(engagement, input_deg)
             return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.pays))
 
-    def extremes(self, *quantities: Quantity) -> list[Extremes]:
-        """Greatest and least value of each quantity over all motions; dwells left out."""
-        best = [[-math.inf, 0.0, -math.inf, 0.0] for _ in quantities]
+    def extremes(self, *quantities: Quantity) -> list[list[Extremes]]:
+        """Greatest and least value of each quantity over each motion; dwells left out."""
+        every: list[list[Extremes]] = [[] for _ in quantities]
         for engagement in self.mechanism.engagements:
             found = maxima(engagement, self.given, self._both_ways(quantities), -math.inf)
-            for i, pair in enumerate(zip(found[::2], found[1::2], strict=True)):
-                for side, one in enumerate(pair):
-                    if one.max > best[i][2 * side]:
-                        at_deg = self.mechanism.shown_deg(engagement.mid_deg + one.at_deg)
-                        best[i][2 * side : 2 * side + 2] = one.max, at_deg
-        return [Extremes(a, at, -b, bt) for a, at, b, bt in best]
+            for most, least, of in zip(found[::2], found[1::2], every, strict=True):
+                at, bt = (
+                    self.mechanism.shown_deg(engagement.mid_deg + one.at_deg)
+                    for one in (most, least)
+                )
+                of.append(Extremes(most.max, at, -least.max, bt))
+        return every
 
     def _both_ways(
         self, quantities: Sequence[Quantity]

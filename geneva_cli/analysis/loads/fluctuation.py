@@ -12,15 +12,15 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.instant import instant, values
-from geneva_cli.analysis.loads.peaks import stretches, whole
+from geneva_cli.analysis.loads.means import TORQUE, means_of
+from geneva_cli.analysis.loads.peaks import stretches, whole, zeros
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.quadrature import integral_of_each
-from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.scan import scan
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array, Coefficient
+    from geneva_cli.numerics.jet import Array
     from geneva_cli.numerics.scan import Whole
 
 
@@ -34,12 +34,11 @@ def fluctuation_J(cycle: Cycle) -> float:
     integrated between. Of inertia alone it is I w² psi1max²/2. Infinite where the torque's
     integral is.
     """
-    work, square = cycle.integrals(lambda i: i.input_torque_Nm, lambda i: i.input_torque_Nm**2)
-    mean = work / cycle.period
-    if not np.isfinite(square):
+    found = means_of(cycle).get(TORQUE)
+    if found is None or not np.isfinite(found.square):
         return float("inf")
-    if mean * mean <= NOUGHT * square / cycle.period:
-        mean = 0.0  # of inertia alone, but for rounding
+    # of inertia alone the mean is nothing but rounding
+    mean = found.mean if found.mean**2 > NOUGHT * found.square else 0.0
     parts, end = [], None
     for engagement in cycle.mechanism.engagements:
         if end is not None:
@@ -74,14 +73,14 @@ def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float
     pieces = whole(engagement, given)
     ends = [piece.start for piece in pieces]
     # where the mean is nothing the torque changes sign, and there the pieces are cut already
-    crossed = _crossings(cycle, engagement, mean) if mean else []
+    crossed = _crossings(cycle, engagement, mean).tolist() if mean else []
     places = sorted({*ends, *crossed, pieces[-1].end})
     spans = list(pairwise(places))
     of = np.array([bisect(ends, 0.5 * (a + b)) - 1 for a, b in spans])
     signs = np.array([piece[2:] for piece in pieces]).T
 
     def torque(x: Array, span: Whole) -> Array:
-        at = contact(engagement, x)
+        at = contact(engagement, x, joints=False)
         out: Array = values(instant(given, at, *signs[:, of[span]])).input_torque_Nm
         return out
 
@@ -89,14 +88,16 @@ def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float
     return [(work * DEGREE, (b - a) * DEGREE) for work, (a, b) in zip(works, spans, strict=True)]
 
 
-def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> list[float]:
+def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> Array:
     """Input angles at which the torque is its mean, from the engagement's mid-motion."""
     given = cycle.given
     pieces = stretches(engagement, given)
     signs = np.array([piece[2:] for piece in pieces]).T
 
-    def above(x: Coefficient, span: Whole | int) -> tuple[Coefficient, Coefficient]:
-        c = instant(given, contact(engagement, x, 1), *signs[:, span]).input_torque_Nm.c
+    def above(x: Array, span: Whole) -> tuple[Array, Array]:
+        c = instant(
+            given, contact(engagement, x, 1, joints=False), *signs[:, span]
+        ).input_torque_Nm.c
         return c[0] - mean, c[1] * DEGREE
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
@@ -104,12 +105,7 @@ def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> list[float]
         return value, slope
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
-    out = []
-    for i, j in zip(*found.changes(0), strict=True):
-        low, high, number = float(found.x[i]), float(found.x[j]), int(found.span[i])
-
-        def here(way: float, low: float = low, number: int = number) -> tuple[float, float]:
-            return above(low + way, number)
-
-        out.append(low + root(here, 0.0, high - low))
-    return out
+    before, after = found.changes(0)
+    return zeros(
+        lambda x, which: above(x, found.span[before[which]]), found, 0 * before, before, after
+    )

@@ -34,14 +34,24 @@ class Instant(NamedTuple):
     power_W: Coefficient  # input torque times input speed
     friction_W: Coefficient  # that the contact turns to heat
     wheel_bearing_N: Coefficient  # size of the force on the wheel, and so of its shaft's reaction
-    crank_bearing_N: Coefficient  # likewise of the shaft whose crank carries the roller or link
-    guide_force_N: Coefficient | None  # of rocker, slider, groove or fixed gear; None without
+    crank_bearing_squared: Coefficient  # of the shaft whose crank carries the roller or link, N²
+    guide_squared: Coefficient | None  # of rocker, slider, groove or fixed gear; None without
     drives: Coefficient  # sign of the wheel's torque
     slides: Coefficient  # sign of the sliding
     pays: Coefficient  # sign of the input's torque
     grip: Coefficient  # where it is not above 0, friction alone holds the wheel: forces are endless
     held: Coefficient | None  # the same for what friction alone makes endless; None without
     edge: Coefficient | None  # the same for the stress alone: the wall is sharper than the roller
+
+    @property
+    def crank_bearing_N(self) -> Coefficient:
+        """Size of the force on the crank's shaft, and so of its bearings' reaction."""
+        return _root(self.crank_bearing_squared)
+
+    @property
+    def guide_force_N(self) -> Coefficient | None:
+        """Size of the guide's force; None without one."""
+        return None if self.guide_squared is None else _root(self.guide_squared)
 
     @property
     def stress(self) -> Row:
@@ -57,9 +67,9 @@ class Instant(NamedTuple):
 
     @property
     def guide(self) -> Row:
-        """The guide's force, likewise."""
-        assert self.guide_force_N is not None  # there is a guide
-        return Row(self.guide_force_N, self.grip)
+        """The square of the guide's force, likewise."""
+        assert self.guide_squared is not None  # there is a guide
+        return Row(self.guide_squared, self.grip)
 
     @property
     def pin_force(self) -> Row:
@@ -112,23 +122,28 @@ def _joints(
     rub: Coefficient,
     on_wheel: Jet,
 ) -> tuple[Jet, Jet | None]:
-    """Sizes of the reactions on the crank's shaft, and of what guides the roller's body besides.
+    """Squares of the reactions on the crank's shaft, and of what guides the roller's body besides.
 
     The pin pushes the wall along d i t + f s t; about its centre that force has a couple too.
     """
     if at.held is None:  # the crank is the roller's body, and what turns it gives it a couple
-        return on_wheel, None
+        return on_wheel * on_wheel, None
     normal, tangent, couple = at.held
     turn = rub * drives * given.radius
 
-    def size(joint: int) -> Jet:
+    def square(joint: int) -> Jet:
         x, y = (
             normal[joint][i] * drives + tangent[joint][i] * rub - couple[joint][i] * turn
             for i in (0, 1)
         )
-        return force * sqrt(x * x + y * y)
+        out: Jet = force * force * (x * x + y * y)
+        return out
 
-    return size(0), size(1)
+    return square(0), square(1)
+
+
+def _root(square: Coefficient) -> Coefficient:
+    return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
 
 
 def values(found: Instant) -> Instant:
@@ -143,10 +158,10 @@ def bounded(found: Instant) -> Instant:
     bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
     out = here._asdict()
     out["pin_force_N"] = np.where(held, here.pin_force_N, bound * here.drives)
-    for name in ("wheel_bearing_N", "crank_bearing_N"):
+    for name in ("wheel_bearing_N", "crank_bearing_squared"):
         out[name] = np.where(held, out[name], bound)
-    if here.guide_force_N is not None:
-        out["guide_force_N"] = np.where(held, here.guide_force_N, bound)
+    if here.guide_squared is not None:
+        out["guide_squared"] = np.where(held, here.guide_squared, bound)
     if here.held is not None:
         for name in ("input_torque_Nm", "power_W", "friction_W"):
             out[name] = np.where(held, out[name], bound)

@@ -44,7 +44,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) 
 
     given = setting(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
-    at = contact(engagement, x)
+    at = contact(engagement, x, joints=False)
     torque = at.acceleration.c[0] * given.inertia_Nm + given.resists_Nm
     drives = np.copysign(1.0, torque)
     slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])

@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, is_straight
-from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, gain, sliding
+from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, gain, sliding, value
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.numerics.roots import root
-from geneva_cli.numerics.roots_many import Roots, roots_between
+from geneva_cli.numerics.roots_many import Roots, roots_between, roots_many
 from geneva_cli.numerics.scan import Scan, hopeful, scan
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
 STEP = 1e-9  # share of a bracket: after so short a Newton step, what is left is rounding
+CLOSE = 1e-14  # share of an angle that is rounding
 TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier is meant
 
 
@@ -48,6 +49,9 @@ class Stretch(NamedTuple):
 Rows: TypeAlias = Callable[[Contact, Coefficient, Coefficient, Coefficient], list[Row]]
 
 
+Signed: TypeAlias = Callable[[Contact], Coefficient]  # something whose sign is asked for
+
+
 @lru_cache(maxsize=256)
 def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     """The motion cut where its loads have kinks or jumps.
@@ -56,21 +60,81 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     it keeps away from the slopes that are rounding.
     """
 
-    def torque(at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
+    def torque(at: Contact) -> Coefficient:
         return at.acceleration * given.inertia_Nm + given.resists_Nm
 
-    def rubs(at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
-        return sliding(at, drives, given.radius)
+    def rubs(drives: float) -> Signed:
+        return lambda at: sliding(at, drives, given.radius)
 
-    def shaft(at: Contact, drives: Coefficient, slides: Coefficient) -> Jet:
-        torque: Jet = gain(given, at, drives, slides) * drives
-        return torque
+    def shaft(drives: float, slides: float) -> Signed:
+        return lambda at: gain(given, at, drives, slides) * drives
 
+    ways = (1.0, -1.0) if given.inertia_Nm else (1.0,)
+    pairs = [(drives, slides) for drives in ways for slides in (1.0, -1.0)]
+    functions = [*map(rubs, ways), *[shaft(*pair) for pair in pairs]]
     cut = [Stretch(a, b, 1.0, 1.0, 1.0) for a, b in _smooth(engagement)]
     if given.inertia_Nm:
-        cut = _cut_at_zeros(engagement, cut, torque, "drives")
-    cut = _cut_at_zeros(engagement, cut, rubs, "slides")
-    return tuple(_cut_at_zeros(engagement, cut, shaft, "pays"))
+        functions.append(torque)
+    signs = Signs(engagement, [piece[:2] for piece in cut], functions)
+    if given.inertia_Nm:
+        cut = signs.cut(cut, lambda piece: -1, "drives")
+    cut = signs.cut(cut, lambda piece: ways.index(piece.drives), "slides")
+    first = len(ways)
+    return tuple(signs.cut(cut, lambda piece: first + pairs.index(piece[2:4]), "pays"))
+
+
+class Signs:
+    """Where functions of the contact change sign over some spans, looked for all at once."""
+
+    def __init__(
+        self,
+        engagement: Engagement,
+        spans: Sequence[tuple[float, float]],
+        functions: Sequence[Signed],
+    ) -> None:
+        self.engagement, self.functions = engagement, functions
+
+        def sampled(x: Array, _: Whole) -> tuple[Array, Array]:
+            at = contact(engagement, x, 1, joints=False)
+            return _columns([of(at) for of in functions], x)
+
+        self.found = found = scan(sampled, spans)
+        inner = _inner(found)
+        ends = [found.changes(row) for row in range(len(functions))]
+        kept = [(before[inner[before]], after[inner[before]]) for before, after in ends]
+        self.row = np.repeat(np.arange(len(kept)), [len(before) for before, _ in kept])
+        before, after = (np.concatenate(side) for side in zip(*kept, strict=True))
+
+        def line(x: Array, which: Whole) -> tuple[Array, Array]:
+            value, slope = sampled(x, which)
+            pick = self.row[which], np.arange(len(x))
+            return value[pick], slope[pick]
+
+        self.zeros = zeros(line, found, self.row, before, after)
+
+    def cut(
+        self, pieces: Sequence[Stretch], row: Callable[[Stretch], int], sign: str
+    ) -> list[Stretch]:
+        """The pieces cut at the zeros of the function that ``row`` tells, with its sign between."""
+        out = []
+        for piece in pieces:
+            number = row(piece) % len(self.functions)
+            low, high = (piece.start + CLOSE * abs(piece.start), piece.end - CLOSE * abs(piece.end))
+            places = np.sort(self.zeros[self.row == number])
+            places = places[(places > low) & (places < high)]
+            for a, b in pairwise([piece.start, *places.tolist(), piece.end]):
+                cut = piece._replace(start=a, end=b)
+                out.append(cut._replace(**{sign: self._sign(number, a, b)}))
+        return out
+
+    def _sign(self, row: int, a: float, b: float) -> float:
+        """Of a function between two of its zeros: that of its greatest sample."""
+        inside = (self.found.x > a) & (self.found.x < b)
+        if inside.any():
+            values = self.found.value[row, inside]
+            return math.copysign(1.0, float(values[np.argmax(abs(values))]))
+        middle = contact(self.engagement, 0.5 * (a + b), joints=False)
+        return math.copysign(1.0, float(np.ravel(value(self.functions[row](middle)))[0]))
 
 
 def cusps(engagement: Engagement, pieces: Sequence[Stretch]) -> list[tuple[int, float]]:
@@ -119,43 +183,6 @@ def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
     return out
 
 
-def _cut_at_zeros(
-    engagement: Engagement,
-    pieces: list[Stretch],
-    of: Callable[[Contact, Coefficient, Coefficient], Coefficient],
-    sign: str,
-) -> list[Stretch]:
-    """The pieces cut at the zeros of a jet, with its sign between them."""
-    drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
-
-    def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
-        return _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
-
-    found = scan(sampled, [(p.start, p.end) for p in pieces])
-    before, after = found.changes(0)
-    inner = _inner(found)[before]
-    before, after = before[inner], after[inner]
-    number = found.span[before]
-
-    def zero(way: Array, which: Whole) -> tuple[Array, Array]:
-        x, span = found.x[before[which]] + way, number[which]
-        value, slope = _columns([of(contact(engagement, x, 1), drives[span], slides[span])], x)
-        return np.where(abs(value[0]) > bar, value[0], 0.0), slope[0]
-
-    value, bar = found.value[0], found.noise(0)
-    cuts = found.x[before] + _zeros(zero, found, before, after, value[before], value[after]).x
-    out = []
-    for i, piece in enumerate(pieces):
-        places = [piece.start, *cuts[number == i].tolist(), piece.end]
-        for a, b in pairwise(places):
-            if a < b:
-                at = contact(engagement, 0.5 * (a + b))
-                middle = of(at, piece.drives, piece.slides).c[0]
-                cut = piece._replace(start=a, end=b)
-                out.append(cut._replace(**{sign: math.copysign(1.0, middle)}))
-    return out
-
-
 def _inner(found: Scan) -> Mask:
     """Of each sample whether what is found after it is not the stretch's end itself.
 
@@ -169,14 +196,37 @@ def _inner(found: Scan) -> Mask:
     return inner
 
 
-def _zeros(
+def zeros(
+    of: Callable[[Array, Whole], tuple[Array, Array]],
+    found: Scan,
+    row: Whole,
+    before: Whole,
+    after: Whole,
+) -> Array:
+    """Where functions of a scan are zero between samples, to a last place of the bracket.
+
+    ``row`` are their numbers in the scan. ``of`` gives value and slope; what is rounding beside a
+    function's greatest value counts as zero.
+    """
+    bar = np.array([found.noise(number) for number in range(len(found.value))])[row]
+
+    def line(way: Array, which: Whole) -> tuple[Array, Array]:
+        value, slope = of(found.x[before[which]] + way, which)
+        return np.where(abs(value) > bar[which], value, 0.0), slope
+
+    ends = found.value[row, before], found.value[row, after]
+    out: Array = found.x[before] + _between_samples(line, found, before, after, *ends).x
+    return out
+
+
+def _between_samples(
     of: Callable[[Array, Whole], tuple[Array, ...]],
     found: Scan,
     before: Whole,
     after: Whole,
     *ends: Array,
 ) -> Roots:
-    """Zeros between samples, of functions known at both, to a last place of the bracket.
+    """Roots between samples of functions known at both.
 
     Near 0 doubles are finer than angles, so ``of`` takes the way from the first sample on.
     """
@@ -213,6 +263,7 @@ def maxima(
     found = scan(sampled, [(p.start, p.end) for p in pieces])
     ends = _at_mid_motion(engagement, given, pieces, rows, least)
     tops = _tops(engagement, found, rows, signs)
+    brinks: dict[int, float] = {}
     out = []
     for i in range(len(found.value)):
 
@@ -221,11 +272,21 @@ def maxima(
 
         lost = np.isnan(found.value[i])
         if lost.any():
-            out.append(Greatest(math.inf, _brink(found, lost, pieces, at)))
+            first = _first_with_room(engagement, pieces[0], rows, i)
+            if first not in brinks:
+                brinks[first] = _brink(found, lost, pieces, at)
+            out.append(Greatest(math.inf, brinks[first]))
         else:
             places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
             out.append(_greatest(places, engagement, least))
     return out
+
+
+def _first_with_room(engagement: Engagement, piece: Stretch, rows: Rows, row: int) -> int:
+    """The first row that ceases to have a bound where this one does: they need the same."""
+    asked = rows(contact(engagement, np.array([piece.end]), 1), *piece[2:])
+    same = [one.room is asked[row].room and bool(np.all(one.way > 0.0)) for one in asked]
+    return same.index(True)
 
 
 def _ends(found: Scan, row: int) -> list[tuple[float, float]]:
@@ -260,7 +321,7 @@ def _tops(
         return slope, 2.0 * DEGREE * bend, value
 
     slopes = found.slope[row, before], found.slope[row, before + 1]
-    way, step, (slope, _, value) = _zeros(jets, found, before, before + 1, *slopes)
+    way, step, (slope, _, value) = _between_samples(jets, found, before, before + 1, *slopes)
     value = value + 0.5 * DEGREE * slope * step  # on the parabola through the last place but one
     for i, place, most in zip(row, (found.x[before] + way).tolist(), value.tolist(), strict=True):
         out[i].append((place, most))
@@ -296,6 +357,7 @@ def _at_mid_motion(
     ways = (1.0,) if retraces(engagement) else (1.0, -1.0)
     common = given.inertia_Nm * abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
     loaded = abs(needed) > ZERO * (common + given.resists_Nm)
+    limits = [_towards_mid_motion(engagement, piece, rows) for piece in beside]
     out: list[float] = []
     for way in ways:
         here = at._replace(along=at.along * way, aside=at.aside * way, curvature=at.curvature * way)
@@ -305,7 +367,7 @@ def _at_mid_motion(
             pays = float(np.ravel(gain(given, here, drives, slides).c[0])[0]) * drives
             asked = rows(here, drives, slides, math.copysign(1.0, pays))
         values = []
-        for i, row in enumerate(asked):
+        for row, limit in zip(asked, zip(*limits, strict=True), strict=True):
             room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])
             value = float(np.ravel(row.value.c[0])[0])
             if room > ZERO and math.isfinite(value):
@@ -313,17 +375,17 @@ def _at_mid_motion(
             elif loaded:
                 values.append(math.copysign(math.inf, row.way))
             else:
-                values.append(max(_towards_mid_motion(engagement, p, rows, i) for p in beside))
+                values.append(max(limit))
         out = [max(pair) for pair in zip(out, values, strict=True)] if out else values
     return out
 
 
-def _towards_mid_motion(engagement: Engagement, piece: Stretch, rows: Rows, row: int) -> float:
-    """The limit of 0/0 there, from the stretch beside it."""
+def _towards_mid_motion(engagement: Engagement, piece: Stretch, rows: Rows) -> list[float]:
+    """The limits of 0/0 there, from the stretch beside it."""
     x = piece.end if piece.end < 0.0 else piece.start
     h = math.radians(x)
-    c = rows(contact(engagement, x, 2), *piece[2:])[row].value.c
-    return float(c[0] - h * (c[1] - h * c[2]))
+    every = [row.value.c for row in rows(contact(engagement, x, 2), *piece[2:])]
+    return [float(c[0] - h * (c[1] - h * c[2])) for c in every]
 
 
 def _at_break(x: float, engagement: Engagement) -> float:
@@ -343,23 +405,13 @@ def _brink(
     if not len(turns):
         return float(found.x[np.argmax(lost)])
     i = int(turns[0])
+    start, width = float(found.x[i]), np.array([found.x[i + 1] - found.x[i]])
     piece = pieces[found.span[i]]
 
-    def room(x: float) -> Jet:
-        # as an array, whose quotients by what is needed may be infinite
-        needed = at(np.array([x]), piece, 1).room
+    def room(way: Array, _: Whole) -> tuple[Array, Array]:
+        needed = at(start + way, piece, 1).room
         assert needed is not None
-        return Jet([float(np.ravel(c)[0]) for c in needed.c])
+        value, slope = needed.c
+        return value + 0.0 * way, slope * DEGREE + 0.0 * way
 
-    with np.errstate(all="ignore"):
-        return _zero(room, float(found.x[i]), float(found.x[i + 1]))
-
-
-def _zero(of: Callable[[float], Jet], low: float, high: float) -> float:
-    """Where a jet is zero, to a last place of the bracket."""
-
-    def line(way: float) -> tuple[float, float]:
-        c = of(low + way).c
-        return c[0], c[1] * DEGREE
-
-    return low + root(line, 0.0, high - low)
+    return start + float(roots_many(room, 0.0 * width, width, STEP)[0])

@@ -9,12 +9,12 @@ from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
 from geneva_cli.analysis.loads.fluctuation import fluctuation_J, flywheel_kgm2
 from geneva_cli.analysis.loads.makers_form import Load, MakersForm, makers_form
-from geneva_cli.analysis.loads.quantities import ends_of
-from geneva_cli.analysis.peaks import acceleration_peak, peak, velocity_peak
+from geneva_cli.analysis.loads.means import DRIVEN, TORQUE, means_of
+from geneva_cli.analysis.loads.quantities import KINETIC, ends_of, ends_of_each
+from geneva_cli.analysis.peaks import velocity_peak
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.cycle import Cycle
-    from geneva_cli.numerics.jet import Coefficient
     from geneva_cli.spec.tables import Motor
 
 
@@ -70,17 +70,21 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
 def _form(cycle: Cycle) -> Sizing:
     """The makers' form, for the engagement that asks most of the input."""
     mechanism, spec = cycle.mechanism, cycle.mechanism.spec
-    friction = support_torque_Nm(spec)
+    friction, w = support_torque_Nm(spec), cycle.given.speed_rad_s
     load = Load(inertia_kgm2(spec), friction, spec.load.torque_Nm, spec.motor.service_factor)
     best: tuple[MakersForm, CamFactors] | None = None
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
-        invariants = (
-            velocity_peak(engagement).max,
-            acceleration_peak(engagement).max,
-            peak(engagement.motion, "power").max,
+        known = engagement.motion.known
+        velocity, acceleration, power = (
+            found.size if (found := known(invariant)) else _greatest(cycle, quantity, number) / unit
+            for invariant, quantity, unit in (
+                ("velocity", "omega_rad_s", w),
+                ("acceleration", "alpha_rad_s2", w * w),
+                ("power", KINETIC, w * w * w),
+            )
         )
-        factors = cam_factors(*invariants, motion, step)
+        factors = cam_factors(velocity, acceleration, power, motion, step)
         form = makers_form(factors, step, motion, spec.drive.n_rpm, load)
         if best is None or (form.Tc, form.alpha) > (best[0].Tc, best[0].alpha):
             best = form, factors
@@ -96,17 +100,23 @@ def _form(cycle: Cycle) -> Sizing:
         total_torque_Nm=form.Tt,
         design_torque_Nm=form.Te,
         input_torque_Nm=form.Tc,
-        power_W=cycle.given.speed_rad_s * form.Tc / lost,
+        power_W=w * form.Tc / lost,
     )
+
+
+def _greatest(cycle: Cycle, quantity: str, engagement: int) -> float:
+    """The greatest size of a quantity over one of the motions."""
+    found = ends_of_each(cycle, quantity)[engagement]
+    return max(found.max, -found.min)
 
 
 def _exact(cycle: Cycle, form_torque: float | None) -> tuple[dict[str, float | None], list[str]]:
     """What the exact cycle says of motor and flywheel; that nothing bounds it, where that is so."""
     motor, w = cycle.mechanism.spec.motor, cycle.given.speed_rad_s
-    (torque,) = ends_of(cycle, "input_torque_Nm")
-    square = cycle.integrals(lambda i: _at_motor(motor, i.input_torque_Nm, i.pays) ** 2)[0]
+    (torque,) = ends_of(cycle, TORQUE)
+    means = means_of(cycle)
     out: dict[str, float | None] = _inertias(cycle, motor)
-    if not all(map(math.isfinite, (torque.max, torque.min, square))):
+    if TORQUE not in means or not math.isfinite(means[TORQUE].square):
         return out, ["sizing: nothing bounds the input's torque, so no motor or flywheel suffices"]
     swing = fluctuation_J(cycle)
     out["energy_fluctuation_J"] = swing
@@ -114,23 +124,17 @@ def _exact(cycle: Cycle, form_torque: float | None) -> tuple[dict[str, float | N
         whole = flywheel_kgm2(swing, motor.speed_variation, w)
         own = motor.inertia_kgm2 * motor.gear_ratio**2
         out |= {"flywheel_kgm2": whole, "flywheel_to_add_kgm2": max(whole - own, 0.0)}
-    pushed, held = _at_motor(motor, torque.max, 1.0), _at_motor(motor, torque.min, -1.0)
-    out["motor_torque_max_Nm"] = max(pushed, -held)
-    out["motor_torque_rms_Nm"] = math.sqrt(square / cycle.period)
+    # The reducer takes its share where it drives and where it is driven. At constant speed the
+    # rotor's own inertia takes no torque.
+    eta, ratio = motor.gear_efficiency, motor.gear_ratio
+    returned = means[DRIVEN].square
+    spent = max(means[TORQUE].square - returned, 0.0)
+    out["motor_torque_max_Nm"] = max(torque.max / eta, -torque.min * eta) / ratio
+    out["motor_torque_rms_Nm"] = math.sqrt(spent / eta**2 + returned * eta**2) / ratio
     size = max(torque.max, -torque.min)
     if form_torque and size:
         out["input_torque_ratio"] = form_torque / size
     return out, []
-
-
-def _at_motor(motor: Motor, torque: Coefficient, pays: Coefficient) -> Coefficient:
-    """The input's torque at the motor: the reducer takes its share where it drives and is driven.
-
-    ``pays`` is 1 where the input drives, -1 where the wheel does. At constant speed the rotor's
-    own inertia takes no torque.
-    """
-    eta = motor.gear_efficiency
-    return torque * (0.5 * (1.0 + pays) / eta + 0.5 * (1.0 - pays) * eta) / motor.gear_ratio
 
 
 def _inertias(cycle: Cycle, motor: Motor) -> dict[str, float | None]:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Integrand
+from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.quantities import PV, QUANTITIES, SQUARED, STRESS, ends_of, known
+from geneva_cli.analysis.loads.means import Means, means_of, plain_of
+from geneva_cli.analysis.loads.quantities import PRESSED, PV, SQUARED, STRESS, ends_of, known
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.numerics.jet import Coefficient
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
 PLACES = ("time_s", "input_deg", "wheel_deg")
 ZERO = 1e-15  # share of a peak that is rounding
-NOUGHT = ZERO * ZERO  # a mean whose square is so small a share of the mean square is rounding
 SHOWN = (
     "omega_rad_s",
     "alpha_rad_s2",
@@ -85,30 +85,15 @@ class Summary(NamedTuple):
         return Summary(**sized)
 
 
-def _squared(values: Coefficient, name: str) -> Coefficient:
-    return values if name in SQUARED else values * values
-
-
 @lru_cache(maxsize=16)
 def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     """The summary of each quantity, by its name; None for each value that is not known."""
     names = known(cycle)
     found = ends_of(cycle, *names)
 
-    # What has no bound has no mean either: nearly always, and never one to rely on.
-    summed = [name for name, ends in zip(names, found, strict=True) if _is_bounded(ends)]
-
-    def mean(name: str) -> Integrand:
-        return lambda i: _plain(i, name)
-
-    def square(name: str) -> Integrand:
-        return lambda i: _squared(QUANTITIES[name](i).value, name)
-
-    sums = cycle.integrals(*map(mean, summed), *map(square, summed))
-    means = [total / cycle.period for total in sums]
-    pairs = dict(zip(summed, zip(means, means[len(summed) :], strict=False), strict=True))
+    means = means_of(cycle)
     out = {
-        name: _summary(name, ends, pairs.get(name)) for name, ends in zip(names, found, strict=True)
+        name: _summary(name, ends, means.get(name)) for name, ends in zip(names, found, strict=True)
     }
     for name, (source, share, _) in shares(cycle).items():
         if share is not None and source in out:
@@ -120,7 +105,7 @@ def plain(cycle: Cycle, states: Instant, name: str) -> Coefficient:
     """A quantity of ``known``, or one that is its share, at states of the cycle."""
     source, share, _ = shares(cycle).get(name, (name, 1.0, ""))
     assert share is not None  # of what is known
-    return _plain(states, source) * share
+    return plain_of(states, source) * share
 
 
 def extremes(cycle: Cycle, names: Sequence[str]) -> list[Extremes]:
@@ -143,23 +128,12 @@ def _root(square: float) -> float:
     return math.sqrt(max(square, 0.0))
 
 
-def _is_bounded(ends: Extremes) -> bool:
-    return math.isfinite(ends.max) and math.isfinite(ends.min)
-
-
-def _plain(i: Instant, name: str) -> Coefficient:
-    value: Coefficient = QUANTITIES[name](i).value
-    return np.sqrt(abs(value)) if name in SQUARED else value
-
-
-def _summary(name: str, ends: Extremes, sums: tuple[float, float] | None) -> Summary:
+def _summary(name: str, ends: Extremes, means: Means | None) -> Summary:
     most, least = ends.max, ends.min
     if name in SQUARED:
         most, least = (math.sqrt(max(x, 0.0)) for x in (most, least))
         least = least if least > ZERO * most else 0.0
-    mean, square = sums or (None, None)
-    if mean is not None and square is not None and mean * mean <= NOUGHT * square:
-        mean = 0.0
+    mean, square = means or (None, None)
     return Summary(
         None if math.isinf(most) else most,
         ends.max_at_deg,
@@ -219,7 +193,7 @@ def missing(cycle: Cycle) -> list[str]:
             "[load], or a [[mass]]"
         ]
     wide = cycle.given.hertz is not None
-    out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in SQUARED]
+    out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     unknown: dict[str, list[str]] = {}
     for name, (_, share, needs) in shares(cycle).items():
         if share is None:
@@ -246,7 +220,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
-    found = {name: _plain(states, name) for name in known(cycle)}
+    found = {name: plain_of(states, name) for name in known(cycle)}
     for name, (source, share, _) in shares(cycle).items():
         if share is not None and source in found:
             found[name] = found[source] * share

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
-GRID = 121  # places and sections looked at first
-FINER = 13  # and around the best of them, time and again
-ROUNDS = 7
+GRID = 61  # places and sections looked at first
+FINER = 33  # and around the best of them, time and again
+ROUNDS = 4
 NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
 

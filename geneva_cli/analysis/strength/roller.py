@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import contact
+from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import forces, setting, sliding
-from geneva_cli.analysis.loads.peaks import whole
+from geneva_cli.analysis.loads.peaks import Signs, whole
 from geneva_cli.numerics.quadrature import integrals
 
 if TYPE_CHECKING:
@@ -64,10 +64,13 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
     0.146410161514
     """
     pieces = whole(engagement, given)
+    if not engagement.motion.symmetric and is_straight(engagement):  # else it turns at mid-motion
+        signs = Signs(engagement, [piece[:2] for piece in pieces], [lambda at: at.along])
+        pieces = signs.cut(pieces, lambda piece: 0, "pays")
     drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
 
     def rows(x: Array, span: Whole) -> list[Array]:
-        at = contact(engagement, x)
+        at = contact(engagement, x, joints=False)
         found = forces(given, at, drives[span], slides[span])
         rubs = abs(sliding(at, drives[span], given.radius).c[0]) * given.L
         with np.errstate(all="ignore"):

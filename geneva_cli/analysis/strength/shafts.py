@@ -76,22 +76,22 @@ def least_diameter_mm(moment_Nm: float, allowed_MPa: float) -> float:
 
 
 def on_wheel(i: Instant, at: Contact) -> tuple[Jet, Jet]:
-    """Force and torque on the wheel's shaft: what the slot takes, and what the wheel passes on."""
-    return i.wheel_bearing_N, i.wheel_torque_Nm
+    """Square of the force on the wheel's shaft, and torque: what slot and wheel pass on."""
+    return i.wheel_bearing_N * i.wheel_bearing_N, i.wheel_torque_Nm
 
 
 def on_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
-    """Force and torque on a crank's shaft that is the input shaft, or turns with it."""
-    return i.crank_bearing_N, i.input_torque_Nm
+    """Likewise of a crank's shaft that is the input shaft, or turns with it."""
+    return i.crank_bearing_squared, i.input_torque_Nm
 
 
 def on_driven_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
-    """Force and torque on the shaft of a crank with a transmission before it.
+    """Likewise of the shaft of a crank with a transmission before it.
 
     It turns at another rate than the input, that of the roller's body; the torque is as much less
     or more as the power asks.
     """
-    return i.crank_bearing_N, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
+    return i.crank_bearing_squared, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
 
 
 def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
@@ -106,9 +106,9 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
 
     def rows(at: Contact, *signs: Coefficient) -> list[Row]:
         i = instant(known, at, *signs)
-        force, torque = loaded(i, at)
-        bent, turned = force * lever, torque * given.torsion_factor
-        return [Row(bent * bent + turned * turned, i.grip), Row(torque * torque, i.grip)]
+        square, torque = loaded(i, at)
+        bent, turned = square * (lever * lever), torque * given.torsion_factor
+        return [Row(bent + turned * turned, i.grip), Row(torque * torque, i.grip)]
 
     both, at_deg, most = -1.0, 0.0, 0.0
     for engagement in mechanism.engagements:

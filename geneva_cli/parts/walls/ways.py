@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,15 +17,18 @@ from geneva_cli.machine.pitch_curve import Pitch, retraces
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes, rest
-from geneva_cli.parts.slot_profile import nodes, pitch_at
+from geneva_cli.parts.slot_profile import nodes, pitch_at, spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.jet import Array
 
+Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
+
 FINE = 1e-7  # of the centre distance: how finely the roller's ways are sampled
-COVERED = 1e-6  # of the centre distance: a wall passed over by less is not
+COVERED = 10.0  # times that: a wall passed over by less is not
+CHORDS = 16  # for each sample of a coarse wall
 STEPS = 97  # samples of the roller's circle, at least, and of its own outline
 BLOCK = 64  # samples that are looked at together
 ROUNDING = 1e-7  # of the centre distance: a fold as small as this is none
@@ -34,7 +37,7 @@ ROUNDING = 1e-7  # of the centre distance: a fold as small as this is none
 class Wall(NamedTuple):
     """One wall: points and tangents by a parameter, and its samples in the parameter's order."""
 
-    curve: Callable[[Array], tuple[Array, Array]]
+    curve: Curve
     t: Array
     points: Array
     free: NDArray[np.bool_]  # which samples no other place of the roller passes over
@@ -42,12 +45,18 @@ class Wall(NamedTuple):
     radius: float = 0.0
 
 
-def walls(plane: Plane, sizes: Sizes, engagement: Engagement) -> list[Wall]:
-    """Every wall of the roller's way, with what of it is free."""
+def walls(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE) -> list[Wall]:
+    """Every wall of the roller's way, with what of it is free.
+
+    Sampled to ``fine`` of the centre distance; what is coarser than usual is of chords besides,
+    so short that they miss the walls by a share of ``fine`` of 1/CHORDS².
+    """
     w, back = sizes.half_width, retraces(engagement)
-    t = nodes(plane.mechanism, FINE * plane.L)
+    coarse = fine > FINE
+    t = (spread if coarse else nodes)(plane.mechanism, fine * plane.L)
+    near = w - COVERED * fine * plane.L
     middle = int(np.searchsorted(t, 0.0))
-    circles = [_circle(plane, sizes, engagement, end) for end in (-1.0, 1.0)]
+    circles = [_circle(plane, sizes, engagement, end, fine) for end in (-1.0, 1.0)]
     ways = [circles[0][1][::-1], _pitch(plane, engagement, t), circles[1][1]]
     path = np.concatenate(ways)
     found: list[Wall] = []
@@ -55,9 +64,9 @@ def walls(plane: Plane, sizes: Sizes, engagement: Engagement) -> list[Wall]:
         radius = math.dist(centre, way[0])
         angles = np.unwrap(np.arctan2(way[:, 1] - centre[1], way[:, 0] - centre[0]))
         for side in (-w, w):
-            found.append(_arc(path, w, plane.L, centre, radius + side, np.sort(angles)))
+            found.append(_arc(path, near, centre, radius + side, np.sort(angles)))
     flanks = [
-        _flank(plane, engagement, path, part, side, back)
+        _flank(plane, engagement, path, near, part, side, back, coarse)
         for part in (t[: middle + 1], t[middle:])
         for side in (-w, w)
     ]
@@ -71,7 +80,7 @@ def walls(plane: Plane, sizes: Sizes, engagement: Engagement) -> list[Wall]:
     low = max(turn for turn in turns if turn < 0.0)
     high = min(turn for turn in turns if turn > 0.0)
     round_ = ahead + np.linspace(low, high, STEPS)
-    return [*found, *flanks, _arc(path, w, plane.L, (float(x), float(y)), w, round_)]
+    return [*found, *flanks, _arc(path, near, (float(x), float(y)), w, round_)]
 
 
 def _meets(flank: Wall, centre: tuple[float, float]) -> float:
@@ -81,7 +90,7 @@ def _meets(flank: Wall, centre: tuple[float, float]) -> float:
 
 
 def _circle(
-    plane: Plane, sizes: Sizes, engagement: Engagement, end: float
+    plane: Plane, sizes: Sizes, engagement: Engagement, end: float, fine: float
 ) -> tuple[tuple[float, float], Array]:
     """The roller's way before entry (-1) or after exit (1): its centre, and places from the slot
     outwards until it has left the wheel."""
@@ -101,8 +110,8 @@ def _circle(
     count = int(np.argmax(gone)) + 1 if gone.any() else len(way)
     # As finely as the way in the slot: chords lie inside the circle, where one of its walls is.
     whole = float(turn[count - 1])
-    fine = math.ceil(abs(whole) / math.sqrt(8.0 * FINE * plane.L / radius)) + 1
-    turn = np.linspace(0.0, whole, max(STEPS, fine))
+    many = math.ceil(abs(whole) / math.sqrt(8.0 * fine * plane.L / radius)) + 1
+    turn = np.linspace(0.0, whole, max(STEPS, many))
     way = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
     )
@@ -110,7 +119,7 @@ def _circle(
 
 
 def _arc(
-    path: Array, w: float, L: float, centre: tuple[float, float], radius: float, angles: Array
+    path: Array, near: float, centre: tuple[float, float], radius: float, angles: Array
 ) -> Wall:
     def curve(t: Array) -> tuple[Array, Array]:
         c, s = np.cos(t), np.sin(t)
@@ -118,12 +127,10 @@ def _arc(
         return points, np.column_stack((-s, c))
 
     points = curve(angles)[0]
-    return Wall(curve, angles, points, _free(points, path, w, L), centre, radius)
+    return Wall(curve, angles, points, _free(points, path, near), centre, radius)
 
 
-def beside(
-    plane: Plane, engagement: Engagement, side: float, outward: bool
-) -> Callable[[Array], tuple[Array, Array]]:
+def beside(plane: Plane, engagement: Engagement, side: float, outward: bool) -> Curve:
     """The curve ``side`` mm to the left of the roller's way in, or out: points and tangents."""
     back = retraces(engagement)
 
@@ -139,19 +146,39 @@ def beside(
 
 
 def _flank(
-    plane: Plane, engagement: Engagement, path: Array, t: Array, side: float, back: bool
+    plane: Plane,
+    engagement: Engagement,
+    path: Array,
+    near: float,
+    t: Array,
+    side: float,
+    back: bool,
+    coarse: bool,
 ) -> Wall:
     """One side of the way in, or of the way out; ``side`` is the offset to the left."""
     curve = beside(plane, engagement, side, outward=bool(t[-1] > 0.0))
+    if coarse:
+        curve = _chords(curve, t)
     if back:
         t = _unfolded(curve, t, pitch_at(engagement, t, back), plane.L, side)
     points = curve(t)[0]
-    return Wall(curve, t, points, _free(points, path, abs(side), plane.L))
+    return Wall(curve, t, points, _free(points, path, near))
 
 
-def _unfolded(
-    curve: Callable[[Array], tuple[Array, Array]], t: Array, at: Pitch, L: float, side: float
-) -> Array:
+def _chords(curve: Curve, t: Array) -> Curve:
+    """The curve as chords between samples, which costs nothing to ask for."""
+    fine = np.interp(np.arange((len(t) - 1) * CHORDS + 1) / CHORDS, np.arange(len(t)), t)
+    points, tangents = curve(fine)
+    columns = [*points.T, *tangents.T]
+
+    def chord(x: Array) -> tuple[Array, Array]:
+        found = [np.interp(x, fine, column) for column in columns]
+        return np.column_stack(found[:2]), np.column_stack(found[2:])
+
+    return chord
+
+
+def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
     """A flank's samples without the fold at mid-motion.
 
     The roller stops there, and its way turns so sharply that the flank on the inner side of the
@@ -186,8 +213,8 @@ def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     return float(at.tangent_x[0]), float(at.tangent_y[0])
 
 
-def _free(points: Array, path: Array, w: float, L: float) -> NDArray[np.bool_]:
-    """Which points the roller passes over nowhere: none of its places is nearer than w.
+def _free(points: Array, path: Array, least: float) -> NDArray[np.bool_]:
+    """Which points the roller passes over nowhere: none of its places is nearer.
 
     A block of neighbouring points looks only at the part of the way that comes near its circle.
     """
@@ -195,7 +222,6 @@ def _free(points: Array, path: Array, w: float, L: float) -> NDArray[np.bool_]:
     start, way = path[:-1], np.diff(path, axis=0)
     square = np.maximum((way * way).sum(axis=1), 1e-300)
     half, middle = 0.5 * np.sqrt(square), start + 0.5 * way
-    least = w - COVERED * L
     for block in range(0, len(points), BLOCK):
         here = points[block : block + BLOCK]
         centre = 0.5 * (here.min(axis=0) + here.max(axis=0))
