@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.quantities import PV, ends_of
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import horn, lock, pin, roller, shafts
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import plane
+from geneva_cli.parts.crank import sectors
 from geneva_cli.parts.sizes import Sizes, sizes
 
 if TYPE_CHECKING:
@@ -133,7 +135,11 @@ class Strength:
         held = bool(lock.held_torque_Nm(self.mechanism))
         if self._lacks("lock_stress_max_MPa", self._wide, (held, "dwell_torque_Nm in [load]")):
             return None
-        return lock.lock(self.mechanism, found.half_width, found.lock, found.recess, found.rim)
+        edge = self.spec.size.lock_edge_mm or 0.0
+        where = plane(self.mechanism)
+        half = min(0.5 * (end - start) for start, end in sectors(where))
+        radii = found.lock, found.recess, found.rim, half, edge
+        return lock.lock(self.mechanism, found.half_width, Lock(where.L, where.sign, *radii))
 
     @cached_property
     def lock_stress_max_MPa(self) -> float | None:
@@ -142,7 +148,12 @@ class Strength:
         if found is None:
             return None
         sharp = found.approach_deg is None
-        if self._lacks("lock_stress_max_MPa", (not sharp, "lock_edge_mm in [size]")):
+        rounds = (
+            "lock_edge_mm in [size]"
+            if found.on == "corner"
+            else "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
+        )
+        if self._lacks("lock_stress_max_MPa", (not sharp, rounds)):
             return None
         return max(found.contact_stress_MPa or 0.0, found.pressure_MPa)
 

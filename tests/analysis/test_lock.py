@@ -4,13 +4,17 @@ import math
 
 import mpmath
 import pytest
+import repo
 from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
-from geneva_cli.analysis.strength.lock import _bending, lock, touching
+from geneva_cli import load
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.strength.lock import _bending, lock
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.tables import Load, Size
+from geneva_cli.verdict.strength import strength
 
 SIZES = Size(160.0, 8.0, face_width_mm=20.0, lock_clearance_mm=0.02, lock_edge_mm=0.5)
 SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
@@ -19,7 +23,13 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 def answer(spec):
     mechanism = build(spec)
     s = Proof(mechanism).found.sizes
-    return lock(mechanism, s.half_width, s.lock, s.recess, s.rim), s, mechanism
+    return lock(mechanism, s.half_width, by(s, mechanism.spec)), s, mechanism
+
+
+def by(s, spec):
+    """The lock of parts whose disc reaches round farther than the recess."""
+    radii = s.lock, s.recess, s.rim, math.radians(112.5), spec.size.lock_edge_mm or 0.0
+    return Lock(spec.size.center_distance_mm, spec.wheel.SIGN, *radii)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -31,10 +41,10 @@ def test_the_play_uses_up_the_clearance(sign, edge):
     is least it is flat, and the end of an arc is a double.
     """
     L, R, Rk, rim = 100.0, 40.0, 40.5, 86.8
-    found = touching(sign, L, R, Rk, rim, edge)
+    found = Lock(L, sign, R, Rk, rim, 2.5, edge).rests()
     with mpmath.workdps(30):
         turn = mpmath.expj(mpmath.mpf(found.play))
-        if found.at_end:  # the centre of the rounded end, of radius 0 too
+        if found.on == "corner":  # the centre of the rounded end, of radius 0 too
             far = mpmath.mpf(rim) - sign * edge
             reach = mpmath.mpf(Rk) + edge
             at = mpmath.acos((L * L + far * far - reach * reach) / (2 * L * far))
@@ -45,17 +55,23 @@ def test_the_play_uses_up_the_clearance(sign, edge):
     assert float(distance) == pytest.approx(R, rel=1e-13)
 
 
-def test_the_play_is_that_of_the_parts():
-    """The parts turned against each other find it by bisection of outlines: to 1e-6 of it."""
-    spec = SPEC.with_("size.lock_edge_mm", None).with_("size.lock_clearance_mm", 0.2)
-    found, _, mechanism = answer(spec)
-    assert Proof(mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=1e-6)
+@pytest.mark.parametrize(
+    ("name", "on"),
+    [("turret", "corner"), ("internal-z6", "disc's end"), ("three-rollers-z4", "disc's end")],
+)
+def test_the_play_is_that_of_the_parts(name, on):
+    """The parts turned against each other find it by bisection of outlines: to 3e-6 of it."""
+    design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.lock_clearance_mm", 0.2)
+    design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
+    found = strength(design.mechanism).lock
+    assert found.on == on
+    assert Proof(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
 
 
 def test_force_and_pressure_hold_the_torque():
     """The worn-in pressure p sin, summed over the arc by its moments about the wheel's axis."""
     found, s, _ = answer(SPEC)
-    where = touching(1.0, 160.0, s.lock, s.recess, s.rim, 0.5)
+    where = by(s, SPEC).rests()
     assert found.force_N * 0.160 * math.sin(where.phi) == pytest.approx(20.0, rel=1e-14)
     top = found.pressure_MPa / math.sin(where.phi)
     moment = mpmath.quad(
@@ -80,7 +96,7 @@ def test_the_approach_is_the_integral_of_the_strains():
     leave out squares of a/depth: below 1e-4 here.
     """
     found, s, _ = answer(SPEC)
-    where = touching(1.0, 160.0, s.lock, s.recess, s.rim, 0.5)
+    where = by(s, SPEC).rests()
     line, E, nu = found.force_N / 20.0, 210e3, 0.3
     a = math.sqrt(4.0 * line * where.radius * 2.0 * (1.0 - nu * nu) / (math.pi * E))
     p0, R = 2.0 * line / (math.pi * a), s.lock

@@ -30,7 +30,7 @@ from geneva_cli.parts.outlines import CURVED, Outlines, outlines
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.walls.straight import straight_walls
-from geneva_cli.parts.walls.ways import COVERED, _free
+from geneva_cli.parts.walls.ways import _free
 from geneva_cli.parts.wheel import HELD, wheel_contour
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.of_parts import turning
@@ -592,6 +592,6 @@ def test_which_samples_are_free() -> None:
     points = np.cumsum(draw.normal(size=(500, 2)), axis=0)
     apart_from = shapely.distance(shapely.points(points), LineString(way))
     for w in (0.5, 2.0, 8.0):
-        free = _free(points, way, w, L)
+        free = _free(points, way, w - 1e-4)
         assert 0 < free.sum() < len(free)
-        assert np.array_equal(free, apart_from > w - COVERED * L)
+        assert np.array_equal(free, apart_from > w - 1e-4)

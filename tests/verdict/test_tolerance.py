@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance import drawn
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.analysis.tolerance.entered import entered
-from geneva_cli.analysis.tolerance.held import Lock
 from geneva_cli.analysis.tolerance.led import led
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError

@@ -1,12 +1,11 @@
 """The lock under a torque in the dwell: force, contact, and how far the wheel gives.
 
-The wheel turns through its play until the end of a recess rests on the locking disc. The force goes
-through the disc's axis, at an angle phi to the line of centres, so that a torque M takes
-F = M / (L sin phi). An internal wheel's recess reaches round the disc: there the arcs themselves
-touch, at 90 degrees. Three things make up the deflection:
+The wheel turns through its play until the end of a recess rests on the locking disc, or an end of a
+shorter disc on the recess, or the arcs on each other (``locking``). The force goes through the axis
+of the disc or of the recess, at an angle phi to the line of centres, so that a torque M takes
+F = M / (L sin phi). Three things make up the deflection:
 
-- the play, exact: the turn at which the distance of the recess's end from the crank's axis, or that
-  of the recess's centre, has used up the clearance;
+- the play, exact: the turn that has used up the clearance;
 - the approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a
   body as thick as the horn): F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1)
   + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width; where that is more
@@ -14,7 +13,8 @@ touch, at 90 degrees. Three things make up the deflection:
 - the bending of the horn (see ``horn``) where the force is at its end. Plane stress gives 6 to
   30 % more, as the body that the horn stands on gives too.
 
-On a sharp end no contact stress is finite: the recess's end needs a radius. Without clearance the
+On a sharp end no contact stress is finite: the recess's end needs a radius, and an end of the disc
+has none. Without clearance the
 arcs lie on each other as they do once they have worn in. The pressure then goes with the sine of
 the angle from the line of centres, as the wear of a wheel that turns a little does: the greatest is
 2 M sin phi/(b R L (phi - sin phi cos phi)).
@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import contact_modulus_GPa
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength.horn import SHEAR, horns
 
 if TYPE_CHECKING:
@@ -37,19 +38,11 @@ if TYPE_CHECKING:
 SECTIONS = 4001  # of a horn, summed by trapezoids: to a millionth
 
 
-class Round(NamedTuple):
-    """Where disc and recess touch: angles in radians, lengths in millimetres."""
-
-    phi: float  # of the force, from the line of centres
-    play: float  # of the wheel, either way
-    at_end: bool  # of the recess, on its edge
-    radius: float  # R_e of the contact: 0 of a sharp edge, infinite without clearance
-
-
 class Held(NamedTuple):
     """A lock under a torque; None where something is not known."""
 
     torque_Nm: float
+    on: str  # where disc and recess touch, as of ``Rest``
     force_N: float
     contact_stress_MPa: float | None  # Hertz; None of a sharp edge, and without clearance
     pressure_MPa: float  # worn in
@@ -66,71 +59,36 @@ class Held(NamedTuple):
         return self.play_deg + self.approach_deg + self.bending_deg
 
 
-def touching(
-    sign: float, L: float, lock: float, recess: float, rim: float, edge: float = 0.0
-) -> Round:
-    """Where a disc of radius ``lock`` stops a wheel, ``sign`` being -1 for an internal one.
-
-    ``edge`` is the radius of the recess's ends: its centre lies the recess's radius and its own
-    from the crank's axis, and as much within the rim.
-
-    >>> found = touching(1.0, 100.0, 40.0, 40.5, 86.8)
-    >>> round(math.degrees(found.phi), 3), round(math.degrees(found.play), 4)
-    (59.455, 0.3325)
-    >>> touching(-1.0, 100.0, 30.0, 30.5, 86.8).at_end
-    False
-    """
-    far = rim - sign * edge
-
-    def cosine(reach: float) -> float:  # at the crank's axis, of the triangle to the edge's centre
-        return sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
-
-    if cosine(recess + edge) <= 0.0:
-        clearance = recess - lock
-        radius = lock * recess / clearance if clearance else math.inf
-        return Round(0.5 * math.pi, 2.0 * math.asin(clearance / (2.0 * L)), False, radius)
-
-    def seen(reach: float) -> float:  # at the wheel's axis
-        return math.acos((L * L + far * far - reach * reach) / (2.0 * L * far))
-
-    play = seen(recess + edge) - seen(lock + edge)
-    radius = 1.0 / (1.0 / lock + 1.0 / edge) if edge else 0.0
-    radius = radius if recess > lock else math.inf
-    return Round(math.acos(cosine(lock + edge)), play, True, radius)
-
-
 def held_torque_Nm(mechanism: Mechanism) -> float:
     """What the lock holds in the dwell."""
     load = mechanism.spec.load
     return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
 
 
-def lock(
-    mechanism: Mechanism, half_width_mm: float, lock_mm: float, recess_mm: float, rim_mm: float
-) -> Held | None:
+def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> Held | None:
     """The lock of a machine whose parts have these radii; of its horns the one that gives most.
 
-    None without a lock, a torque to hold, or a ``face_width_mm``.
+    None without a torque to hold, or a ``face_width_mm``.
     """
-    spec, L = mechanism.spec, mechanism.center_distance_mm
-    torque, width = held_torque_Nm(mechanism), spec.size.face_width_mm
-    if not (lock_mm and torque and width):
+    L, lock_mm, recess_mm = by.L, by.lock, by.recess
+    torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
+    if not (torque and width):
         return None
-    edge = spec.size.lock_edge_mm or 0.0
-    found = touching(spec.wheel.SIGN, L, lock_mm, recess_mm, rim_mm, edge)
+    found = by.rests()
     sine = math.sin(found.phi)
     force = 1e3 * torque / (L * sine)
     worn = found.phi - sine * math.cos(found.phi)
     pressure = 2e3 * torque * sine / (width * lock_mm * L * worn)
     bent, stress, thick = (
         _bending(mechanism, half_width_mm, recess_mm, found.phi)
-        if found.at_end
+        if found.on != "recess"
         else (0.0, 0.0, recess_mm)
     )
     lever = L * sine
     contact, approach = _contact(mechanism, force / width, found.radius, lock_mm, thick, pressure)
     return Held(
         torque,
+        found.on,
         force,
         contact,
         pressure,

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import Draws
 from geneva_cli.analysis.tolerance.entered import Entered
-from geneva_cli.analysis.tolerance.held import Lock
 from geneva_cli.analysis.tolerance.led import Led
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import Draws
 from geneva_cli.analysis.tolerance.drawn import draw
 from geneva_cli.analysis.tolerance.entered import entered
-from geneva_cli.analysis.tolerance.held import Lock
 from geneva_cli.analysis.tolerance.led import led
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.mechanism import build

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.analysis.tolerance.held import Lock
+from geneva_cli.analysis.locking import Lock
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.parts.outlines import Outlines
 

@@ -5,10 +5,11 @@ disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel 
 
 - by the corner of a recess, at p from the wheel's axis, that comes down on the disc:
   d = chi(L, rho) - chi(L + dL, k), chi being the corner's angle from the line of centres,
-  cos chi = (L² + p² - rho²) / (2 L p);
+  cos chi = (L² + p² - rho²) / (2 L p); of a corner rounded by e that is so of its centre, e less
+  far out, rho + e and k + e away;
 - by an end of the disc, where the recess reaches farther round than it, that runs up to the recess;
-- or, with the disc too near to the recess's bottom, on the recess itself, where the two centres
-  are rho - k apart.
+- or, with the disc too near to the recess's bottom, or where both reach farther round than 90
+  degrees, on the recess itself, where the two centres are rho - k apart.
 
 In the middle of a dwell, where the lock holds best and the disc stands evenly.
 """
@@ -20,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.tolerance.dimensions import Deviations
+from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sqrt
 
@@ -34,6 +35,15 @@ class Place(NamedTuple):
     jams: Coefficient
 
 
+class Rest(NamedTuple):
+    """Where disc and recess touch: angles in radians, lengths in millimetres."""
+
+    on: str  # "corner" of the recess on the disc, "disc's end" on the recess, or arc on "recess"
+    phi: float  # of the force, from the middle of the arcs; it goes through one of their centres
+    play: float  # of the wheel, either way
+    radius: float  # R_e of the contact: 0 of a sharp edge, infinite without clearance
+
+
 class Lock(NamedTuple):
     """One corner of a recess and one locking arc of the disc, millimetres and radians."""
 
@@ -43,6 +53,7 @@ class Lock(NamedTuple):
     recess: float
     corner: float  # distance of the recess's corner from the wheel's axis
     half: float  # of the disc's locking arc
+    edge: float = 0.0  # radius of the recess's corners
 
     @property
     def reach(self) -> float:
@@ -56,8 +67,8 @@ class Lock(NamedTuple):
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
         spare = recess - lock
         if self.reach <= self.half:
-            still = L - 0.0 * away
-            angle = _at(still, self.corner, recess) - _at(away, self.corner, lock)
+            still, corner = L - 0.0 * away, self._far
+            angle = _at(still, corner, recess + self.edge) - _at(away, corner, lock + self.edge)
         else:
             x = away - lock * (self.sign * math.cos(self.half))
             y = lock * math.sin(self.half)
@@ -69,6 +80,35 @@ class Lock(NamedTuple):
         on_it = nearer > np.maximum(spare.c[0], 0.0) * math.cos(min(self.reach, self.half))
         angle = _chosen(on_it & ~jams, self._on_recess(by, spare), angle)
         return Place(_chosen(jams, angle * 0.0, angle), jams)
+
+    @property
+    def _far(self) -> float:
+        """Distance of a rounded corner's centre from the wheel's axis."""
+        return self.corner - self.sign * self.edge
+
+    def rests(self) -> Rest:
+        """Where the wheel comes to rest, without deviations.
+
+        >>> found = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).rests()
+        >>> round(math.degrees(found.phi), 3), round(math.degrees(found.play), 4)
+        (59.455, 0.3325)
+        >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).rests().on  # an internal wheel
+        'recess'
+        """
+        L, far, clearance = self.L, self._far, self.recess - self.lock
+        play = float(self(deviations([0.0] * len(Deviations._fields))).angle.c[0])
+        if min(self.reach, self.half) > 0.5 * math.pi:
+            radius = self.lock * self.recess / clearance if clearance else math.inf
+            return Rest("recess", 0.5 * math.pi, play, radius)
+        if self.reach <= self.half:
+            on, reach, edge = "corner", self.lock + self.edge, self.edge
+        else:
+            on, reach, edge = "disc's end", self.recess, 0.0
+            x, y = L - self.sign * self.lock * math.cos(self.half), self.lock * math.sin(self.half)
+            far = math.hypot(x, y)
+        phi = math.acos(self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach))
+        radius = 1.0 / (1.0 / self.lock + 1.0 / edge) if edge else 0.0
+        return Rest(on, phi, play, radius if clearance > 0.0 else math.inf)
 
     def _on_recess(self, by: Deviations, spare: Jet) -> Jet:
         """Where disc and recess touch between their ends: 4 L (L + dL) sin²(d/2) = c² - dL²."""
