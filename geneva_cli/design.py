@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.timing import Timing
     from geneva_cli.curves.plates import Body
     from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.proof import Proof
@@ -494,6 +495,28 @@ class Design:
 
         require_cut(part)
         return self._located(lambda: paths(made, kerf_mm))
+
+    def sheet(
+        self,
+        tolerance_mm: float = 0.001,
+        curves: str = "arcs",
+        of: Proof | None = None,
+        part: str = "sheet",
+    ) -> Sheet:
+        """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
+
+        ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
+
+        >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
+        >>> small.scale, small.width, small.height
+        (5.0, 420.0, 297.0)
+        """
+        from geneva_cli.parts.catalogue import part_sheet
+
+        if curves not in CURVES:
+            raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+        found = (of or self.drawn(tolerance_mm)).found
+        return self._located(lambda: part_sheet(found, part, tolerance_mm, CURVES[curves]))
 
     @answer
     def checks(self) -> list[Check]:

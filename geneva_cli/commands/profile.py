@@ -10,8 +10,17 @@ import typer
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.output import DRAWN, FORMATS
-from geneva_cli.parts.catalogue import PARTS
+from geneva_cli.output import (
+    DRAWN,
+    DXF_VERSIONS,
+    FORMATS,
+    draw,
+    draw_sheet,
+    is_drawn,
+    sheet_as,
+    show,
+)
+from geneva_cli.parts.catalogue import PARTS, is_sheet
 
 if TYPE_CHECKING:
     from geneva_cli.design import Design
@@ -22,6 +31,7 @@ EXAMPLES = (
     "geneva profile spec.toml --part wheel -o wheel.dxf",
     "geneva profile spec.toml --part assembly -o machine.svg",
     "geneva profile spec.toml --part parts",
+    "geneva profile spec.toml --part sheet -o machine.pdf",
 )
 
 
@@ -59,6 +69,14 @@ def run(
             autocompletion=completion.words(lambda: ("mm", "inch")),
         ),
     ] = "mm",
+    dxf_version: Annotated[
+        str | None,
+        typer.Option(
+            metavar="VERSION",
+            help=f"Of .dxf: {one_of(DXF_VERSIONS)[:-1]} (R2000).",
+            autocompletion=completion.words(lambda: DXF_VERSIONS),
+        ),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
     given: Given = None,
     output: Output = "-",
@@ -67,20 +85,20 @@ def run(
         typer.Option(
             "--format",
             metavar="FORMAT",
-            help=one_of((*FORMATS, *DRAWN)),
-            autocompletion=completion.words(lambda: (*FORMATS, *DRAWN)),
+            help=one_of((*FORMATS, *DRAWN, "pdf")),
+            autocompletion=completion.words(lambda: (*FORMATS, *DRAWN, "pdf")),
         ),
     ] = "",
 ) -> None:
     """A part as points, or as a drawing to cut: the slot, the wheel, the crank, or all together.
 
-    Drawings are dxf and svg; a slot is a table of its pitch curve and flanks elsewhere. The slot is
+    Drawings are dxf and svg, sheets with dimensions pdf too; a slot is a table of its pitch curve
+    and flanks elsewhere. The slot is
     in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
     the pin travels in. Before a drawing is written its machine is turned through a whole turn.
     """
     from geneva_cli.curves.pieces import UNITS
     from geneva_cli.design import CURVES, load
-    from geneva_cli.output import draw, is_drawn, show
 
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
@@ -88,22 +106,37 @@ def run(
         raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    drawn = is_drawn(output, format)
+    sheet = is_sheet(part)
+    drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
     design = load(spec, given or ())
-    if design.is_table(part, drawn):
-        if units != "mm":
-            raise GenevaError("--units is for drawings; tables of points are in millimetres")
-        if kerf is not None:
-            raise GenevaError("--kerf is for parts to cut; this one is a table of points")
-        show(design.part_table(part, tolerance, samples), output, format, design.spec.files)
+    own = {"version": dxf_version} if dxf_version else {}
+    files = design.spec.files
+    if not sheet and design.is_table(part, drawn):
+        _refuse(units=units, kerf=kerf, own=own)
+        show(design.part_table(part, tolerance, samples), output, format, files)
+        warn(design)
+        return
+    if samples is not None:
+        raise GenevaError("--samples is for tables of points; drawings take --tolerance")
+    proof = design.drawn(tolerance)
+    _judge(design, proof, force)
+    if sheet:
+        _refuse(units=units, kerf=kerf)
+        draw_sheet(design.sheet(tolerance, curves, proof, part), output, format, files, **own)
     else:
-        if samples is not None:
-            raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-        proof = design.drawn(tolerance)
-        _judge(design, proof, force)
         drawing = design.drawing(part, tolerance, curves, proof, kerf)
-        draw(drawing, output, format, units, design.spec.files)
+        draw(drawing, output, format, units, files, **own)
     warn(design)
+
+
+def _refuse(units: str, kerf: float | None, own: dict[str, str] | None = None) -> None:
+    """Raise GenevaError for options of parts to cut, where none is written."""
+    if units != "mm":
+        raise GenevaError("--units is for parts to cut; tables and sheets are in millimetres")
+    if kerf is not None:
+        raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
+    if own:
+        raise GenevaError("--dxf-version is for drawings; this one is a table of points")
 
 
 def _judge(design: Design, proof: Proof, force: bool) -> None:

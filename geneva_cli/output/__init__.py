@@ -6,23 +6,29 @@ import importlib
 import os
 import sys
 from collections.abc import Collection, Iterable, Iterator
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
 
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 # of drawings only; they are written in FORMATS as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
+SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
 PICTURES = ("png", "pdf")  # of figures only
 PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
 EXTENSIONS["stp"] = "step"
+# what ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and read by all
+DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
+# options that one format of drawings and sheets has -> as a user knows it, and the format
+OPTIONS = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
 
 
 class Format(Protocol):
@@ -35,8 +41,15 @@ class Format(Protocol):
 class DrawnFormat(Protocol):
     """What the module of a drawing's format offers."""
 
-    def chunks(self, drawing: Drawing, units: str) -> Iterator[str]:
-        """The text, in pieces; ``units`` is mm or inch."""
+    def chunks(self, drawing: Drawing, units: str, **own: Any) -> Iterator[str]:
+        """The text, in pieces; ``units`` is mm or inch, ``own`` are the format's own options."""
+
+
+class SheetFormat(Protocol):
+    """What the module of a sheet's format offers."""
+
+    def chunks(self, sheet: Sheet, **own: Any) -> Iterator[str]:
+        """The text, in pieces; ``own`` are the format's own options."""
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -62,23 +75,62 @@ def draw(
     format: str = "",
     units: str = "mm",
     inputs: Iterable[str] = (),
+    **own: Any,
 ) -> None:
     """Print the drawing, or write it to the file ``output``; ``inputs`` are never overwritten.
 
-    The formats of tables get the drawing's pieces. ``units`` is mm or inch. Raises GenevaError
-    where a format or a unit is unknown, nothing is drawn or the file cannot be written.
+    The formats of tables get the drawing's pieces. ``units`` is mm or inch; ``own`` are options of
+    one format, of OPTIONS. Raises GenevaError where a format or a unit is unknown, an option is
+    another format's, nothing is drawn or the file cannot be written.
     """
     formats = {**DRAWN, **FORMATS}
     name = format or format_of(output, formats)
     if name not in formats:
         raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
+    _require_own(own, name)
     if name in FORMATS:
         from geneva_cli.curves.pieces import pieces_table
 
         show(pieces_table(drawing, units), output, name, inputs)
         return
     module = cast(DrawnFormat, importlib.import_module(f"geneva_cli.output.{DRAWN[name]}"))
-    _put(module.chunks(drawing, units), output, inputs)
+    _put(module.chunks(drawing, units, **own), output, inputs)
+
+
+def draw_sheet(
+    sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), **own: Any
+) -> None:
+    """Print the drawing sheet, or write it to a file; ``own`` as for ``draw``.
+
+    Raises GenevaError where the format is none of SHEETS, an option is another format's, or the
+    file cannot be written.
+    """
+    name = sheet_as(output, format)
+    _require_own(own, name)
+    module = cast(SheetFormat, importlib.import_module(f"geneva_cli.output.sheets.{name}"))
+    _put(module.chunks(sheet, **own), output, inputs)
+
+
+def sheet_as(output: str, format: str) -> str:
+    """The format of a drawing sheet. Raises GenevaError where it is none."""
+    if not format and output == "-":
+        raise GenevaError(
+            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, say, or --format"
+        )
+    name = format or format_of(output, SHEETS)
+    if name not in SHEETS:
+        raise GenevaError(
+            f"--format {cut(name)}: of a drawing sheet it must be one of {', '.join(SHEETS)}"
+        )
+    return name
+
+
+def _require_own(own: dict[str, Any], name: str) -> None:
+    """Raise GenevaError for an option of another format than the one that is written."""
+    for key in own:
+        option, of = OPTIONS[key]
+        if name != of:
+            raise GenevaError(f"{option} is for .{of}, and this is {name}; leave it out")
 
 
 def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -169,7 +221,8 @@ def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
     if name not in formats:
         known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
         if name:
-            raise GenevaError(f'-o "{cut(output)}": {_wrong(name)}it must end in {known}')
+            wrong = _wrong(name) if formats is FORMATS else ""
+            raise GenevaError(f'-o "{cut(output)}": {wrong}it must end in {known}')
         raise GenevaError(
             f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
         )

@@ -2,7 +2,7 @@
 
 On import it reads ``ezdxf.ini`` from the current folder and the user's, whatever they hold, and
 searches the system's fonts to write a cache of them into the user's home. Drawings here take no
-settings and have no text: a cache without fonts lies beside this file.
+settings, and measure no text: a cache without fonts lies beside this file.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from configparser import ConfigParser
 from contextlib import contextmanager
 from typing import Any
 
-__all__ = ["Document", "Modelspace", "new", "options"]
+__all__ = ["BaseLayout", "Document", "Modelspace", "options"]
 CACHE = "XDG_CACHE_HOME"
 
 
@@ -39,5 +39,5 @@ def _read_nothing(self: ConfigParser, *arguments: Any, **settings: Any) -> list[
 with _alone():
     from ezdxf._options import options
     from ezdxf.document import Drawing as Document
-    from ezdxf.filemanagement import new
+    from ezdxf.layouts.base import BaseLayout
     from ezdxf.layouts.layout import Modelspace

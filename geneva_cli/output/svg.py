@@ -1,8 +1,4 @@
-"""SVG at true size: one path a part, circles for bores, in plain coordinates.
-
-y points up in a drawing and down here: coordinates are written negated, as programs of cutters
-read paths and pass over transforms.
-"""
+"""SVG at true size: one path a part, circles for bores, in plain coordinates."""
 
 from __future__ import annotations
 
@@ -11,28 +7,14 @@ from collections.abc import Iterator
 from typing import NamedTuple
 from xml.sax.saxutils import escape, quoteattr
 
-from geneva_cli.curves.measure import Box, extent, halves
+from geneva_cli.curves.measure import Box, extent
 from geneva_cli.curves.pieces import SUFFIX, UNITS, prepared
-from geneva_cli.curves.shapes import (
-    Arc,
-    Circle,
-    Contour,
-    Cubic,
-    Drawing,
-    Line,
-    Point,
-    Segment,
-    Shape,
-)
+from geneva_cli.curves.shapes import Drawing
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.output.letters import width
+from geneva_cli.output.svg_paths import element, number, place, point
 
-DECIMALS = 9
-# Bulges of 150, 210 and 300 degrees. Near a half turn the radius says little about the centre,
-# near a whole one the chord does: such arcs are halved, until they are neither.
-HALF_TURN = (0.7673, 1.3032)
-NEARLY_ROUND = 3.7
 # In millimetres on paper:
 STROKE = 0.25
 MARGIN = 2.0
@@ -67,64 +49,31 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
         scale, frame = _scale(box, title, sheet, suffix)
     margin = sheet.mm(MARGIN + STROKE)
     x, y = frame.x0 - margin, -frame.y1 - margin
-    width = _number(frame.x1 - frame.x0 + 2.0 * margin)
-    height = _number(frame.y1 - frame.y0 + 2.0 * margin)
+    width = number(frame.x1 - frame.x0 + 2.0 * margin)
+    height = number(frame.y1 - frame.y0 + 2.0 * margin)
     yield (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<svg xmlns="http://www.w3.org/2000/svg" version="1.1"'
         f' width="{width}{suffix}" height="{height}{suffix}"'
-        f' viewBox="{_number(x)} {_number(y)} {width} {height}"'
+        f' viewBox="{number(x)} {number(y)} {width} {height}"'
         ' fill="none" stroke-linecap="round" stroke-linejoin="round">\n'
         f"<title>{escape(title)}</title>\n"
     )
     for layer, ink in inks(drawing.layers).items():
         dashes = ""
         if layer in CENTRE_LINES:
-            dashes = f' stroke-dasharray="{" ".join(_number(sheet.mm(d)) for d in DASHES)}"'
-        stroke = _number(sheet.mm(STROKE))
+            dashes = f' stroke-dasharray="{" ".join(number(sheet.mm(d)) for d in DASHES)}"'
+        stroke = number(sheet.mm(STROKE))
         tint = f' fill="{ink.rgb}" fill-opacity="{TINT}"' if layer in drawing.tinted else ""
         yield (
             f'<g id={quoteattr(layer)} stroke="{ink.rgb}" stroke-width="{stroke}"{dashes}{tint}>\n'
         )
         for shape in drawing.shapes:
             if shape.layer == layer:
-                yield _shape(shape)
+                yield element(shape)
         yield "</g>\n"
     yield from scale
     yield "</svg>\n"
-
-
-def _shape(shape: Shape) -> str:
-    if isinstance(shape, Circle):
-        (x, y), r = shape.centre, shape.radius
-        return f'<circle cx="{_number(x)}" cy="{_number(-y)}" r="{_number(r)}"/>\n'
-    return f'<path d="{_path(shape)}"/>\n'
-
-
-def _path(contour: Contour) -> str:
-    segments = contour.segments
-    words = [f"M {_point(segments[0].start)}"]
-    if contour.closed and isinstance(segments[-1], Line):
-        segments = segments[:-1]  # Z draws it: a line there besides would be one of no length
-    words += [_command(part) for segment in segments for part in _split(segment)]
-    return " ".join(words) + (" Z" if contour.closed else "")
-
-
-def _split(segment: Segment) -> list[Segment]:
-    if isinstance(segment, Arc):
-        bulge = abs(segment.bulge)
-        if HALF_TURN[0] < bulge < HALF_TURN[1] or bulge > NEARLY_ROUND:
-            return [part for half in halves(segment) for part in _split(half)]
-    return [segment]
-
-
-def _command(segment: Segment) -> str:
-    if isinstance(segment, Line):
-        return f"L {_point(segment.end)}"
-    if isinstance(segment, Cubic):
-        return "C " + " ".join(map(_point, segment[1:]))
-    radius, large, down = _number(segment.radius), abs(segment.bulge) > 1.0, segment.bulge < 0.0
-    return f"A {radius},{radius} 0 {large:d} {down:d} {_point(segment.end)}"
 
 
 def _scale(box: Box, title: str, sheet: _Sheet, suffix: str) -> tuple[list[str], Box]:
@@ -134,17 +83,17 @@ def _scale(box: Box, title: str, sheet: _Sheet, suffix: str) -> tuple[list[str],
     label = f"{bar:g} {suffix}"
     tick, text, gap = sheet.mm(TICK), sheet.mm(TEXT), sheet.mm(MARGIN)
     x, y = box.x0, box.y0 - gap - max(tick, 0.5 * text)
-    ends = [f"M {_point((at, y - tick))} L {_point((at, y + tick))}" for at in (x, x + bar)]
-    line = f"M {_point((x, y))} L {_point((x + bar, y))}"
+    ends = [f"M {point((at, y - tick))} L {point((at, y + tick))}" for at in (x, x + bar)]
+    line = f"M {point((x, y))} L {point((x + bar, y))}"
     beside = (x + bar + gap, y - 0.35 * text)  # letters are about 0.7 of the height
     below = (x, y - max(tick, 0.5 * text) - 1.2 * text)
     right = max(beside[0] + width(label) * text, below[0] + width(title) * text)
     lines = [
-        f'<g id="SCALE_BAR" stroke="{GREY}" stroke-width="{_number(sheet.mm(STROKE))}">\n'
+        f'<g id="SCALE_BAR" stroke="{GREY}" stroke-width="{number(sheet.mm(STROKE))}">\n'
         f'<path d="{ends[0]} {line} {ends[1]}"/>\n</g>\n',
-        f'<g id="TEXT" fill="{GREY}" font-family="sans-serif" font-size="{_number(text)}">\n',
-        f"<text {_place(beside)}>{label}</text>\n",
-        f"<text {_place(below)}>{escape(title)}</text>\n" if title else "",
+        f'<g id="TEXT" fill="{GREY}" font-family="sans-serif" font-size="{number(text)}">\n',
+        f"<text {place(beside)}>{label}</text>\n",
+        f"<text {place(below)}>{escape(title)}</text>\n" if title else "",
         "</g>\n",
     ]
     low = below[1] - 0.3 * text if title else y - max(tick, 0.5 * text)
@@ -156,17 +105,3 @@ def round_length(length: float) -> float:
     power = 10.0 ** math.floor(math.log10(length))
     rounds = [float(f"{n * power:.0e}") for n in (1, 2, 5, 10)]
     return min(rounds, key=lambda r: abs(math.log(r / length)))
-
-
-def _place(p: Point) -> str:
-    return f'x="{_number(p[0])}" y="{_number(-p[1])}"'
-
-
-def _point(p: Point) -> str:
-    return f"{_number(p[0])},{_number(-p[1])}"
-
-
-def _number(value: float) -> str:
-    """Fixed decimals; no exponent, no negative zero."""
-    text = f"{value:.{DECIMALS}f}"
-    return text if text.strip("-0.") else text.lstrip("-")

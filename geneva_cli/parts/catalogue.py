@@ -13,6 +13,7 @@ from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.sheet import Sheet
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.outlines import Outlines
 
@@ -24,6 +25,7 @@ class Part(NamedTuple):
     drawing: str | None = None
     sphere: str | None = None  # its points where the wheel is a sphere's
     cut: bool = False  # whether it is cut out of a plate
+    sheet: str | None = None  # as a drawing sheet with dimensions
 
 
 PARTS = {
@@ -35,10 +37,18 @@ PARTS = {
     "assembly": Part(drawing="drawings:assembly"),
     "gears": Part("gear_curves:gears_table"),
     "groove": Part("groove:groove_table", "drawings:groove"),
+    "sheet": Part(sheet="sheet.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
+SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
 SAMPLES_MAX = 1_000_000
+
+
+def is_sheet(part: str) -> bool:
+    """Whether a part is drawn as a sheet of paper. Raises GenevaError for one that is not known."""
+    _require_known(part)
+    return part in SHEETS
 
 
 def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
@@ -46,10 +56,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
 
     Raises GenevaError for a part that is not known, or is no drawing.
     """
-    if part not in PARTS:
-        raise GenevaError(
-            f"--part {cut(part)}: it must be one of {', '.join(PARTS)}{nearest(part, PARTS)}"
-        )
+    _require_known(part)
     if drawn and part not in DRAWINGS:
         raise GenevaError(
             f"--part {part} is a table of points; write it as .csv or .json, and "
@@ -65,7 +72,7 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     """
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
-    if not is_table(mechanism, part, drawn=False):
+    if part in SHEETS or not is_table(mechanism, part, drawn=False):
         raise GenevaError(f"--part {part} is drawn; write it as .dxf or .svg")
     made: Table = _made(_table(mechanism, part))(mechanism, tolerance_mm, samples)
     return made
@@ -76,8 +83,22 @@ def part_drawing(found: Outlines, part: str, tolerance_mm: float, curves: str) -
 
     Raises GenevaError for a part that is not drawn, or that the machine does not have.
     """
+    _require_known(part)
+    if part in SHEETS:
+        raise GenevaError(f"--part {part} is a drawing sheet, and no drawing to cut")
     is_table(found.plane.mechanism, part, drawn=True)
     made: Drawing = _made(PARTS[part].drawing)(found, tolerance_mm, curves)
+    return made
+
+
+def part_sheet(found: Outlines, part: str, tolerance_mm: float, curves: str) -> Sheet:
+    """A part, or all of them, as a drawing sheet with dimensions.
+
+    Raises GenevaError for a part that is no sheet, or that does not go on one.
+    """
+    if not is_sheet(part):
+        raise GenevaError(f"--part {part} is no drawing sheet; {', '.join(SHEETS)} is")
+    made: Sheet = _made(PARTS[part].sheet)(found, tolerance_mm, curves)
     return made
 
 
@@ -91,8 +112,15 @@ def require_cut(part: str) -> None:
 
 
 def _table(mechanism: Mechanism, part: str) -> str | None:
-    table, _, sphere, _ = PARTS[part]
-    return table if mechanism.spec.wheel.FLAT else sphere or table
+    own = PARTS[part]
+    return own.table if mechanism.spec.wheel.FLAT else own.sphere or own.table
+
+
+def _require_known(part: str) -> None:
+    if part not in PARTS:
+        raise GenevaError(
+            f"--part {cut(part)}: it must be one of {', '.join(PARTS)}{nearest(part, PARTS)}"
+        )
 
 
 def _made(by: str | None) -> Any:

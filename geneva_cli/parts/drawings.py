@@ -67,7 +67,7 @@ def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
     level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.plane.L
     rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
-    pitch = _pitch(found.plane, engagement, tolerance, curves)
+    pitch = pitch_line(found.plane, engagement, tolerance, curves)
     return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), pitch))
 
 
@@ -153,14 +153,14 @@ def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Sh
             x, y = plane.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - plane.L, y), 9))
     shapes += [Circle(PITCH, (plane.L, 0.0), arm) for arm in sorted(arms)]
-    pitches = {s: _pitch(plane, s, tolerance, curves) for s in found.slots}
+    pitches = {s: pitch_line(plane, s, tolerance, curves) for s in found.slots}
     shapes += [
         turned(pitches[engagement], direction + psi) for engagement, direction in plane.slots
     ]
     return shapes
 
 
-def _pitch(plane: Plane, engagement: Engagement, tolerance: float, curves: str) -> Contour:
+def pitch_line(plane: Plane, engagement: Engagement, tolerance: float, curves: str) -> Contour:
     """The slot's pitch curve, the first half of the way where the roller comes back on it."""
     at = np.array([engagement.entry_deg, 0.0])
     x, y = engagement.slot(at, 0)

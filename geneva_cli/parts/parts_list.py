@@ -55,13 +55,13 @@ def parts_list(proof: Proof) -> Table:
     found: list[dict[str, Any]] = []
     if mechanism.spec.is_flat:
         with suppress(GenevaError):  # the check of the parts says why there are none
-            found += _parts(proof.found)
+            found += parts_rows(proof.found)
     found += [*_pivots(mechanism), *_dimensions(mechanism)]
     rows = [[row.get(name) for name in NAMES] for row in found]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
 
 
-def _parts(found: Outlines) -> Iterator[dict[str, Any]]:
+def parts_rows(found: Outlines) -> Iterator[dict[str, Any]]:
     """The plates of wheel and crank, each kind once with its count, as the solids have them."""
     spec, arm = found.plane.given.spec, None
     if has_arm(found):

@@ -71,6 +71,8 @@ ROWS = [
     Row("profile press-curved.toml", "tomli numpy"),
     Row("profile press-curved.toml --part wheel --format svg", "tomli numpy"),
     Row("profile press-straight.toml --part wheel --format dxf", "tomli numpy ezdxf json"),
+    Row("profile press-straight.toml --part sheet --format pdf", "tomli numpy"),
+    Row("profile press-straight.toml --part sheet --format dxf", "tomli numpy ezdxf json"),
     Row("report press-straight.toml", "tomli numpy"),
     Row("report spherical-z6.toml", "tomli numpy"),  # its loads
     Row("report press-curved.toml", "tomli numpy"),

@@ -30,7 +30,8 @@ from geneva_cli.curves.measure import area, extent
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import svg
-from geneva_cli.output.dxf import FLOAT_CODES, chunks
+from geneva_cli.output.dxf import chunks
+from geneva_cli.output.dxf_file import FLOAT_CODES
 
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
 # of a metre and a spline's joints (JOINT) come to less than 2e-9 together.

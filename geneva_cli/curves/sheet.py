@@ -1,0 +1,126 @@
+"""A drawing sheet: shapes, texts and dimensions on layers, in millimetres on paper.
+
+What the formats of sheets write, whatever it shows. The origin is the paper's lower left corner.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.curves.helvetica import width
+from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape
+
+ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
+BELOW, ABOVE = 0.3, 1.1  # of a text's height: how far its letters reach below and above the line
+
+# The layers of a sheet, with the width of their lines in mm (ISO 128-2: two widths, 2 to 1).
+OUTLINE, HIDDEN, CENTRE, DIMENSION, TEXT, FRAME = (
+    "OUTLINE",
+    "HIDDEN",
+    "CENTRE",
+    "DIMENSION",
+    "TEXT",
+    "FRAME",
+)
+WIDTHS = {OUTLINE: 0.5, HIDDEN: 0.25, CENTRE: 0.25, DIMENSION: 0.25, TEXT: 0.25, FRAME: 0.7}
+DASHED = {CENTRE: (8.0, 1.5, 1.0, 1.5), HIDDEN: (3.0, 1.5)}  # mm: dash, gap, dash, gap
+
+
+class Label(NamedTuple):
+    """A text; ``at`` is where its first letter's base line starts, ``turn`` its direction."""
+
+    text: str
+    at: Point
+    height: float  # mm, of its capitals
+    turn: float = 0.0  # radians
+
+    @property
+    def width(self) -> float:
+        """Along its base line, mm."""
+        return width(self.text) * self.height
+
+    @property
+    def corners(self) -> tuple[Point, Point, Point, Point]:
+        """The corners of the box that its letters fill, counterclockwise from the lower left."""
+        low, high = -BELOW * self.height, ABOVE * self.height
+        box = ((0.0, low), (self.width, low), (self.width, high), (0.0, high))
+        a, b, c, d = (_turned(p, self.turn, self.at) for p in box)
+        return a, b, c, d
+
+    @property
+    def middle(self) -> Point:
+        """The middle of its capitals."""
+        return _turned((0.5 * self.width, 0.5 * self.height), self.turn, self.at)
+
+
+class Arrow(NamedTuple):
+    """An arrow's head: where its tip is, and where it points, radians."""
+
+    tip: Point
+    turn: float
+
+    @property
+    def corners(self) -> tuple[Point, Point, Point]:
+        """Tip and both other corners."""
+        length, half = ARROW
+        back = ((-length, half), (-length, -half))
+        left, right = (_turned(p, self.turn, self.tip) for p in back)
+        return self.tip, left, right
+
+
+class Measure(NamedTuple):
+    """A dimension as it is drawn: lines, its own before its extension lines, arrows and its text.
+
+    ``kind`` says what ``points`` are: ``linear``: both ends and a place on the dimension's line,
+    all in the direction ``turn``; ``angular``: the apex, a point on each leg and one on the arc;
+    ``radius``: the centre and the point on the arc; ``diameter``: both points on the circle.
+    """
+
+    kind: str
+    points: tuple[Point, ...]
+    value: float  # mm or degrees of the part
+    label: Label
+    lines: tuple[Segment, ...]
+    arrows: tuple[Arrow, ...]
+    turn: float = 0.0
+
+
+class Sheet(NamedTuple):
+    """A sheet of paper, and all that is on it."""
+
+    title: str
+    width: float
+    height: float
+    scale: float  # of the views: millimetres on paper in one of the part
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+    measures: tuple[Measure, ...]
+
+    @property
+    def texts(self) -> list[Label]:
+        """All texts, those of dimensions too."""
+        return [*self.labels, *(m.label for m in self.measures)]
+
+
+def line(layer: str, *points: Point) -> Contour:
+    """An open polyline."""
+    pieces = (Line(a, b) for a, b in zip(points, points[1:], strict=False))
+    return Contour(layer, tuple(pieces), closed=False)
+
+
+def rectangle(layer: str, x0: float, y0: float, x1: float, y1: float) -> Contour:
+    """A frame."""
+    corners = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+    ends = zip(corners, (*corners[1:], corners[0]), strict=True)
+    return Contour(layer, tuple(Line(a, b) for a, b in ends))
+
+
+def polar(centre: Point, radius: float, turn: float) -> Point:
+    """The point in a direction, radians, at a distance from another."""
+    return centre[0] + radius * math.cos(turn), centre[1] + radius * math.sin(turn)
+
+
+def _turned(p: Point, turn: float, about: Point) -> Point:
+    c, s = math.cos(turn), math.sin(turn)
+    return about[0] + c * p[0] - s * p[1], about[1] + s * p[0] + c * p[1]

@@ -1,0 +1,139 @@
+"""A drawing sheet as DXF, in millimetres on paper, its dimensions as DIMENSION entities.
+
+Each dimension has a block with the lines and the text that it is drawn by, so that every reader
+shows it as the other formats do; a style for each scale makes a CAD program that measures again
+find the part's own size.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.curves.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
+from geneva_cli.errors import clean
+from geneva_cli.output.dxf_contours import draw
+from geneva_cli.output.dxf_file import USUAL, extents, linetype, written
+from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
+
+FONT = "arial.ttf"
+SIGNS = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # as every version of DXF has them
+# group code 70 of a DIMENSION, and what of its points it holds; 32: the block is its own alone,
+# 128: the text stays where it is
+KINDS = {
+    "linear": (0, ("defpoint2", "defpoint3", "defpoint")),
+    "angular": (5, ("defpoint4", "defpoint2", "defpoint3", "defpoint")),
+    "diameter": (3, ("defpoint", "defpoint4")),
+    "radius": (4, ("defpoint", "defpoint4")),
+}
+OWN = 32 + 128
+
+
+def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
+    """The file's text. Raises GenevaError for another version, or cubics in R12."""
+
+    def fill(document: Document, space: Modelspace) -> None:
+        _layers(document)
+        for shape in sheet.shapes:
+            draw(space, shape)
+        for label in sheet.labels:
+            _text(space, label, TEXT)
+        for measure in sheet.measures:
+            _measure(document, space, measure)
+        extents(document, space, (0.0, 0.0, sheet.width, sheet.height))
+
+    yield from written(sheet.title, "mm", version, fill)
+
+
+def _layers(document: Document) -> None:
+    for name, width in WIDTHS.items():
+        pattern = "Continuous"
+        if name in DASHED:
+            pattern = {2: "HIDDEN", 4: "CENTER"}[len(DASHED[name])]
+            linetype(document, pattern, DASHED[name])
+        document.layers.add(name, color=7, linetype=pattern, lineweight=round(100.0 * width))
+    document.styles.add("SHEET", font=FONT)
+
+
+def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
+    if measure.kind not in KINDS:
+        _drawn(space, measure)
+        return
+    block = document.blocks.new_anonymous_block(type_char="D")
+    _drawn(block, measure)
+    number, names = KINDS[measure.kind]
+    attributes = {
+        "layer": DIMENSION,
+        "dimstyle": _style(document, measure),
+        "dimtype": number + OWN,
+        "geometry": block.name,
+        "text": _signed(measure.label.text),
+        "text_midpoint": measure.label.middle,
+        "angle": math.degrees(measure.turn),
+        "actual_measurement": (
+            math.radians(measure.value) if measure.kind == "angular" else measure.value
+        ),
+        **dict(zip(names, measure.points, strict=True)),
+    }
+    space.new_entity("DIMENSION", attributes)
+
+
+def _style(document: Document, measure: Measure) -> str:
+    """The style of a dimension's scale."""
+    factor = 1.0
+    if measure.kind != "angular":
+        a, b = measure.points[:2]
+        c, s = math.cos(measure.turn), math.sin(measure.turn)
+        long = math.dist(a, b)
+        if measure.kind == "linear":
+            long = abs((b[0] - a[0]) * c + (b[1] - a[1]) * s)
+        factor = measure.value / long
+    name = f"TIMES_{factor:.4g}".replace(".", "_")
+    if name not in document.dimstyles:
+        document.dimstyles.new(
+            name,
+            dxfattribs={
+                "dimlfac": float(f"{factor:.9g}"),
+                "dimtxt": measure.label.height,
+                "dimasz": 3.0,
+                "dimexe": 1.5,
+                "dimexo": 0.8,
+                "dimgap": 0.8,
+                "dimtad": 1,  # text above the line
+                "dimtih": 0,  # and along it
+                "dimtoh": 0,
+                "dimdec": 3,
+                "dimtxsty": "SHEET",
+            },
+        )
+    return name
+
+
+def _drawn(space: BaseLayout, measure: Measure) -> None:
+    """Lines, arrows and text of a dimension."""
+    for piece in measure.lines:
+        draw(space, Contour(DIMENSION, (piece,), closed=False))
+    for arrow in measure.arrows:
+        _arrow(space, arrow)
+    _text(space, measure.label, DIMENSION)
+
+
+def _arrow(space: BaseLayout, arrow: Arrow) -> None:
+    tip, left, right = arrow.corners
+    space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
+
+
+def _text(space: BaseLayout, label: Label, layer: str) -> None:
+    space.add_text(
+        _signed(label.text),
+        height=label.height,
+        rotation=math.degrees(label.turn),
+        dxfattribs={"layer": layer, "style": "SHEET", "insert": label.at},
+    )
+
+
+def _signed(text: str) -> str:
+    """A text with DXF's own signs; what would be one by chance is none."""
+    shown = clean(text).replace("%%", "% %")
+    return "".join(SIGNS.get(c, c) for c in shown)

@@ -1,0 +1,70 @@
+"""A drawing sheet as SVG, of the paper's size; black on white, or white on black in the dark."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from xml.sax.saxutils import escape
+
+from geneva_cli.curves.helvetica import CAPITALS
+from geneva_cli.curves.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
+from geneva_cli.errors import clean
+from geneva_cli.output.sheets.parts import arrows, by_layer
+from geneva_cli.output.svg_paths import element, number, place, point
+
+STYLE = """<style>
+.paper { fill: #ffffff; stroke: none }
+.ink { stroke: #000000 }
+.ink text, .ink .full { fill: #000000; stroke: none }
+@media screen and (prefers-color-scheme: dark) {
+.paper { fill: #15181c }
+.ink { stroke: #e8e8e8 }
+.ink text, .ink .full { fill: #e8e8e8 }
+}
+</style>
+"""
+FONT = "Helvetica, Arial, 'Liberation Sans', sans-serif"
+
+
+def chunks(sheet: Sheet) -> Iterator[str]:
+    """The file's text."""
+    w, h = number(sheet.width), number(sheet.height)
+    yield (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}mm" height="{h}mm"'
+        f' viewBox="0 {number(-sheet.height)} {w} {h}"'
+        ' fill="none" stroke-linecap="round" stroke-linejoin="round">\n'
+        f"<title>{escape(clean(sheet.title))}</title>\n{STYLE}"
+        f'<rect class="paper" y="{number(-sheet.height)}" width="{w}" height="{h}"/>\n'
+        f'<g class="ink" font-family="{FONT}">\n'
+    )
+    for layer, shapes in by_layer(sheet):
+        dashes = ""
+        if layer in DASHED:
+            dashes = f' stroke-dasharray="{" ".join(map(str, DASHED[layer]))}"'
+        yield f'<g id="{layer}" stroke-width="{WIDTHS[layer]}"{dashes}>\n'
+        yield from map(element, shapes)
+        yield "</g>\n"
+    yield '<g id="ARROWS" class="full">\n'
+    yield from map(_arrow, arrows(sheet))
+    yield '</g>\n<g id="TEXTS">\n'
+    yield from map(_text, sheet.texts)
+    yield "</g>\n</g>\n</svg>\n"
+
+
+def _arrow(arrow: Arrow) -> str:
+    return f'<path d="M {" L ".join(map(point, arrow.corners))} Z"/>\n'
+
+
+def _text(label: Label) -> str:
+    """As wide as the sheet knows it, whatever font is there."""
+    turn = ""
+    if label.turn:
+        x, y = label.at
+        degrees = number(-math.degrees(label.turn))
+        turn = f' transform="rotate({degrees} {number(x)} {number(-y)})"'
+    return (
+        f'<text {place(label.at)} font-size="{number(label.height / CAPITALS)}"'
+        f' textLength="{number(label.width)}" lengthAdjust="spacingAndGlyphs"{turn}>'
+        f"{escape(clean(label.text))}</text>\n"
+    )

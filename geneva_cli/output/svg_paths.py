@@ -1,0 +1,67 @@
+"""Shapes as elements of an SVG, in plain coordinates.
+
+y points up in a drawing and down there: coordinates are written negated, as programs of cutters
+read paths and pass over transforms.
+"""
+
+from __future__ import annotations
+
+from geneva_cli.curves.measure import halves
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
+
+DECIMALS = 9
+# Bulges of 150, 210 and 300 degrees. Near a half turn the radius says little about the centre,
+# near a whole one the chord does: such arcs are halved, until they are neither.
+HALF_TURN = (0.7673, 1.3032)
+NEARLY_ROUND = 3.7
+
+
+def element(shape: Shape) -> str:
+    """A circle or a path."""
+    if isinstance(shape, Circle):
+        (x, y), r = shape.centre, shape.radius
+        return f'<circle cx="{number(x)}" cy="{number(-y)}" r="{number(r)}"/>\n'
+    return f'<path d="{path(shape)}"/>\n'
+
+
+def path(contour: Contour) -> str:
+    """A contour as the data of a path."""
+    segments = contour.segments
+    words = [f"M {point(segments[0].start)}"]
+    if contour.closed and isinstance(segments[-1], Line):
+        segments = segments[:-1]  # Z draws it: a line there besides would be one of no length
+    words += [_command(part) for segment in segments for part in _split(segment)]
+    return " ".join(words) + (" Z" if contour.closed else "")
+
+
+def _split(segment: Segment) -> list[Segment]:
+    if isinstance(segment, Arc):
+        bulge = abs(segment.bulge)
+        if HALF_TURN[0] < bulge < HALF_TURN[1] or bulge > NEARLY_ROUND:
+            return [part for half in halves(segment) for part in _split(half)]
+    return [segment]
+
+
+def _command(segment: Segment) -> str:
+    if isinstance(segment, Line):
+        return f"L {point(segment.end)}"
+    if isinstance(segment, Cubic):
+        return "C " + " ".join(map(point, segment[1:]))
+    radius, large, down = number(segment.radius), abs(segment.bulge) > 1.0, segment.bulge < 0.0
+    return f"A {radius},{radius} 0 {large:d} {down:d} {point(segment.end)}"
+
+
+def place(p: Point) -> str:
+    """A point as two attributes."""
+    return f'x="{number(p[0])}" y="{number(-p[1])}"'
+
+
+def point(p: Point) -> str:
+    """A point in a path."""
+    return f"{number(p[0])},{number(-p[1])}"
+
+
+def number(value: float) -> str:
+    """Fixed decimals; no exponent, no negative zero."""
+    text = f"{value:.{DECIMALS}f}"
+    return text if text.strip("-0.") else text.lstrip("-")

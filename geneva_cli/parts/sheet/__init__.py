@@ -1,0 +1,1 @@
+"""Dimensioned drawing sheets of a machine's parts."""

@@ -1,0 +1,165 @@
+"""What is on a drawing already, so that no text comes to stand on a line, or a line on a text.
+
+Lines are kept as short chords. What is to be put is a candidate with all its lines and texts, and
+the first of several that is free is taken.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.measure import at, segment_length
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape, about
+from geneva_cli.curves.sheet import ABOVE, BELOW, Label, Measure
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+CHORD = 1.5  # mm: the longest chord of a curve
+BESIDE, ON = 3.0, 1.0  # mm: of a dimension line to another, and to a line of the part beside it
+LEAST = 0.1  # mm: those that share less may be in one line
+GAP = 0.6  # mm: between a text and what is nearest to it
+
+
+class Board:
+    """Chords, and the boxes of texts."""
+
+    def __init__(self) -> None:
+        self._texts: list[Label] = []
+        self._drawn: list[Segment] = []  # straight lines of the part
+        self._ruled: list[Segment] = []  # dimension lines
+        self._all: Array = np.empty((0, 4))
+
+    def draw(self, shape: Shape) -> None:
+        """Keep a shape's lines."""
+        self._keep(chords(shape))
+        if isinstance(shape, Contour):
+            self._drawn += [piece for piece in shape.segments if isinstance(piece, Line)]
+
+    def write(self, label: Label) -> None:
+        """Keep a text."""
+        self._texts.append(label)
+        self._keep(_edges(label))
+
+    def put(self, measure: Measure) -> None:
+        """Keep a dimension: its lines, arrows and text."""
+        self._keep(_lines(measure))
+        self._ruled.append(measure.lines[0])
+        self.write(measure.label)
+
+    def first(self, candidates: Iterable[Measure]) -> Measure | None:
+        """The first of some dimensions that is free, which is kept; None if none is."""
+        for measure in candidates:
+            own = measure.lines[0]
+            ruled = any(_run_together(own, other, BESIDE) for other in self._ruled)
+            ruled = ruled or any(_run_together(own, other, ON) for other in self._drawn)
+            if not ruled and self.is_free(measure.label, _lines(measure)):
+                self.put(measure)
+                return measure
+        return None
+
+    def is_free(self, label: Label, lines: Array) -> bool:
+        """Whether a text and lines that go with it meet nothing that is here."""
+        if bool(_inside(label, self._all, GAP).any()):
+            return False
+        own = np.concatenate((lines, _edges(label)))
+        return not any(bool(_inside(text, own, GAP).any()) for text in self._texts)
+
+    def box(self) -> tuple[float, float, float, float]:
+        """The least and the greatest coordinates of all: x0, y0, x1, y1."""
+        x, y = self._all[:, ::2], self._all[:, 1::2]
+        return float(x.min()), float(y.min()), float(x.max()), float(y.max())
+
+    def _keep(self, lines: Array) -> None:
+        self._all = np.concatenate((self._all, lines))
+
+
+def crosses(label: Label, lines: Array, gap: float = 0.0) -> bool:
+    """Whether some chords, (n, 4), come nearer to a text's box than a gap in mm."""
+    return bool(_inside(label, lines, gap).any())
+
+
+def chords(shape: Shape) -> Array:
+    """A shape's chords, (n, 4)."""
+    if isinstance(shape, Circle):
+        pieces: Iterable[Segment] = (
+            about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi)
+        )
+        return _chords(pieces)
+    assert isinstance(shape, Contour)
+    return _chords(shape.segments)
+
+
+def _run_together(a: Segment, b: Segment, apart: float) -> bool:
+    """Whether two lines, or two arcs, run side by side, too near to be told apart."""
+    if isinstance(a, Arc) and isinstance(b, Arc):
+        same = math.dist(a.centre, b.centre) < LEAST and abs(a.radius - b.radius) < apart
+        turn = (_middle(b) - _middle(a)) % math.tau
+        off = min(turn, math.tau - turn)
+        return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > LEAST
+    if not (isinstance(a, Line) and isinstance(b, Line)):
+        return False
+    (x, y), (u, v) = a
+    long = math.dist(*a)
+    if long < LEAST:
+        return False
+    c, s = (u - x) / long, (v - y) / long
+    along = sorted((p[0] - x) * c + (p[1] - y) * s for p in b)
+    across = max(abs((p[1] - y) * c - (p[0] - x) * s) for p in b)
+    return across < apart and along[0] < long - LEAST and along[1] > LEAST
+
+
+def _middle(arc: Arc) -> float:
+    """The direction of an arc's middle from its centre."""
+    (x, y), (u, v) = arc.centre, at(arc, 0.5)
+    return math.atan2(v - y, u - x)
+
+
+def _chords(pieces: Iterable[Segment]) -> Array:
+    rows: list[tuple[float, float, float, float]] = []
+    for piece in pieces:
+        count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / CHORD))
+        points: list[Point] = [at(piece, i / count) for i in range(count + 1)]
+        rows += [(*p, *q) for p, q in zip(points, points[1:], strict=False)]
+    return np.array(rows).reshape(-1, 4)
+
+
+def _lines(measure: Measure) -> Array:
+    """A dimension's lines, and the sides of its arrows."""
+    sides = [
+        Line(a, b)
+        for arrow in measure.arrows
+        for a, b in zip(arrow.corners, (*arrow.corners[1:], arrow.corners[0]), strict=True)
+    ]
+    return _chords([*measure.lines, *sides])
+
+
+def _edges(label: Label) -> Array:
+    corners = label.corners
+    return np.array([(*p, *q) for p, q in zip(corners, (*corners[1:], corners[0]), strict=True)])
+
+
+def _inside(label: Label, lines: Array, gap: float) -> Array:
+    """Which chords, (n, 4), meet the box of a text grown by a gap, (n,)."""
+    c, s = math.cos(label.turn), math.sin(label.turn)
+    x, y = lines[:, ::2] - label.at[0], lines[:, 1::2] - label.at[1]
+    along, up = c * x + s * y, c * y - s * x
+    low, high = np.zeros(len(lines)), np.ones(len(lines))
+    limits = (
+        (along, -gap, label.width + gap),
+        (up, -BELOW * label.height - gap, ABOVE * label.height + gap),
+    )
+    for place, least, most in limits:
+        start, step = place[:, 0], place[:, 1] - place[:, 0]
+        flat = np.abs(step) < 1e-12
+        safe = np.where(flat, 1.0, step)
+        a, b = (least - start) / safe, (most - start) / safe
+        within = (start >= least) & (start <= most)
+        first = np.where(flat, np.where(within, -np.inf, np.inf), np.minimum(a, b))
+        last = np.where(flat, np.where(within, np.inf, -np.inf), np.maximum(a, b))
+        low, high = np.maximum(low, first), np.minimum(high, last)
+    return np.asarray(low <= high)

@@ -1,0 +1,214 @@
+"""The views of what the crank carries: locking disc, arm, roller and pin; and of the groove."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
+from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.parts.arm import CrankArm, bolts
+from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.parts.keyways import key
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.view import View, number, times
+
+SAME = 1e-6  # mm
+
+
+def draw_disc(view: View, found: Outlines) -> None:
+    """The locking disc, or its sectors, about the crank's axis."""
+    plane, sizes = found.plane, found.sizes
+    for contour in found.crank:
+        view.draw(contour, OUTLINE)
+    screwed = bolts(found)
+    whole = is_whole(plane, sizes)
+    bores = [c for c in crank_circles(plane, sizes) if c.layer == "BORE" and whole]
+    for shape in (*screwed, *bores):
+        view.draw(shape, OUTLINE)
+    _circle_of(view, screwed)
+    view.cross((0.0, 0.0), sizes.lock if whole else 0.2 * sizes.lock)
+    _bored(view, found, bores, sizes.crank_bore)
+    arcs = [s for contour in found.crank for s in contour.segments if isinstance(s, Arc)]
+    locking = [a for a in arcs if math.hypot(*a.centre) < SAME and _is(a.radius, sizes.lock)]
+    view.of_arcs(locking, sized.lock(plane.mechanism, sizes.lock), whole=True)
+    seen: set[tuple[str, str]] = set()
+    for arc in arcs:
+        if arc in locking:
+            continue
+        middle = at(arc, 0.5)
+        far = math.hypot(*middle)
+        shown = sized.plain(arc.radius, "R "), number(far)
+        if shown in seen:
+            continue
+        seen.add(shown)
+        view.of_arcs([arc], shown[0])
+        if math.hypot(*arc.centre) > SAME and far > SAME:
+            turn = math.atan2(middle[1], middle[0])
+            view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
+    _gaps(view, found, locking)
+    _bolted(view, screwed)
+
+
+def _gaps(view: View, found: Outlines, locking: list[Arc]) -> None:
+    """The angles between the arcs that lock."""
+    ends = sorted(_directions(arc) for arc in _joined(locking))
+    gaps: dict[str, list[tuple[float, float]]] = {}
+    for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
+        wide = (start - end) % math.tau
+        if wide > SAME:
+            gaps.setdefault(f"{number(math.degrees(wide))}°", []).append((end, end + wide))
+    for text, pairs in gaps.items():
+        view.angular(pairs, found.sizes.lock, found.sizes.lock, times(len(pairs), text))
+
+
+def _joined(arcs: list[Arc]) -> list[Arc]:
+    """Arcs of one circle that go on in each other as one."""
+    found: list[Arc] = []
+    for arc in arcs:
+        if found and found[-1].end == arc.start:
+            sweep = found[-1].sweep + arc.sweep
+            found[-1] = Arc(found[-1].start, arc.end, math.tan(0.25 * sweep))
+        else:
+            found.append(arc)
+    return found
+
+
+def _directions(arc: Arc) -> tuple[float, float]:
+    first = math.atan2(arc.start[1], arc.start[0])
+    return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
+
+
+def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
+    """The crank arm with its holes."""
+    view.draw(made.outline, OUTLINE)
+    for shape in (made.bore, *made.pins, *made.bolts):
+        view.draw(shape, OUTLINE)
+    view.cross((0.0, 0.0), made.hub)
+    for pin in made.pins:
+        view.cross(pin.centre, made.eye, math.atan2(pin.centre[1], pin.centre[0]))
+    _circle_of(view, made.bolts)
+    mechanism = found.plane.mechanism
+    deviation = mechanism.spec.tolerance.crank_radius_mm
+    shown: dict[str, list[Circle]] = {}
+    for pin in made.pins:
+        text = sized.plain(math.hypot(*pin.centre), deviation=deviation)
+        shown.setdefault(text, []).append(pin)
+    for text, some in shown.items():
+        centre = some[0].centre
+        turn = math.atan2(centre[1], centre[0])
+        view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
+    _between(view, made)
+    _bored(view, found, [made.bore], _radius(made.bore))
+    view.diameter(made.pins, times(len(made.pins), sized.bore(made.pins[0].radius)))
+    radii: dict[str, list[Arc]] = {}
+    for arc in made.outline.segments:
+        if isinstance(arc, Arc):
+            radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
+    for text, arcs in radii.items():
+        view.of_arcs(arcs, times(len(arcs), text))
+    _bolted(view, made.bolts)
+
+
+def _between(view: View, made: CrankArm) -> None:
+    """The angles from one pin to the next."""
+    ways = sorted(math.atan2(p.centre[1], p.centre[0]) for p in made.pins)
+    reach = max(math.hypot(*p.centre) for p in made.pins) + made.eye
+    pairs: dict[str, list[tuple[float, float]]] = {}
+    for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
+        wide = end - start
+        if wide < math.pi - SAME:  # what is left of a turn, and what is straight on, is seen
+            pairs.setdefault(f"{number(math.degrees(wide))}°", []).append((start, end))
+    for text, some in pairs.items():
+        view.angular(some, reach, reach, times(len(some), text))
+
+
+def draw_roller(view: View, found: Outlines) -> None:
+    """A roller about its pin."""
+    sizes, axis = found.sizes, (0.0, 0.0)
+    circles = [Circle("", axis, sizes.roller)] + (
+        [Circle("", axis, sizes.pin)] if sizes.pin else []
+    )
+    for c in circles:
+        view.draw(c, OUTLINE)
+    view.cross(axis, sizes.roller)
+    view.diameter(circles[:1], sized.roller(found.plane.mechanism, sizes.roller))
+    if sizes.pin:
+        view.diameter(circles[1:], sized.bore(sizes.pin))
+
+
+def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> None:
+    """The machine put together, with the centre distance."""
+    layers = {"PITCH": CENTRE, "ARM": HIDDEN}
+    for shape in shapes:
+        view.draw(shape, layers.get(shape.layer, OUTLINE))
+    L = found.plane.L
+    deviation = found.plane.mechanism.spec.tolerance.center_distance_mm
+    reach = found.sizes.outer or found.sizes.rim
+    view.cross((0.0, 0.0), reach)
+    view.cross((L, 0.0), max(found.sizes.lock, 0.1 * L))
+    view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
+
+
+def draw_groove(view: View, shapes: tuple[Shape, ...], half: float) -> None:
+    """The groove of a cam, whose points are in a table."""
+    for shape in shapes:
+        view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
+    reach = max(
+        math.hypot(*s.start)
+        for shape in shapes
+        if isinstance(shape, Contour)
+        for s in shape.segments
+    )
+    view.cross((0.0, 0.0), reach)
+    outer = max(
+        (s.start for shape in shapes if isinstance(shape, Contour) for s in shape.segments),
+        key=lambda p: math.hypot(*p),
+    )
+    view.note(outer, f"groove {sized.fitted(2.0 * half, '', 'H7')} wide")
+
+
+def carried(found: Outlines) -> int:
+    """How many rollers there are on the crank."""
+    return len(roller_centres(found.plane))
+
+
+def _bored(view: View, found: Outlines, bores: list[Shape], radius: float) -> None:
+    """A bore's diameter, and its keyway's size."""
+    if not bores:
+        return
+    view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
+    standard = found.plane.given.spec.size.crank_keyway
+    fitted = key(standard, radius)
+    if fitted and isinstance(bores[0], Contour):
+        top = bores[0].segments[3]
+        text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
+        view.note(at(top, 0.5), f"{text} ({standard})")
+
+
+def _radius(bore: Shape) -> float:
+    if isinstance(bore, Circle):
+        return bore.radius
+    return math.hypot(*bore.segments[0].start)
+
+
+def _circle_of(view: View, screwed: list[Circle]) -> None:
+    """The circles that bolts stand on, as centre lines."""
+    for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
+        view.draw(Circle("", (0.0, 0.0), far), CENTRE)
+
+
+def _bolted(view: View, screwed: list[Circle]) -> None:
+    """Diameters of the bolts' holes and of the circle on which they are."""
+    if not screwed:
+        return
+    far = math.hypot(*screwed[0].centre)
+    text = times(len(screwed), f"{sized.bore(screwed[0].radius)} on Ø {number(2.0 * far)}")
+    view.diameter(screwed, text)
+    ways = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
+    view.notes.append("holes at " + ", ".join(f"{number(way, 2)}°" for way in ways))
+
+
+def _is(a: float, b: float) -> bool:
+    return abs(a - b) < SAME

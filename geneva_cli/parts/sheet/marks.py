@@ -1,0 +1,214 @@
+"""Dimensions as they are drawn (ISO 129-1): each as candidates, the best first.
+
+All in millimetres on paper; ``value`` alone is the part's own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from geneva_cli.curves.helvetica import width
+from geneva_cli.curves.shapes import Line, Point, Segment, about
+from geneva_cli.curves.sheet import ARROW, BELOW, Arrow, Label, Measure, polar
+
+PAST = 1.5  # an extension line beyond the dimension's
+CLEAR = 0.8  # from the outline to an extension line, and from a line to the text on it
+ROUND = 16  # directions of a leader
+LENGTHS = (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0)
+LENGTH = ARROW[0]
+PLACES = (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0)  # of a text along its dimension line
+LEVEL = 0.14  # radians: leaders nearer to level or upright would run on centre lines
+
+
+def linear(
+    ends: tuple[Point, Point],
+    turn: float,
+    levels: Iterable[float],
+    text: str,
+    value: float,
+    h: float,
+) -> Iterator[Measure]:
+    """A distance in the direction ``turn``, its line at some levels along the normal to it.
+
+    A level is a place on the axis across, counted from the origin.
+    """
+    u, n = _axes(turn)
+    a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
+    for level in levels:
+        for place in PLACES:
+            made = _linear(a, b, level, turn, place, text, h)
+            if made is None:
+                continue
+            lines, arrows, label = made
+            points = (*(_at(u, n, *p) for p in (a, b)), _at(u, n, b[0], level))
+            yield Measure("linear", points, value, label, lines, arrows, turn)
+
+
+def _linear(
+    a: Point, b: Point, level: float, turn: float, place: float, text: str, h: float
+) -> tuple[tuple[Segment, ...], tuple[Arrow, ...], Label] | None:
+    """With the text somewhere between the arrows, or beyond one end; None where it has no room.
+
+    ``place`` is the share of the room before it, or below 0 or above 1 for beyond an end.
+    """
+    u, n = _axes(turn)
+    long, room = width(text) * h, b[0] - a[0]
+    spare = room - long - 2.0 * (LENGTH + CLEAR)
+    if 0.0 <= place <= 1.0 and spare < 0.0:
+        return None
+    inside = room > 3.0 * LENGTH
+    low, high = a[0], b[0]
+    if not inside:
+        low, high = low - 2.5 * LENGTH, high + 2.5 * LENGTH
+    start = a[0] + LENGTH + CLEAR + place * spare
+    if place > 1.0:
+        start = b[0] + (0.5 if inside else 2.5) * LENGTH + CLEAR
+        high = start + long + CLEAR
+    elif place < 0.0:
+        start = a[0] - (0.5 if inside else 2.5) * LENGTH - CLEAR - long
+        low = start - CLEAR
+    lines = [Line(_at(u, n, low, level), _at(u, n, high, level))]
+    for along, across in (a, b):
+        way = math.copysign(1.0, level - across)
+        if abs(level - across) > CLEAR + PAST:
+            begin, end = across + way * CLEAR, level + way * PAST
+            lines.append(Line(_at(u, n, along, begin), _at(u, n, along, end)))
+    turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
+    arrows = tuple(
+        Arrow(_at(u, n, along, level), way) for (along, _), way in zip((a, b), turns, strict=True)
+    )
+    return tuple(lines), arrows, _on_line(u, n, start, start + long, level, turn, text, h)
+
+
+def _on_line(
+    u: Point, n: Point, start: float, end: float, level: float, turn: float, text: str, h: float
+) -> Label:
+    """The text above its line, to be read from below or from the right."""
+    off = CLEAR + BELOW * h
+    if math.cos(turn) > 1e-9 or (abs(math.cos(turn)) <= 1e-9 and math.sin(turn) > 0.0):
+        return Label(text, _at(u, n, start, level + off), h, turn)
+    return Label(text, _at(u, n, end, level - off), h, turn + math.pi)
+
+
+def angular(
+    apex: Point,
+    legs: tuple[float, float],
+    begin: float,
+    radii: Iterable[float],
+    text: str,
+    value: float,
+    h: float,
+) -> Iterator[Measure]:
+    """An angle from one leg counterclockwise to the other, radians, on arcs of some radii.
+
+    The extension lines begin at the distance ``begin`` from the apex.
+    """
+    first, last = legs
+    for radius in radii:
+        inside = radius * (last - first) > 3.0 * LENGTH
+        spare = 0.0 if inside else 2.5 * LENGTH / radius
+        lines: list[Segment] = [
+            about(apex, radius, first - spare, last - first + 2.0 * spare),
+            *(Line(polar(apex, begin, leg), polar(apex, radius + PAST, leg)) for leg in legs),
+        ]
+        tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
+        quarter = 0.5 * math.pi
+        turns = (
+            (first - quarter + tilt, last + quarter - tilt)
+            if inside
+            else (first + quarter - tilt, last - quarter + tilt)
+        )
+        arrows = tuple(
+            Arrow(polar(apex, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
+        )
+        middle = 0.5 * (first + last)
+        points = (apex, *(polar(apex, begin, leg) for leg in legs), polar(apex, radius, middle))
+        for share in (0.5, 0.3, 0.7, -0.3, 1.3):
+            at = first + share * (last - first) if inside else middle
+            label = _beside(polar(apex, radius, at), at, text, h)
+            yield Measure("angular", points, value, label, tuple(lines), arrows)
+
+
+def _beside(p: Point, way: float, text: str, h: float) -> Label:
+    """An upright text whose box stands clear of a point, in a direction from it."""
+    half = 0.5 * width(text) * h, 0.7 * h
+    away = half[0] * abs(math.cos(way)) + half[1] * abs(math.sin(way)) + 2.0 * CLEAR
+    x, y = polar(p, away, way)
+    return Label(text, (x - half[0], y - 0.4 * h), h)
+
+
+def diameter(
+    centre: Point, radius: float, ways: Iterable[float], text: str, value: float, h: float
+) -> Iterator[Measure]:
+    """A diameter by a leader that meets the circle in one of some directions from its centre."""
+    for tip, way, end, label in _leaders(centre, radius, ways, text, h):
+        points = (polar(centre, -radius, way), tip)
+        yield _led("diameter", points, value, tip, end, label)
+
+
+def radius(
+    centre: Point, reach: float, ways: Iterable[float], text: str, value: float, h: float
+) -> Iterator[Measure]:
+    """A radius, in the same way."""
+    for tip, _, end, label in _leaders(centre, reach, ways, text, h):
+        yield _led("radius", (centre, tip), value, tip, end, label)
+
+
+def note(tip: Point, text: str, h: float) -> Iterator[Measure]:
+    """A text with a leader to a point."""
+    for _, _, end, label in _leaders(tip, 0.0, around(), text, h):
+        yield _led("note", (tip,), 0.0, tip, end, label)
+
+
+def around(start: float = 0.25 * math.pi, count: int = ROUND) -> list[float]:
+    """Directions all round, slanting ones first."""
+    every = [start + k * math.tau / count for k in range(count)]
+    return sorted(every, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
+
+
+def within(start: float, end: float, count: int = 9) -> list[float]:
+    """Directions between two, the middle ones first."""
+    shares = sorted(((k + 0.5) / count for k in range(count)), key=lambda s: abs(s - 0.5))
+    ways = [start + s * (end - start) for s in shares]
+    return sorted(ways, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * LEVEL)
+
+
+def _leaders(
+    centre: Point, reach: float, ways: Iterable[float], text: str, h: float
+) -> Iterator[tuple[Point, float, Point, Label]]:
+    """Tips, directions, where the leader turns level, and the text on it: short ones first."""
+    every = list(ways)
+    long = width(text) * h
+    for length in LENGTHS:
+        for way in every:
+            tip = polar(centre, reach, way)
+            for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):
+                end = polar(tip, out * length, way)
+                right = out * math.cos(way) >= 0.0
+                start = end[0] + CLEAR if right else end[0] - CLEAR - long
+                yield tip, way, end, Label(text, (start, end[1] + CLEAR + BELOW * h), h)
+
+
+def _led(
+    kind: str, points: tuple[Point, ...], value: float, tip: Point, end: Point, label: Label
+) -> Measure:
+    """With its line from the tip to the shelf under its text, and the shelf."""
+    left, right = label.at[0] - CLEAR, label.at[0] + label.width + CLEAR
+    far = right if abs(end[0] - left) < abs(end[0] - right) else left
+    lines = (Line(end, tip), Line(end, (far, end[1])))
+    turn = math.atan2(tip[1] - end[1], tip[0] - end[0])
+    return Measure(kind, points, value, label, lines, (Arrow(tip, turn),))
+
+
+def _axes(turn: float) -> tuple[Point, Point]:
+    c, s = math.cos(turn), math.sin(turn)
+    return (c, s), (-s, c)
+
+
+def _dot(p: Point, q: Point) -> float:
+    return p[0] * q[0] + p[1] * q[1]
+
+
+def _at(u: Point, n: Point, along: float, across: float) -> Point:
+    return along * u[0] + across * n[0], along * u[1] + across * n[1]

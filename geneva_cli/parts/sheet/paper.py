@@ -1,0 +1,157 @@
+"""The paper: formats (ISO 5457), frame, title block (ISO 7200), list of items, other tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from geneva_cli.curves.helvetica import width
+from geneva_cli.curves.shapes import Circle, Point, Shape
+from geneva_cli.curves.sheet import FRAME, OUTLINE, TEXT, Label, line, polar, rectangle
+from geneva_cli.parts.sheet.view import LARGE, SMALL, Block
+
+LEFT, MARGIN = 20.0, 10.0  # mm: of the frame, on the side that is filed and on the others
+BLOCK = 180.0  # mm: width of the title block
+ROW = 5.0  # mm: of tables
+NARROW = 60.0  # mm: text above a table is broken to this at least
+
+
+class Format(NamedTuple):
+    """A trimmed sheet, mm; A4 is upright."""
+
+    name: str
+    width: float
+    height: float
+
+
+FORMATS = (
+    Format("A4", 210.0, 297.0),
+    Format("A3", 420.0, 297.0),
+    Format("A2", 594.0, 420.0),
+    Format("A1", 841.0, 594.0),
+)
+# ISO 5455, with its powers of ten
+SCALES = [n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
+    1 / (n * 10**k) for k in (0, 1, 2, 3, 4) for n in (1, 2, 5) if (n, k) != (1, 0)
+]
+
+
+def scale_name(scale: float) -> str:
+    """A scale as it is written.
+
+    >>> scale_name(2.0), scale_name(0.2)
+    ('2:1', '1:5')
+    """
+    return f"{scale:.0f}:1" if scale >= 1.0 else f"1:{1.0 / scale:.0f}"
+
+
+def smaller(scale: float, times: float) -> float:
+    """The next scale of the standard that is smaller by a factor, at least."""
+    return max(s for s in SCALES if s <= scale / times * (1.0 + 1e-9))
+
+
+def frame(paper: Format) -> list[Shape]:
+    """The frame, with marks at the middle of its sides."""
+    w, h = paper.width, paper.height
+    shapes: list[Shape] = [rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)]
+    x, y = 0.5 * w, 0.5 * h
+    for start, end in (
+        ((x, 0.0), (x, MARGIN)),
+        ((x, h), (x, h - MARGIN)),
+        ((0.0, y), (LEFT, y)),
+        ((w, y), (w - MARGIN, y)),
+    ):
+        shapes.append(line(FRAME, start, end))
+    return shapes
+
+
+def title_block(fields: dict[str, str], title: str, parts: str) -> Block:
+    """Title and fields in a block; its lower left corner is the origin."""
+    shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, BLOCK, 36.0)]
+    labels: list[Label] = []
+    shapes += [line(TEXT, (0.0, y), (BLOCK, y)) for y in (12.0, 24.0)]
+    labels += _field((0.0, 24.0), "title", title, LARGE, BLOCK)
+    labels += _field((0.0, 12.0), "parts", parts, SMALL, BLOCK - 30.0)
+    shapes.append(line(TEXT, (BLOCK - 30.0, 12.0), (BLOCK - 30.0, 24.0)))
+    symbol_shapes = projection((BLOCK - 15.0, 18.0))
+    shapes += symbol_shapes
+    cell = BLOCK / len(fields)
+    for i, (name, value) in enumerate(fields.items()):
+        labels += _field((i * cell, 0.0), name, value, SMALL, cell)
+        if i:
+            shapes.append(line(TEXT, (i * cell, 0.0), (i * cell, 12.0)))
+    return Block(0.0, 0.0, BLOCK, 36.0, tuple(shapes), tuple(labels))
+
+
+def _field(at: Point, name: str, value: str, height: float, room: float) -> list[Label]:
+    """A small heading, and its value, made to fit in."""
+    x, y = at[0] + 2.0, at[1]
+    shown = cut_to(value, height, room - 4.0)
+    labels = [Label(name, (x, y + 8.4), 1.8)]
+    return [*labels, Label(shown, (x, y + 3.0), height)] if shown else labels
+
+
+def cut_to(text: str, height: float, room: float) -> str:
+    """A text that is too long for its room, cut."""
+    if width(text) * height <= room:
+        return text
+    while text and width(text + "...") * height > room:
+        text = text[:-1]
+    return text + "..."
+
+
+def projection(at: Point) -> list[Shape]:
+    """The symbol of first angle projection (ISO 5456-2): a cone's frustum and its view."""
+    x, y = at
+    small, large, long = 1.75, 3.5, 7.0
+    side = ((-10.0, -small), (-10.0 + long, -large), (-10.0 + long, large), (-10.0, small))
+    corners = [(x + a, y + b) for a, b in side]
+    shapes: list[Shape] = [line(OUTLINE, *corners, corners[0])]
+    centre = (x + 6.0, y)
+    shapes += [Circle(OUTLINE, centre, small), Circle(OUTLINE, centre, large)]
+    shapes.append(line(TEXT, (x - 11.5, y), (x - 1.5, y)))
+    for way in (0.0, 0.5 * math.pi):
+        shapes.append(line(TEXT, polar(centre, -5.0, way), polar(centre, 5.0, way)))
+    return shapes
+
+
+def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
+    """A table, its first row the names of its columns; above it some lines of text, which are
+    broken to its width. ``columns`` are widths in mm.
+    """
+    wide, high = sum(columns), ROW * len(rows)
+    shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]
+    labels: list[Label] = []
+    for i, row in enumerate(rows):
+        y = high - ROW * (i + 1)
+        if i:
+            shapes.append(line(TEXT, (0.0, y + ROW), (wide, y + ROW)))
+        x = 0.0
+        for text, column in zip(row, columns, strict=True):
+            shown = cut_to(text, SMALL, column - 2.0)
+            if shown:
+                labels.append(Label(shown, (x + 1.0, y + 1.4), SMALL))
+            x += column
+    x = 0.0
+    for column in columns[:-1]:
+        x += column
+        shapes.append(line(TEXT, (x, 0.0), (x, high)))
+    lines = [part for text in heading for part in broken(text, SMALL, max(wide, NARROW))]
+    top = high
+    for text in reversed(lines):
+        top += 1.8 * SMALL
+        labels.append(Label(text, (0.0, top - 1.2 * SMALL), SMALL))
+        wide = max(wide, labels[-1].width)
+    return Block(0.0, 0.0, wide, top, tuple(shapes), tuple(labels))
+
+
+def broken(text: str, height: float, room: float) -> list[str]:
+    """A text in lines that are no longer than a room, broken at spaces."""
+    lines: list[str] = []
+    for word in text.split():
+        if lines and width(f"{lines[-1]} {word}") * height <= room:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return lines

@@ -1,0 +1,97 @@
+"""Tables of points, of curves that no few numbers describe: curved slots, a cam's groove."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.parts.groove import groove_curve
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.paper import table
+from geneva_cli.parts.sheet.view import Block, number, times
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+COARSE = 1e-4  # of the centre distance: no table is finer than that
+COLUMNS = (9.0, 17.0, 17.0)
+ROWS = 40  # at most, before the table goes on beside itself
+MIRRORED = "; the other half is its mirror image in the x axis"
+BEGIN = 4  # intervals
+DEPTH = 14  # halvings of one
+BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is looked at
+
+
+def tables(found: Outlines, tolerance: float) -> list[Block]:
+    """A table for each kind of curved slot, and for the groove of a cam."""
+    made = []
+    plane = found.plane
+    close = max(tolerance, COARSE * plane.L)
+    for engagement in plane.kinds:
+        if not engagement.slot.curved:
+            continue
+        count = sum(1 for one, _ in plane.slots if one is engagement)
+        symmetric = engagement.motion.symmetric
+
+        def centre(x: Array, of: object = engagement) -> Array:
+            px, py = engagement.slot(x, 0)  # noqa: B023
+            return plane.L * np.column_stack((px.c[0], py.c[0] + 0.0 * x))
+
+        last = 0.0 if symmetric else engagement.exit_deg
+        points = polyline(centre, engagement.entry_deg, last, close)
+        width = sized.slot_width(plane.mechanism, found.sizes.half_width)
+        what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
+        more = MIRRORED if symmetric else ""
+        made.append(_table(what + more, points, close))
+    guide = plane.rollers[0][0].groove
+    if guide is not None:
+        guided = groove_curve(guide, plane.L, 0.0)
+        symmetric = guide.motion.symmetric
+        last = 180.0 if symmetric else 360.0
+        points = polyline(lambda t: guided(t)[0], 0.0, last, close)
+        what = "groove: points of its centre line"
+        made.append(_table(what + (MIRRORED if symmetric else ""), points, close))
+    return made
+
+
+def polyline(curve: Callable[[Array], Array], a: float, b: float, tolerance: float) -> Array:
+    """Points of a curve, (n, 2), such that no chord between them misses it by more."""
+    nodes = np.linspace(a, b, BEGIN + 1)
+    for _ in range(DEPTH):
+        steps = np.diff(nodes)
+        inner = np.concatenate([nodes[:-1] + share * steps for share in BETWEEN])
+        ends = curve(nodes)
+        between = curve(inner).reshape(len(BETWEEN), -1, 2)
+        chord = np.diff(ends, axis=0)
+        off = between - ends[:-1]
+        length = np.maximum(np.hypot(*chord.T), 1e-12)
+        misses = np.abs(off[..., 0] * chord[:, 1] - off[..., 1] * chord[:, 0]) / length
+        bad = misses.max(axis=0) > tolerance
+        if not bad.any():
+            break
+        nodes = np.sort(np.concatenate((nodes, (nodes[:-1] + 0.5 * steps)[bad])))
+    return curve(nodes)
+
+
+def _table(title: str, points: Array, close: float) -> Block:
+    """The points side by side in as many columns as they need, with their tolerance."""
+    groups = math.ceil(len(points) / ROWS)
+    high = math.ceil(len(points) / groups)
+    rows = [["No.", "x", "y"] * groups]
+    for i in range(high):
+        row: list[str] = []
+        for k in range(groups):
+            j = k * high + i
+            known = j < len(points)
+            row += (
+                [str(j + 1), *(f"{v + 0.0:.3f}" for v in np.round(points[j], 3))]
+                if known
+                else ["", "", ""]
+            )
+        rows.append(row)
+    note = f"chords between them are within {number(close, 4)} of it"
+    return table([title, note], rows, COLUMNS * groups)

@@ -1,0 +1,204 @@
+"""The drawing sheet of a machine: its parts with dimensions, the list of items and a title block.
+
+The views have one scale, of the standard's the largest with which all goes on one sheet: 1:1 or
+less up to A1, more only as long as A3 will do. The machine put together is drawn at half of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import Any
+
+from geneva_cli.curves.sheet import Sheet
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.layout import Dimension, Pivot
+from geneva_cli.parts import drawings
+from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.parts_list import parts_rows
+from geneva_cli.parts.sheet import points, wheel
+from geneva_cli.parts.sheet.crank import (
+    draw_arm,
+    draw_assembly,
+    draw_disc,
+    draw_groove,
+    draw_roller,
+)
+from geneva_cli.parts.sheet.pack import packed
+from geneva_cli.parts.sheet.paper import (
+    BLOCK,
+    FORMATS,
+    LEFT,
+    MARGIN,
+    SCALES,
+    Format,
+    frame,
+    scale_name,
+    smaller,
+    table,
+    title_block,
+)
+from geneva_cli.parts.sheet.view import Block, View, number
+from geneva_cli.spec.tables import Material
+
+ENLARGED = FORMATS[:2]  # what is used above 1:1
+ASSEMBLED = 2.0  # how much smaller the machine is drawn than its parts
+GENERAL = "ISO 2768-m"  # tolerances of what has none of its own
+ITEMS = (12.0, 50.0, 14.0, 20.0, 24.0, 60.0)  # mm: columns of the list of items
+LINKS = (60.0, 36.0, 20.0)  # and of that of pivots and links
+
+
+def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
+    """The drawing sheet of a machine. Raises GenevaError where no scale brings it on one."""
+    rows = list(parts_rows(found))
+    fixed = [*points.tables(found, tolerance), *_links(found)]
+    largest = 2.0 * (found.sizes.outer or found.sizes.rim)
+    for scale in SCALES:
+        formats = ENLARGED if scale > 1.0 else FORMATS
+        if scale * largest > formats[-1].width:
+            continue
+        views = [view.block() for view in _views(found, rows, scale, tolerance, curves)]
+        for paper in formats:
+            made = _composed(found, paper, scale, rows, [*views, *fixed])
+            if made is not None:
+                return made
+    raise GenevaError(
+        "--part sheet: the parts and their tables do not go on one A1 sheet; a coarser "
+        "--tolerance makes shorter tables"
+    )
+
+
+def _views(
+    found: Outlines, rows: list[dict[str, Any]], scale: float, tolerance: float, curves: str
+) -> Iterator[View]:
+    """A view of each part."""
+    plane = found.plane
+
+    def view(*names: str) -> View:
+        shown = [
+            f"{i} {row['name']}, t = {number(row['thickness_mm'])}"
+            for i, row in enumerate(rows, 1)
+            if row["name"] in names
+        ]
+        return View("; ".join(shown), scale)
+
+    made = view("wheel")
+    wheel.draw_wheel(made, found, tolerance, curves)
+    yield made
+    if found.crank:
+        made = view("locking disc", "locking sector")
+        draw_disc(made, found)
+        yield made
+    arm = _arm(found)
+    if arm:
+        made = view("arm")
+        draw_arm(made, found, arm)
+        yield made
+    made = view("roller", "pin")
+    draw_roller(made, found)
+    yield made
+    if plane.rollers[0][0].groove is not None:
+        made = View("groove", scale)
+        draw_groove(made, drawings.groove(found, tolerance, curves).shapes, found.sizes.half_width)
+        yield made
+    half = smaller(scale, ASSEMBLED)
+    made = View(f"together ({scale_name(half)})", half)
+    draw_assembly(made, found, drawings.assembly(found, tolerance, curves).shapes)
+    yield made
+
+
+def _arm(found: Outlines) -> CrankArm | None:
+    if has_arm(found):
+        with suppress(GenevaError):  # the check of the arm says why there is none
+            return crank_arm(found)
+    return None
+
+
+def _composed(
+    found: Outlines,
+    paper: Format,
+    scale: float,
+    rows: list[dict[str, Any]],
+    blocks: list[Block],
+) -> Sheet | None:
+    """All on one sheet; None where it has no room."""
+    spec = found.plane.given.spec
+    materials = [_material(spec.material_wheel), _material(spec.material_roller)]
+    fields = {
+        "scale": scale_name(scale),
+        "mass": f"{_rounded(sum(r['mass_kg'] * r['count'] for r in rows))} kg",
+        "material": materials[0] if len(set(materials)) == 1 else "see list",
+        "tolerances": GENERAL,
+        "units": "mm, degrees",
+        "size": paper.name,
+        "sheet": "1/1",
+    }
+    names = ", ".join(str(row["name"]) for row in rows)
+    head = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    right, low = paper.width - MARGIN, MARGIN
+    corner = title_block(fields, head, names).moved(right - BLOCK, low)
+    items = _items(rows, materials)
+    items = items.moved(right - items.width, corner.y1)
+    area = LEFT, MARGIN, right, paper.height - MARGIN
+    placed = packed(blocks, [corner, items], area)
+    if placed is None:
+        return None
+    every = [corner, items, *placed]
+    return Sheet(
+        head,
+        paper.width,
+        paper.height,
+        scale,
+        (*frame(paper), *(s for b in every for s in b.shapes)),
+        tuple(label for b in every for label in b.labels),
+        tuple(m for b in every for m in b.measures),
+    )
+
+
+def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
+    """The list of items (ISO 7573), from below."""
+    own = {"material.wheel": materials[0], "material.roller": materials[1]}
+    lines = [
+        (
+            str(i),
+            str(row["name"]),
+            str(row["count"]),
+            number(row["thickness_mm"]),
+            _rounded(row["mass_kg"]),
+            own[row["material"]],
+        )
+        for i, row in enumerate(rows, 1)
+    ]
+    heading = ("item", "part", "count", "t", "kg each", "material")
+    return table((), [heading, *lines], ITEMS)
+
+
+def _links(found: Outlines) -> list[Block]:
+    """Pivots and lengths of what drives the crank."""
+    given = found.plane.given
+    layout = given.spec.drive.layout(given.plan, given.spec.wheel.SIGN)
+    rows = [("drive", "x or value", "y or unit")]
+    rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in layout if isinstance(p, Pivot)]
+    rows += [
+        (d.name, number(d.value) if isinstance(d.value, (int, float)) else d.value, d.unit)
+        for d in layout
+        if isinstance(d, Dimension)
+    ]
+    return [table((), rows, LINKS)] if len(rows) > 1 else []
+
+
+def _material(of: Material) -> str:
+    """Steel where nothing else is said, or else the density that is given."""
+    usual = type(of)()
+    same = (of.youngs_modulus_GPa, of.poisson_ratio, of.density_kgm3) == (
+        usual.youngs_modulus_GPa,
+        usual.poisson_ratio,
+        usual.density_kgm3,
+    )
+    return "steel" if same else f"{of.density_kgm3:g} kg/m³"
+
+
+def _rounded(mass: float) -> str:
+    """Four digits, and no exponent."""
+    return number(float(f"{mass:.4g}"), 9)

@@ -1,0 +1,237 @@
+"""A view: one part at a scale, and the dimensions that are put about it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.measure import mapped
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
+from geneva_cli.curves.sheet import CENTRE, Label, Measure, line, polar
+from geneva_cli.parts.sheet import marks
+from geneva_cli.parts.sheet.board import Board, chords
+
+SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
+FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and to the next
+RANKS = 14  # of dimension lines that are looked at
+OVER = 3.0  # mm: a centre line beyond what it is the centre of
+NEAR = 1e-6  # mm: radii and centres nearer to each other are one
+
+
+class Block(NamedTuple):
+    """What goes on a sheet together, and its box."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+    measures: tuple[Measure, ...] = ()
+
+    @property
+    def width(self) -> float:
+        """Across."""
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> float:
+        """Upwards."""
+        return self.y1 - self.y0
+
+    def moved(self, dx: float, dy: float) -> Block:
+        """The same, somewhere else."""
+
+        def point(p: Point) -> Point:
+            return p[0] + dx, p[1] + dy
+
+        def written(label: Label) -> Label:
+            return label._replace(at=point(label.at))
+
+        def put(one: Measure) -> Measure:
+            lines = mapped(Contour("", one.lines, closed=False), point).segments
+            return one._replace(
+                points=tuple(map(point, one.points)),
+                label=written(one.label),
+                lines=lines,
+                arrows=tuple(a._replace(tip=point(a.tip)) for a in one.arrows),
+            )
+
+        return Block(
+            self.x0 + dx,
+            self.y0 + dy,
+            self.x1 + dx,
+            self.y1 + dy,
+            tuple(mapped(s, point) for s in self.shapes),
+            tuple(map(written, self.labels)),
+            tuple(map(put, self.measures)),
+        )
+
+
+class View:
+    """One part at a scale; points and lengths are given as the part's own.
+
+    All lines are drawn before the first dimension: these are put outside of them.
+    """
+
+    def __init__(self, title: str, scale: float) -> None:
+        self.title, self.scale = title, scale
+        self.shapes: list[Shape] = []
+        self.measures: list[Measure] = []
+        self.notes: list[str] = []  # dimensions for which there was no place
+        self.board = Board()
+
+    def draw(self, shape: Shape, layer: str) -> None:
+        """A shape on a layer."""
+        self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
+
+    def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
+        """Both centre lines of a circle."""
+        over = self._long(reach) + OVER
+        for way in (turn, turn + 0.5 * math.pi):
+            ends = (polar(self._at(centre), side * over, way) for side in (-1.0, 1.0))
+            self._draw(line(CENTRE, *ends))
+
+    def centre_line(self, start: Point, end: Point) -> None:
+        """From one point to another, and a little beyond both."""
+        way = math.atan2(end[1] - start[1], end[0] - start[0])
+        a, b = self._at(start), self._at(end)
+        self._draw(line(CENTRE, polar(a, -OVER, way), polar(b, OVER, way)))
+
+    def linear(self, p: Point, q: Point, turn: float, text: str, near: bool = False) -> None:
+        """A distance in a direction; ``near`` allows a line that is not outside of the part."""
+        ends = self._at(p), self._at(q)
+        value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
+        levels = list(self._levels(turn, ends if near else ()))
+        self._put(marks.linear(ends, turn, levels, text, value, SMALL), text)
+
+    def angular(
+        self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
+    ) -> None:
+        """An angle about the origin, counterclockwise between one of some pairs of legs."""
+        reach = self._long(radius)
+        radii = [reach + FIRST + k * NEXT for k in range(RANKS)]
+        start = self._long(begin) + marks.CLEAR
+        found = (
+            mark
+            for wide in radii
+            for legs in pairs
+            for mark in marks.angular(
+                (0.0, 0.0), legs, start, [wide], text, math.degrees(legs[1] - legs[0]), SMALL
+            )
+        )
+        self._put(found, text)
+
+    def diameter(self, circles: Iterable[Circle], text: str) -> None:
+        """The diameter of one of some circles."""
+        found = (
+            mark
+            for c in circles
+            for mark in marks.diameter(
+                self._at(c.centre),
+                self._long(c.radius),
+                marks.around(),
+                text,
+                2.0 * c.radius,
+                SMALL,
+            )
+        )
+        self._put(_short_first(found), text)
+
+    def of_arcs(self, arcs: Iterable[Arc], text: str, whole: bool = False) -> None:
+        """The radius of one of some arcs, or (``whole``) its diameter."""
+        kind, factor = (marks.diameter, 2.0) if whole else (marks.radius, 1.0)
+        found = (
+            mark
+            for arc in arcs
+            for mark in kind(
+                self._at(arc.centre),
+                self._long(arc.radius),
+                marks.within(*_span(arc)),
+                text,
+                factor * arc.radius,
+                SMALL,
+            )
+        )
+        self._put(_short_first(found), text)
+
+    def note(self, tip: Point, text: str) -> None:
+        """A text that points at a place."""
+        self._put(marks.note(self._at(tip), text, SMALL), text)
+
+    def block(self) -> Block:
+        """The view with its title below it."""
+        x0, y0, x1, y1 = self.board.box()
+        labels: list[Label] = []
+        low = y0
+        for text, height in ((self.title, LARGE), *((note, SMALL) for note in self.notes)):
+            low -= 2.2 * height
+            wide = Label(text, (0.0, 0.0), height).width
+            at = 0.5 * (x0 + x1 - wide)
+            labels.append(Label(text, (at, low), height))
+            x0, x1 = min(x0, at), max(x1, at + wide)
+        return Block(
+            x0, low - SMALL, x1, y1, tuple(self.shapes), tuple(labels), tuple(self.measures)
+        )
+
+    def _put(self, candidates: Iterable[Measure], text: str) -> None:
+        found = self.board.first(candidates)
+        if found is None:
+            self.notes.append(text)
+        else:
+            self.measures.append(found)
+
+    def _draw(self, shape: Shape) -> None:
+        self.shapes.append(shape)
+        self.board.draw(shape)
+
+    def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
+        """Where a dimension line may be: along the normal to its direction, nearest first."""
+        n = -math.sin(turn), math.cos(turn)
+        across = np.concatenate([chords(s)[:, :2] @ np.array(n) for s in self.shapes])
+        low, high = float(across.min()), float(across.max())
+        if near:
+            own = [p[0] * n[0] + p[1] * n[1] for p in near]
+            low, high = min(own), max(own)
+        for k in range(2 * RANKS if near else RANKS):
+            off = FIRST + (0.5 if near else 1.0) * k * NEXT
+            yield from sorted((low - off, high + off), key=abs)
+
+    def _at(self, p: Point) -> Point:
+        return self.scale * p[0], self.scale * p[1]
+
+    def _long(self, length: float) -> float:
+        return self.scale * length
+
+
+def _short_first(found: Iterable[Measure]) -> list[Measure]:
+    """Leaders in the order of their length, whatever they point at."""
+    return sorted(
+        found,
+        key=lambda m: round(math.dist(*m.lines[0]), 6),  # stable: directions keep their order
+    )
+
+
+def _span(arc: Arc) -> tuple[float, float]:
+    """The directions of an arc's ends from its centre, counterclockwise."""
+    x, y = arc.centre
+    first = math.atan2(arc.start[1] - y, arc.start[0] - x)
+    return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
+
+
+def number(value: float, decimals: int = 3) -> str:
+    """A size as it is written: no zeros at its end.
+
+    >>> number(173.20508), number(20.0)
+    ('173.205', '20')
+    """
+    text = f"{value:.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def times(count: int, text: str) -> str:
+    """How often a size is there (ISO 129-1)."""
+    return f"{count}× {text}" if count > 1 else text

@@ -1,0 +1,170 @@
+"""The wheel's view."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
+from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.parts import drawings
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.view import View, number, times
+
+SAME = 1e-6  # mm
+
+
+def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> None:
+    """The wheel with all its dimensions; curved slots have theirs in a table."""
+    plane, sizes = found.plane, found.sizes
+    made = drawings.wheel(found, tolerance, curves)
+    circles = [s for s in made.shapes if isinstance(s, Circle)]
+    contour = next(s for s in made.shapes if isinstance(s, Contour))
+    for shape in made.shapes:
+        view.draw(shape, OUTLINE)
+    reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
+    view.cross((0.0, 0.0), reach)
+    _axes(view, found, reach)
+    if sizes.recess:
+        view.cross(_recess_centre(found), 0.0)
+    arcs = [s for s in contour.segments if isinstance(s, Arc)]
+    bores = [c for c in circles if c.layer == "BORE"]
+    _recesses(view, found, arcs)
+    for engagement in plane.kinds:
+        number_of = sum(1 for one, _ in plane.slots if one is engagement)
+        if not engagement.slot.curved:
+            _slot(view, found, engagement, number_of)
+    up = 0.5 * math.pi
+    view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
+    _steps(view, found, reach)
+    _rims(view, arcs, reach)
+    if bores:
+        view.diameter(bores, sized.bore(sizes.wheel_bore))
+
+
+def _axes(view: View, found: Outlines, reach: float) -> None:
+    """The axes of straight slots, the rollers' way in a curved one."""
+    for i, (engagement, direction) in enumerate(found.plane.slots):
+        if not engagement.slot.curved:
+            end, mouth = _axis(turned(found.slots[engagement], direction))
+            view.centre_line(*((end, mouth) if found.plane.sign > 0.0 else (mouth, end)))
+        elif i == 0:
+            view.draw(drawings.pitch_line(found.plane, engagement, found.fine, "arcs"), CENTRE)
+
+
+def _axis(walls: Contour) -> tuple[Point, Point]:
+    """A straight slot's axis: the bottom of its round end, and its mouth."""
+    first, arc, last = walls.segments
+    assert isinstance(arc, Arc)
+    x, y = arc.centre
+    way = math.atan2(first.end[1] - first.start[1], first.end[0] - first.start[0])
+    c, s = math.cos(way), math.sin(way)
+    near = [(p[0] - x) * c + (p[1] - y) * s for p in (first.start, last.end)]
+    farther = min(near)
+    return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
+
+
+def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> None:
+    """Width, end and depth of a straight slot, and by how much it misses the wheel's centre."""
+    direction = next(d for one, d in found.plane.slots if one is engagement)
+    walls = turned(found.slots[engagement], direction)
+    end, mouth = _axis(walls)
+    way = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
+    corners = walls.segments[0].start, walls.segments[-1].end
+    across = way + 0.5 * math.pi
+    width = sized.slot_width(found.plane.mechanism, found.sizes.half_width)
+    view.linear(*corners, across, times(count, width))
+    foot = _foot(end, way)
+    view.linear(foot, end, way, sized.plain(math.dist(foot, end)), near=True)
+    view.linear(end, mouth, way, times(count, sized.plain(math.dist(end, mouth))), near=True)
+    if math.hypot(*foot) > SAME:
+        turn = math.atan2(foot[1], foot[0])
+        view.linear((0.0, 0.0), foot, turn, sized.plain(math.hypot(*foot)))
+    ends = [
+        s
+        for one, d in found.plane.slots
+        if one is engagement
+        for s in turned(found.slots[one], d).segments
+        if isinstance(s, Arc)
+    ]
+    view.of_arcs(ends, times(count, sized.plain(ends[0].radius, "R ")))
+
+
+def _foot(p: Point, way: float) -> Point:
+    """The point of a line that is nearest to the origin."""
+    c, s = math.cos(way), math.sin(way)
+    along = p[0] * c + p[1] * s
+    return p[0] - along * c, p[1] - along * s
+
+
+def _recesses(view: View, found: Outlines, arcs: list[Arc]) -> None:
+    """The recesses, and where their centres are."""
+    plane, sizes = found.plane, found.sizes
+    L = plane.L
+    if not sizes.recess:
+        return
+    about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME]
+    own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME]
+    deviation = plane.mechanism.spec.tolerance.center_distance_mm
+    centre = _recess_centre(found)
+    turn = math.atan2(centre[1], centre[0])
+    view.linear((0.0, 0.0), centre, turn, sized.plain(L, deviation=deviation), near=True)
+    view.of_arcs(own, times(len(own), sized.recess(plane.mechanism, sizes.recess)), whole=True)
+    for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
+        view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
+
+
+def _recess_centre(found: Outlines) -> Point:
+    """The centre of the recess that lies farthest to the left."""
+    L = found.plane.L
+    return min(((L * math.cos(a), L * math.sin(a)) for a in found.plane.rests), key=lambda p: p[0])
+
+
+def _rims(view: View, arcs: list[Arc], reach: float) -> None:
+    """Arcs about the wheel's axis that are not its outside."""
+    own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME]
+    for radius, some in _by_radius(own).items():
+        if abs(radius - reach) > SAME:
+            view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
+
+
+def _steps(view: View, found: Outlines, reach: float) -> None:
+    """The angles between slots, and from a slot to the middle of a recess."""
+    plane = found.plane
+    deviation = plane.mechanism.spec.tolerance.slot_angle_deg
+    begin = reach
+    ways = [_way(found, engagement, direction) for engagement, direction in plane.slots]
+    steps: dict[str, list[tuple[float, float]]] = {}
+    for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
+        shown = f"{number(math.degrees(end - start))}°" + (f" ±{deviation:g}°" if deviation else "")
+        steps.setdefault(shown, []).append((start, end))
+    for text, pairs in steps.items():
+        view.angular(pairs, begin, reach, times(len(pairs), text))
+    halves: dict[str, list[tuple[float, float]]] = {}
+    for rest in plane.rests if found.sizes.recess else ():
+        off = min((rest - way) % math.tau for way in ways)
+        halves.setdefault(f"{number(math.degrees(off))}°", []).append((rest - off, rest))
+    for text, pairs in halves.items():
+        view.angular(pairs, begin, reach, times(len(pairs), text))
+
+
+def _way(found: Outlines, engagement: Engagement, direction: float) -> float:
+    """The direction of a slot's axis in the wheel."""
+    if engagement.slot.curved:
+        return direction
+    first = turned(found.slots[engagement], direction).segments[0]
+    assert isinstance(first, Line)
+    way = math.atan2(first.start[1] - first.end[1], first.start[0] - first.end[0])
+    way += 0.0 if found.plane.sign > 0.0 else math.pi
+    return direction + math.remainder(way - direction, math.tau)
+
+
+def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:
+    """Arcs that have the same radius together."""
+    found: dict[float, list[Arc]] = {}
+    for arc in arcs:
+        same = next((r for r in found if abs(r - arc.radius) < SAME), arc.radius)
+        found.setdefault(same, []).append(arc)
+    return found

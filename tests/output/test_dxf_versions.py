@@ -1,0 +1,78 @@
+"""Every version of DXF, read back by two readers: ezdxf, and dxfgrabber's parser of its own."""
+
+import io
+import math
+
+import dxfgrabber
+import pytest
+from drawing_witness import apart, drawn_shapes, dxf_document, dxf_shapes
+from test_dxf import MANY, SAME, bow, of, smooth
+
+from geneva_cli.curves.shapes import Arc, Circle, Line, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.output import DXF_VERSIONS
+from geneva_cli.output.dxf import chunks
+
+NUMBERS = dict(
+    zip(
+        DXF_VERSIONS,
+        ("AC1009", "AC1015", "AC1018", "AC1021", "AC1024", "AC1027", "AC1032"),
+        strict=True,
+    )
+)
+ROUND = of(bow(), Circle("BORE", (0.0, 4.0), 2.0), bow(-0.3, "GROOVE"), title="Ünder")
+
+
+def text(drawing, version):
+    return "".join(chunks(drawing, "mm", version=version))
+
+
+@pytest.mark.parametrize("version", DXF_VERSIONS)
+def test_each_version_holds_the_same_shapes(version):
+    drawing = ROUND if version == "R12" else MANY
+    document = dxf_document(text(drawing, version))
+    assert document.dxfversion == NUMBERS[version]
+    assert not document.audit().errors
+    if version != "R12":
+        assert document.header["$INSUNITS"] == 4
+        assert apart(dxf_shapes(text(drawing, version)), drawn_shapes(drawing)) < SAME
+
+
+@pytest.mark.parametrize("version", DXF_VERSIONS)
+def test_another_reader_finds_closed_contours_with_bulges(version):
+    kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
+    found = dxfgrabber.read(io.StringIO(text(ROUND, version)))
+    first, circle, second = found.entities
+    assert (first.dxftype, circle.dxftype, second.dxftype) == (kind, "CIRCLE", kind)
+    assert circle.radius == 2.0
+    for read, shape in ((first, ROUND.shapes[0]), (second, ROUND.shapes[2])):
+        assert read.is_closed
+        assert read.layer == shape.layer
+        points = [tuple(p)[:2] for p in read.points]
+        assert points == [s.start for s in shape.segments]
+        wanted = [s.bulge if isinstance(s, Arc) else 0.0 for s in shape.segments]
+        assert list(read.bulge) == pytest.approx(wanted, abs=1e-15)
+
+
+def test_r12_has_polylines_alone_and_says_no_unit():
+    written = text(ROUND, "R12")
+    assert "LWPOLYLINE" not in written
+    assert "$INSUNITS" not in written
+    found = dxf_document(written).modelspace()
+    assert [e.dxftype() for e in found] == ["POLYLINE", "CIRCLE", "POLYLINE"]
+
+
+def test_an_arc_of_r12_is_where_it_was():
+    arc = Arc((3.0, 4.0), (28.0, 4.0), 1.7)
+    written = text(of(closed("WHEEL", [arc, Line(arc.end, arc.start)])), "R12")
+    (polyline,) = dxf_document(written).modelspace()
+    (found, _) = polyline.virtual_entities()
+    assert math.dist(found.dxf.center.vec2, arc.centre) < 1e-9
+    assert found.dxf.radius == pytest.approx(arc.radius, abs=1e-9)
+
+
+def test_refusals():
+    with pytest.raises(GenevaError, match="--dxf-version R12 has no splines: leave out --curves"):
+        text(of(smooth()), "R12")
+    with pytest.raises(GenevaError, match="--dxf-version R9: it must be one of R12, R2000, R2004"):
+        text(ROUND, "R9")

@@ -1,0 +1,178 @@
+"""Drawing sheets as files: each format read back by something that is not its writer."""
+
+import io
+import math
+import os
+import re
+from xml.etree import ElementTree
+
+import dxfgrabber
+import matplotlib
+import pytest
+from ezdxf import recover
+from words import Motion, Spec, Wheel
+
+from geneva_cli.curves.helvetica import CAPITALS, width
+from geneva_cli.curves.sheet import WIDTHS, Label
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.output import DXF_VERSIONS, draw_sheet, sheet_as
+from geneva_cli.output.sheets import dxf, pdf, svg
+from geneva_cli.spec.tables import Size
+
+NAME = "{http://www.w3.org/2000/svg}"
+TITLE = 'a <title> & (more) \\ "%%c" — ünder Ωmega'
+
+
+@pytest.fixture(scope="module")
+def sheet():
+    """A curved wheel with a hard title."""
+    spec = Spec(
+        Wheel(6),
+        motion=Motion("cycloidal", ratio="matched"),
+        size=Size(60.0),
+        title=TITLE,
+    )
+    return Design.of(spec).sheet(0.05)
+
+
+def test_widths_are_those_of_the_font():
+    """Against the metrics that Matplotlib ships, Adobe's own file."""
+    folder = os.path.join(matplotlib.get_data_path(), "fonts", "pdfcorefonts")
+    with open(os.path.join(folder, "Helvetica.afm"), encoding="latin-1") as file:
+        metrics = file.read()
+    assert float(re.search(r"CapHeight (\d+)", metrics)[1]) == 1000.0 * CAPITALS
+    known = {m[2]: int(m[1]) for m in re.finditer(r"WX (\d+) ; N (\w+)", metrics)}
+    codes = {int(m[1]): int(m[2]) for m in re.finditer(r"C (\d+) ; WX (\d+)", metrics)}
+    letters = {chr(c): codes[c] for c in range(32, 127) if chr(c) not in "'`"}
+    letters |= {"'": known["quotesingle"], "`": known["grave"], "°": known["degree"]}
+    letters |= {"±": known["plusminus"], "×": known["multiply"], "Ø": known["Oslash"]}
+    for letter, units in letters.items():
+        assert 1000.0 * CAPITALS * width(letter) == pytest.approx(units, abs=1e-9), letter
+    assert max(known.values()) - 15 <= 1000  # one letter of all, @, is wider than what we take
+
+
+def objects(text):
+    """The objects of a PDF by its own table of where they are, and the trailer."""
+    start = int(re.search(r"startxref\n(\d+)\n%%EOF\n$", text)[1])
+    table = re.match(r"xref\n0 (\d+)\n0000000000 65535 f \n((?:\d{10} 00000 n \n)+)", text[start:])
+    places = [int(line[:10]) for line in table[2].splitlines()]
+    assert len(places) + 1 == int(table[1])
+    found = {}
+    for number, place in enumerate(places, 1):
+        body = re.match(rf"{number} 0 obj\n(.*?)\nendobj\n", text[place:], re.DOTALL)
+        found[number] = body[1]
+    return found, text[start:]
+
+
+def test_a_pdf_is_whole(sheet):
+    text = "".join(pdf.chunks(sheet))
+    assert text.isascii()
+    found, trailer = objects(text)
+    assert "/Root 1 0 R" in trailer
+    assert found[1] == "<< /Type /Catalog /Pages 2 0 R >>"
+    length, content = re.match(
+        r"<< /Length (\d+) >>\nstream\n(.*)endstream", found[4], re.DOTALL
+    ).groups()
+    assert len(content) == int(length)
+    box = re.search(r"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", found[3])
+    mm = [float(v) / 72.0 * 25.4 for v in box.groups()]
+    assert mm == pytest.approx([sheet.width, sheet.height], abs=1e-4)
+    title = bytes.fromhex(re.search(r"<feff(\w+)>", found[6])[1]).decode("utf-16-be")
+    assert title == TITLE
+    shown = re.findall(r"BT /F1 (\S+) Tf (.*?) Tm \((.*?)\) Tj ET", content)
+    assert len(shown) == len(sheet.texts)
+    for (size, matrix, escaped), label in zip(shown, sheet.texts, strict=True):
+        read = re.sub(r"\\(\d{3})", lambda m: chr(int(m[1], 8)), escaped)
+        assert read.encode("latin-1") == label.text.encode("cp1252", "replace")
+        assert float(size) * CAPITALS == pytest.approx(label.height, abs=1e-4)
+        c, s, _, _, x, y = map(float, matrix.split())
+        assert (x, y) == pytest.approx(label.at, abs=1e-4)
+        assert math.remainder(math.atan2(s, c) - label.turn, math.tau) == pytest.approx(0, abs=1e-4)
+
+
+def test_arcs_of_a_pdf_are_arcs():
+    """One cubic a quarter turn at most is off by 2.8e-4 of the radius, as is known of it."""
+    from geneva_cli.curves.shapes import about
+
+    for sweep in (0.1, 1.0, 0.5 * math.pi, -0.5 * math.pi):
+        arc = about((3.0, 4.0), 10.0, 0.7, sweep)
+        cubic = pdf._cubic(arc)
+        for t in (0.1, 0.25, 0.5, 0.8):
+            terms = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3]
+            x, y = (sum(k * p[i] for k, p in zip(terms, cubic, strict=True)) for i in (0, 1))
+            assert math.dist((x, y), (3.0, 4.0)) == pytest.approx(10.0, abs=2.8e-3)
+        assert (cubic.start, cubic.end) == (arc.start, arc.end)
+
+
+def test_an_svg_has_all_texts_where_they_are(sheet):
+    root = ElementTree.fromstring("".join(svg.chunks(sheet)))
+    x, y, w, h = map(float, root.get("viewBox").split())
+    assert (x, y, w, h) == (0.0, -sheet.height, sheet.width, sheet.height)
+    assert root.get("width") == f"{sheet.width:.9f}mm"
+    texts = list(root.iter(f"{NAME}text"))
+    assert [t.text for t in texts] == [label.text for label in sheet.texts]
+    for element, label in zip(texts, sheet.texts, strict=True):
+        assert (float(element.get("x")), -float(element.get("y"))) == pytest.approx(label.at)
+        assert float(element.get("textLength")) == pytest.approx(label.width)
+    style = root.find(f"{NAME}style").text
+    assert "prefers-color-scheme: dark" in style
+    groups = {g.get("id"): g for g in root.iter(f"{NAME}g")}
+    for layer in {shape.layer for shape in sheet.shapes}:
+        assert float(groups[layer].get("stroke-width")) == WIDTHS[layer]
+
+
+@pytest.mark.parametrize("version", DXF_VERSIONS)
+def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
+    """ezdxf measures each between its own points; times its style's factor it is the part's."""
+    written = "".join(dxf.chunks(sheet, version))
+    document, audit = recover.read(io.BytesIO(written.encode()))
+    assert not audit.errors
+    assert not audit.fixes
+    found = list(document.modelspace().query("DIMENSION"))
+    wanted = [m for m in sheet.measures if m.kind in dxf.KINDS]
+    assert len(found) == len(wanted) > 15
+    for dimension, m in zip(found, wanted, strict=True):
+        measured = dimension.get_measurement()
+        if m.kind != "angular":
+            style = document.dimstyles.get(dimension.dxf.dimstyle)
+            measured *= style.dxf.dimlfac
+        assert measured == pytest.approx(m.value, rel=1e-8)
+        block = dimension.get_geometry_block()
+        assert len(block.query("TEXT")) == 1
+        assert len(block.query("SOLID")) == len(m.arrows)
+    assert len(document.modelspace().query("TEXT")) == len(sheet.labels) + len(
+        sheet.measures
+    ) - len(wanted)
+    kinds = {e.dxftype() for e in document.modelspace()}
+    assert ("POLYLINE" in kinds) == (version == "R12")
+    assert dxfgrabber.read(io.StringIO(written)).entities
+
+
+def test_signs_of_a_dxf():
+    assert dxf._signed("6× Ø 20 ±0.01 60°") == "6× %%c 20 %%p0.01 60%%d"
+    assert "%%" not in dxf._signed("100%%c")
+
+
+def test_the_same_bytes(sheet):
+    for module in (svg, pdf, dxf):
+        assert "".join(module.chunks(sheet)) == "".join(module.chunks(sheet))
+        assert not re.search(r"20[2-9]\d-|/tmp|/home", "".join(module.chunks(sheet)))
+
+
+def test_a_label_turned_up_has_a_box_turned_up():
+    box = Label("20", (10.0, 0.0), 2.5, 0.5 * math.pi).corners
+    long = width("20") * 2.5
+    assert box[1] == pytest.approx((10.75, long))
+    assert box[2] == pytest.approx((10.0 - 2.75, long))
+
+
+def test_refusals(sheet, tmp_path):
+    with pytest.raises(GenevaError, match="of a drawing sheet it must be one of dxf, svg, pdf"):
+        sheet_as("-", "csv")
+    with pytest.raises(GenevaError, match=r"must end in .dxf, .svg, .pdf"):
+        sheet_as("a.step", "")
+    with pytest.raises(GenevaError, match=r"give -o FILE.pdf, say, or --format"):
+        sheet_as("-", "")
+    with pytest.raises(GenevaError, match=r"--dxf-version is for .dxf, and this is pdf"):
+        draw_sheet(sheet, str(tmp_path / "a.pdf"), version="R12")

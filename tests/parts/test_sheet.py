@@ -1,0 +1,213 @@
+"""Drawing sheets: nothing stands on anything else, and the sizes on them are the machine's."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+import repo
+import shapely
+from drawing_witness import vertices
+from shapely.geometry import LineString, Polygon, box
+from words import Drive, Keys, Motion, Spec, Wheel
+
+from geneva_cli import load
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.curves.sheet import Label
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.sheet import marks
+from geneva_cli.parts.sheet.board import Board
+from geneva_cli.parts.sheet.paper import FORMATS, SCALES
+from geneva_cli.parts.sheet.points import polyline, tables
+from geneva_cli.parts.sheet.sheet import sheet
+from geneva_cli.spec.tables import Size, Tolerance
+
+pytestmark = pytest.mark.usefixtures("made_once")
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+NOT_FLAT = {"spherical-z6", "spherical-60deg", "gear-sector"}
+TOLERANCE = 0.05  # mm: coarse walls are quick, and look the same on paper
+CHORD = 0.02  # mm: how far the witness's polylines are from the arcs
+
+
+def lines_of(found):
+    """Every line on a sheet as a polyline; arrows are triangles."""
+    shapes = [*found.shapes]
+    shapes += [Contour("", (piece,), closed=False) for m in found.measures for piece in m.lines]
+    lines = [LineString(vertices(shape, CHORD)) for shape in shapes]
+    return lines + [Polygon(a.corners) for m in found.measures for a in m.arrows]
+
+
+def overlaps(found):
+    """Texts that stand on a line, on another text, or beyond the frame."""
+    boxes = [Polygon(label.corners) for label in found.texts]
+    tree = shapely.STRtree([*lines_of(found), *boxes])
+    inside = box(20.0, 10.0, found.width - 10.0, found.height - 10.0)
+    bad = []
+    for i, one in enumerate(boxes):
+        own = len(tree.geometries) - len(boxes) + i
+        hit = [k for k in tree.query(one, predicate="intersects") if k != own]
+        if hit or not inside.contains(one):
+            bad.append((found.texts[i].text, hit))
+    return bad
+
+
+def of(spec, tolerance=TOLERANCE):
+    return Design.of(spec).sheet(tolerance)
+
+
+@pytest.mark.parametrize(
+    "path", [p for p in DESIGNS if p.stem not in NOT_FLAT], ids=lambda p: p.stem
+)
+def test_no_text_of_a_design_stands_on_anything(path):
+    design = load(str(path))
+    found = design.sheet(TOLERANCE)
+    assert overlaps(found) == []
+    assert (found.width, found.height) in [(f.width, f.height) for f in FORMATS]
+    assert found.scale in SCALES
+    assert_measured(found)
+    # the centre distance is on it, as the machine has it
+    L = f"{design.mechanism.center_distance_mm:.3f}".rstrip("0").rstrip(".")
+    assert any(m.label.text.startswith(f"L = {L}") for m in found.measures)
+
+
+def assert_measured(found):
+    """Each dimension says what its points are apart, at the scale of its view."""
+    for m in found.measures:
+        if m.kind == "angular":
+            apex, a, b, _ = m.points
+            turn = math.atan2(b[1] - apex[1], b[0] - apex[0])
+            turn -= math.atan2(a[1] - apex[1], a[0] - apex[0])
+            assert math.degrees(turn % math.tau) == pytest.approx(m.value, abs=1e-6)
+            shown = float(re.search(r"([\d.]+)°", m.label.text)[1])
+        elif m.kind == "note":
+            continue
+        else:
+            a, b = m.points[:2]
+            c, s = math.cos(m.turn), math.sin(m.turn)
+            along = (b[0] - a[0]) * c + (b[1] - a[1]) * s
+            paper = abs(along) if m.kind == "linear" else math.dist(a, b)
+            scale = paper / m.value
+            assert min(abs(scale / known - 1.0) for known in SCALES) < 1e-9
+            text = re.sub(r"^\d+× ", "", m.label.text)
+            shown = float(re.search(r"[\d.]+", text)[0])
+        assert shown == pytest.approx(m.value, abs=5.1e-4)  # three decimals
+
+
+SMALL = [
+    Spec(Wheel(3), size=Size(30.0)),
+    Spec(Wheel(24), size=Size(30.0, roller_radius_mm=0.6)),
+    Spec(Wheel(3), size=Size(900.0)),
+    Spec(Wheel(24), size=Size(900.0)),
+    Spec(Wheel(4, "internal"), size=Size(30.0)),
+    Spec(Wheel(12, "internal"), size=Size(900.0)),
+    Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(30.0)),
+    Spec(Wheel(8), size=Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")),
+    Spec(Wheel(4), Drive(rollers=3), size=Size(50.0, roller_radius_mm=3.0)),
+    Spec(Wheel(6, offset_mm=8.0), size=Size(100.0, roller_radius_mm=4.0)),
+    Spec(Wheel(6), Drive("cam"), motion=Motion("cycloidal"), size=Size(40.0)),
+    Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.4), size=Size(3.0)),
+]
+
+
+@pytest.mark.parametrize("spec", SMALL, ids=lambda s: f"{s.wheel.z}-{s.size.center_distance_mm:g}")
+def test_machines_of_every_size(spec):
+    found = of(spec)
+    assert overlaps(found) == []
+    assert_measured(found)
+
+
+def test_the_sizes_of_a_plain_wheel():
+    """Against the closed forms: rim sqrt(L² cos² b + r²), R = L sin b, slot to L - R - r - end."""
+    tolerance = Tolerance(slot_width_mm=0.01, crank_radius_mm=0.02, center_distance_mm=0.03)
+    size = Size(120.0, 6.0, slot_clearance_mm=0.02, slot_bottom_clearance_mm=1.0)
+    texts = [m.label.text for m in of(Spec(Wheel(6), size=size, tolerance=tolerance)).measures]
+    rim = math.hypot(120.0 * math.cos(math.pi / 6.0), 6.0)
+    end = 120.0 - 60.0 - 1.0 - 6.02
+    mouth = math.sqrt(rim**2 - 6.02**2)
+    wanted = [
+        f"Ø {2.0 * rim:.3f}",
+        "6× 12.04 ±0.01",
+        f"{end:g}",
+        f"6× {mouth - end:.3f}".rstrip("0"),
+        "6× 60°",
+        "6× 30°",
+        "60 ±0.02",
+        "120 ±0.03",
+        "L = 120 ±0.03",
+        "6× R 6.02",
+        "Ø 12 h6 (0/-0.011)",
+    ]
+    assert [text for text in wanted if text not in texts] == []
+
+
+def test_without_clearance_the_fit_gives_it():
+    texts = [m.label.text for m in of(Spec(Wheel(6), size=Size(120.0, 6.0))).measures]
+    assert {"6× 12 H7 (+0.018/0)", "Ø 12 g6 (-0.006/-0.017)"} <= set(texts)
+
+
+def test_the_title_block_says_what_is_there():
+    design = load(str(repo.DESIGNS / "limits.toml"))
+    found = design.sheet(TOLERANCE)
+    texts = {label.text for label in found.labels}
+    rows = design.part_table("parts").to_dict()
+    mass = sum(m * n for m, n in zip(rows["mass_kg"], rows["count"], strict=True) if m is not None)
+    assert {f"{mass:.4g} kg", "1:1", "A2", "ISO 2768-m", "steel", design.spec.title} <= texts
+    assert not any(re.search(r"20\d\d-|/", text) for text in texts - {"1/1"})  # no date, no path
+
+
+def test_points_of_a_curved_slot_are_on_it():
+    """The table as it is printed: chords within what it says, of the points that `slot` gives."""
+    design = load(str(repo.DESIGNS / "press-curved.toml"))
+    (block,) = tables(design.drawn(TOLERANCE).found, 0.01)
+    downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
+    texts = [label.text for label in downwards]
+    numbers = [float(text) for text in texts if re.fullmatch(r"-?\d+\.\d{3}", text)]
+    table = LineString(list(zip(numbers[::2], numbers[1::2], strict=True)))
+    stated = float(re.search(r"within ([\d.]+) of it", " ".join(texts))[1])
+    rows = design.slot(samples=2001).to_dict()
+    half = rows["input_deg"] <= 0.0
+    true = zip(rows["x_mm"][half], rows["y_mm"][half], strict=True)
+    worst = max(table.distance(shapely.Point(p)) for p in true)
+    assert stated == pytest.approx(1e-4 * design.mechanism.center_distance_mm, abs=5e-5)
+    assert 0.2 * stated < worst < stated + 1e-3  # coordinates have three decimals
+
+
+def test_a_polyline_is_as_near_as_asked():
+    def circle(t):
+        return np.column_stack((50.0 * np.cos(t), 50.0 * np.sin(t)))
+
+    for close in (1.0, 0.01):
+        points = polyline(circle, 0.0, math.tau, close)
+        middles = 0.5 * (points[1:] + points[:-1])
+        assert 0.2 * close < 50.0 - np.hypot(*middles.T).min() <= close
+
+
+def test_what_finds_no_place_is_said_below():
+    """A board full of text has no room for a leader; one text in the way moves it."""
+    full, half = Board(), Board()
+    full.write(Label("W" * 400, (-1000.0, -500.0), 700.0))
+    half.write(Label("here", (4.0, 4.0), 3.0))
+    tries = list(marks.diameter((0.0, 0.0), 5.0, marks.around(), "Ø 10", 10.0, 2.5))
+    assert full.first(tries) is None
+    moved = half.first(tries)
+    assert moved is not None
+    assert moved != Board().first(tries)
+
+
+def test_the_comparison_can_fail():
+    found = of(Spec(Wheel(6)))
+    on = found.measures[0].lines[0].start
+    wrong = found._replace(labels=(*found.labels, Label("on a line", on, 2.5)))
+    assert [text for text, _ in overlaps(wrong)] != []
+    m = found.measures[0]
+    with pytest.raises(AssertionError):
+        assert_measured(found._replace(measures=(m._replace(value=2.0 * m.value),)))
+
+
+def test_refusals():
+    with pytest.raises(GenevaError, match=r"spherical.*its parts are not flat"):
+        of(Spec(Wheel(6, "spherical")))
+    slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
+    with pytest.raises(GenevaError, match="do not go on one A1 sheet"):
+        sheet(Design.of(slots).parts, 1e3, "arcs")
