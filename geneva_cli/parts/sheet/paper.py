@@ -32,7 +32,7 @@ FORMATS = (
     Format("A1", 841.0, 594.0),
 )
 # ISO 5455, with its powers of ten
-SCALES = [n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
+SCALES = [1.0 * n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
     1 / (n * 10**k) for k in (0, 1, 2, 3, 4) for n in (1, 2, 5) if (n, k) != (1, 0)
 ]
 
