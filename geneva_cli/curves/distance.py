@@ -44,6 +44,10 @@ class Polyarc:
         self.arc = self.sense != 0.0
         self.dx, self.dy = self.x1 - self.x0, self.y1 - self.y0
         self.square = np.maximum(self.dx * self.dx + self.dy * self.dy, 1e-300)
+        # A circle about the middle of each piece's ends that holds it.
+        self.ox, self.oy = 0.5 * (self.x0 + self.x1), 0.5 * (self.y0 + self.y1)
+        wide = self.arc & (self.cos_half < 0.0)
+        self.size = np.where(wide, 2.0 * self.radius, 0.5 * np.sqrt(self.square))
         # How the outline turns at each piece's start and end: left (1) or right (-1) or not (0).
         self.turn_start = np.array(turns)
         after, first = [], 0
@@ -69,10 +73,8 @@ class Polyarc:
         Of points farther away they tell that, but not on which side of the outline they are.
         """
         grid = points[:: max(1, len(points) // COARSE)]
-        mx, my = 0.5 * (self.x0 + self.x1), 0.5 * (self.y0 + self.y1)
-        half = 0.5 * np.sqrt(self.square)
-        size = np.where(self.arc & (self.cos_half < 0.0), 2.0 * self.radius, 2.0 * half)
-        away = np.hypot(grid[:, :1] - mx, grid[:, 1:] - my).min(axis=0) - size
+        dx, dy = grid[:, :1] - self.ox, grid[:, 1:] - self.oy
+        away = np.sqrt((dx * dx + dy * dy).min(axis=0)) - self.size
         # Points between those of the grid are no farther from it than its own spacing.
         step = np.hypot(*np.diff(points, axis=0).T)
         spare = float(step.max(initial=0.0)) * (len(points) // len(grid) + 1)

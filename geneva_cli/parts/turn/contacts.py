@@ -29,11 +29,8 @@ def candidates(
     ``other`` stands with its origin at n places, (n, 2), turned by n angles. Which of the n each
     point is for comes first, then the points, in the frame of ``own``.
     """
-    mx, my = 0.5 * (own.x0 + own.x1), 0.5 * (own.y0 + own.y1)
-    half = 0.5 * np.sqrt(own.square)
-    size = np.where(own.arc & (own.cos_half < 0.0), 2.0 * own.radius, 2.0 * half)
-    away = np.hypot(mx - origin[:, :1], my - origin[:, 1:]) - size
-    owner, piece = np.nonzero(away <= reach)
+    dx, dy = own.ox - origin[:, :1], own.oy - origin[:, 1:]
+    owner, piece = np.nonzero(dx * dx + dy * dy <= (own.size + reach) ** 2)
     owners, points = [owner], [np.column_stack((own.x0[piece], own.y0[piece]))]
     arcs, lines = np.flatnonzero(other.arc), np.flatnonzero(~other.arc)
     c, s = np.cos(angle)[owner, None], np.sin(angle)[owner, None]
@@ -45,7 +42,8 @@ def candidates(
     bent = np.flatnonzero(own.arc[piece])
     middle = np.column_stack((own.cx, own.cy))[piece[bent], None, :]
     facing = np.concatenate((centre[bent] - middle, normal[bent]), axis=1)
-    facing = facing / np.maximum(np.hypot(facing[..., 0], facing[..., 1]), 1e-300)[..., None]
+    length = np.sqrt(facing[..., 0] ** 2 + facing[..., 1] ** 2)
+    facing = facing / np.maximum(length, 1e-300)[..., None]
     i = piece[bent, None]
     along = facing[..., 0] * own.mx[i] + facing[..., 1] * own.my[i]
     for side in (1.0, -1.0):
