@@ -35,13 +35,19 @@ COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "
 
 @functools.cache
 def _searched(options):
-    return tuple(way for _, way in synthesis(read_wish(**dict(options))))
+    wish = read_wish(**dict(options))
+    return wish, search(wish)
+
+
+def searched(**options):
+    """A wish and what there is for it, searched for once."""
+    said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
+    return _searched(tuple(sorted(said.items())))
 
 
 def ways(**options):
-    """The machines of a wish, searched for once."""
-    said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
-    return list(_searched(tuple(sorted(said.items()))))
+    """The machines of a wish."""
+    return [row.way for row in searched(**options)[1].rows]
 
 
 def plain(found):
@@ -56,7 +62,7 @@ def costs(way):
 
 def written(wish, found, number):
     """A row as a spec, without turning its parts."""
-    spec, way = found[number - 1]
+    spec, way, *_ = found[number - 1]
     return commented(wish, number, way, Built(spec, ""))
 
 
@@ -122,8 +128,8 @@ def test_elliptical_gears_make_both_gearings_alike():
 
 
 def test_tau_of_one_roller_outside():
-    """From 1/6 to 11/24 for z = 3..24, one plain crank for each."""
-    for z in range(3, 25):
+    """From 1/6 to 11/24 for z = 3 to 24, one plain crank for each."""
+    for z in (*range(3, 13), 17, 24):
         tau = Fraction(z - 2, 2 * z)
         near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
         (way,) = plain(ways(tau=str(tau), external=True, rollers=1, z=near))
@@ -191,9 +197,9 @@ def test_the_side_crank_paper_s_half_turn():
 # A greatest acceleration
 
 
-@pytest.mark.parametrize("limit", ["0.3", "0.7", "1.3"])
-def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit):
-    found = ways(acceleration_max=limit, law="all", z="3,4,6,12")
+@pytest.mark.parametrize(("limit", "laws"), [("0.3", "modified-sine"), ("0.7", "all")])
+def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit, laws):
+    found = ways(acceleration_max=limit, law=laws, z="3,6,12")
     for way in found:
         assert way.acceleration_max <= float(limit)
         above = way.A is not None or way.eccentricity is not None or (way.law and way.alpha0_deg)
@@ -203,7 +209,7 @@ def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit)
     below = {(w.z, w.gearing) for w in cranks if w.axes_deg in (None, 90.0)}
     assert below == {
         (z, g)
-        for z in (3, 4, 6, 12)
+        for z in (3, 6, 12)
         for g in (*GEARINGS, "spherical")
         if acceleration_peak(build(Spec(Wheel(z, g))).engagements[0]).max <= float(limit)
     }
@@ -231,7 +237,7 @@ def test_no_smaller_parameter_does(z, gearing, ratio, share):
     peak = limits.peak_of(Wheel(z, gearing), ratio)
     limit = share * peak(0.0)
     found, lowest = limits.least_parameter(peak, limit)
-    grid = [i / 400 for i in range(-399, 400)]
+    grid = [i / 200 for i in range(-199, 200)]
     near = [x for x in grid if peak(x) <= limit]
     if found is None:
         assert not near
@@ -246,21 +252,21 @@ def test_no_smaller_parameter_does(z, gearing, ratio, share):
 
 
 WISHES = [
-    {"tau": "1/3", "z": "3,4,6,8"},
+    {"tau": "1/3", "z": "3,6"},
     {"k": "1.4", "z": "3,5,12"},
     {"motion_deg": "180", "z": "6", "law": "all"},
-    {"motion_deg": "70", "z": "4,8,20"},
+    {"motion_deg": "70", "z": "4,20"},
     {"step": "60", "cycle": "2"},
     {"step": "45", "cycle": "1.5", "motion_s": "0.7", "law": "all"},
-    {"acceleration_max": "0.5", "z": "3..9"},
-    {"acceleration_max": "0.9", "z": "4,6", "law": "all", "cycle": "3"},
+    {"acceleration_max": "0.5", "z": "3,5,8"},
+    {"acceleration_max": "0.9", "z": "4", "law": "all", "cycle": "3"},
 ]
 
 
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_rows_are_sorted_and_numbered(options):
-    wish = read_wish(**options)
-    table = synthesis_table(wish, 0)
+    wish, found = searched(**options)
+    table = synthesis_table(wish, 0, found=found)
     assert table.names == NAMES
     columns = dict(zip(table.names, table.columns, strict=True))
     assert list(columns["no"]) == list(range(1, len(table) + 1))
@@ -270,11 +276,10 @@ def test_rows_are_sorted_and_numbered(options):
 
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
-    wish = read_wish(**options)
-    found_ways = synthesis(wish)
-    for number, (_, way) in enumerate(found_ways, 1):
+    wish, found_rows = searched(**options)
+    for number, (_, way, _) in enumerate(found_rows.rows, 1):
         file = tmp_path / f"{number}.toml"
-        file.write_text(written(wish, found_ways, number), encoding="utf-8")
+        file.write_text(written(wish, found_rows.rows, number), encoding="utf-8")
         machine = load(str(file))
         # the machine is chosen by its motion; the sizes of its parts come after that
         found_checks = checks(machine, parts=False)
@@ -577,8 +582,7 @@ def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
 
 def test_rows_are_turned_in_their_order():
     """Three of them; buildable: the first that pass, under the numbers that they have."""
-    wish = read_wish(motion_deg="105", z="8", external=True, rollers=1)
-    found = search(wish)
+    wish, found = searched(motion_deg="105", z="8", external=True, rollers=1)
     shown = list(turned(wish, found, 2))
     assert [one.no for one in shown] == list(range(1, len(found.rows) + 1))
     said = [one.row.way.parts for one in shown]
