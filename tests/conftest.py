@@ -1,8 +1,11 @@
 """Machines under test, built as a spec would build them."""
 
+import functools
+
 import pytest
 from words import Drive, Keys, Motion, Spec, Wheel
 
+from geneva_cli import load
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts import outlines as outline
 from geneva_cli.parts import proof
@@ -79,4 +82,18 @@ def made_once():
             patch.setattr(module, "full_turn", TURNED)
         patch.setattr(curved_walls, "chain", CHAIN)
         patch.setattr(cautions, "cautions", CAUTIONS)
+        yield
+
+
+READ = functools.cache(load)
+
+
+@pytest.fixture(scope="module")
+def read_once():
+    """A file's design, read once: what it has worked out for one test it has for all such files.
+
+    They name files by paths that stay the same file's.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("geneva_cli.design.load", READ)
         yield

@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 import repo
 
-from geneva_cli import Design, load
+from geneva_cli import Design, design
 from geneva_cli.analysis.loads import loads
 from geneva_cli.table import Table
 
-pytestmark = pytest.mark.usefixtures("made_once")
+pytestmark = pytest.mark.usefixtures("made_once", "read_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
 LIMITED = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
 # Stations whose mid-motions lie past half a turn, and a motion that begins before it: a law that
@@ -41,18 +41,18 @@ def angles(name: str, value: Any) -> list[tuple[str, float]]:
     return [(name, value)] if name.endswith("at_deg") and value is not None else []
 
 
-def one_zero(design: Design) -> None:
-    mechanism = design.mechanism
+def one_zero(found: Design) -> None:
+    mechanism = found.mechanism
     first = mechanism.engagements[0]
     whole = 360.0 * mechanism.spec.drive.turns
     low = -180.0 if whole == 360.0 else first.mid_deg + first.entry_deg
-    page, summary, rows = design.report.table, design.peaks_table, design.checks
-    found = [*angles("report", page), *angles("peaks", summary)]
-    found += [(c.name, c.at_deg) for c in rows if c.at_deg is not None]
+    page, summary, rows = found.report.table, found.peaks_table, found.checks
+    places = [*angles("report", page), *angles("peaks", summary)]
+    places += [(c.name, c.at_deg) for c in rows if c.at_deg is not None]
     greatest = {q: loads.greatest(mechanism, q) for q in LIMITED}
-    found += [(q, each.at_deg) for q, each in greatest.items()]
-    assert len(found) > 8
-    for name, at_deg in found:
+    places += [(q, each.at_deg) for q, each in greatest.items()]
+    assert len(places) > 8
+    for name, at_deg in places:
         assert low <= at_deg <= low + whole, name
     told = dict(zip(page.names, next(page.rows()), strict=True))
     for name, value in zip(summary.names, next(summary.rows()), strict=True):
@@ -71,7 +71,7 @@ def one_zero(design: Design) -> None:
 
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_designs_have_one_zero(path: Path) -> None:
-    one_zero(load(str(path)))
+    one_zero(design.load(str(path)))
 
 
 @pytest.mark.parametrize("name", FAR)
@@ -84,4 +84,4 @@ def test_far_places_have_one_zero(name: str, tmp_path: Path) -> None:
         )
     path = tmp_path / "far.toml"
     path.write_text(FAR[name])
-    one_zero(load(str(path)))
+    one_zero(design.load(str(path)))
