@@ -121,7 +121,7 @@ def _write_rows(asked: Request, output: str, resume: bool) -> tuple[int, int]:
     from geneva_cli.output.rows import Growth
 
     found, count, failed = asked.sweep, 0, 0
-    first, files = found.shard.number == 1, found.text.spec().files
+    first = found.shard.number == 1
 
     def counted(blocks: Iterable[Rows]) -> Iterator[Rows]:
         nonlocal count, failed
@@ -130,7 +130,7 @@ def _write_rows(asked: Request, output: str, resume: bool) -> tuple[int, int]:
             failed += sum(row[-1] is not None for row in block)
             yield block
 
-    with Growth(found.names, asked.key, first, output, resume, files) as rows:
+    with Growth(found.names, asked.key, first, output, resume, asked.files) as rows:
         blocks = counted(_shown(asked, rows.done))
         for block in asked.chosen(blocks) if asked.chooses else blocks:
             rows.append(block)
@@ -146,7 +146,7 @@ def _show_rows(asked: Request, output: str, format: str) -> tuple[int, int]:
     every = list(_shown(asked, 0))
     kept = list(asked.chosen(every)) if asked.chooses else every
     rows = [row for block in kept for row in block]
-    show(rows_table(asked.sweep.names, rows), output, format, asked.sweep.text.spec().files)
+    show(rows_table(asked.sweep.names, rows), output, format, asked.files)
     whole = [row for block in every for row in block]
     return len(whole), sum(row[-1] is not None for row in whole)
 

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import tomli
@@ -48,7 +49,7 @@ class Text(NamedTuple):
     def spec(self) -> Spec:
         """The spec. Raises GenevaError, ready to print, for anything wrong with it."""
         try:
-            tree = tomli.loads(self.text)
+            tree = _parsed(self.text)
         except tomli.TOMLDecodeError as error:
             said = error.msg[:1].lower() + error.msg[1:]
             raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {cut(said, 200)}") from None
@@ -58,6 +59,10 @@ class Text(NamedTuple):
             raise GenevaError(f"{self.name}: not a spec: {error}") from None
         with self.located():
             return _spec(applied(tree, self.given), self.name)
+
+
+# A sweep reads one text with other keys for each design; what is made of a tree changes none of it.
+_parsed = lru_cache(maxsize=8)(tomli.loads)
 
 
 def read(path: str, given: Iterable[str] = ()) -> Text:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.parts.proof import Proof
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.specfile.settings import setting
 from geneva_cli.study.fields import Cell, pick, values
@@ -30,15 +31,16 @@ def compare(
     """``quantity``, a column a design, and ``differs``; with ``ratio`` numbers over the first's.
 
     One design is varied through values of keys (``vary``, ``KEY=VALUES``), or several are set side
-    by side. ``picks`` are the quantities to show, all quick ones without; ``alike`` shows those
-    that do not differ too. Raises GenevaError for a design that cannot be read or built.
+    by side. ``picks`` are the quantities to show, without them all for which no parts are made;
+    ``alike`` shows those that do not differ too. Raises GenevaError for a design that cannot be
+    read or built.
     """
     names, machines = _columns(paths, given, vary)
     if picks:
         wanted = pick(picks, machines[0])
         each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
     else:
-        each = [values(m) for m in machines]
+        each = [values(Proof(m)) for m in machines]
     rows = []
     for quantity in dict.fromkeys(name for found in each for name in found):
         if quantity.startswith(LEFT_OUT) and not picks:

@@ -5,7 +5,7 @@ A section of the report is worked out only where one of its quantities is asked 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.analysis.loads.cycle import cycle_of
@@ -15,12 +15,10 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.table import Table
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.report.parts import parts
-from geneva_cli.verdict.report.sections import SECTIONS
+from geneva_cli.verdict.report.sections import SECTIONS, Section
 from geneva_cli.verdict.report.values import Values
 
 Cell: TypeAlias = float | int | str | bool | None
-Section: TypeAlias = Callable[[Proof], Values]
 
 
 def machine(proof: Proof) -> Values:
@@ -50,16 +48,22 @@ def cycle(proof: Proof) -> Values:
     return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
 
 
-# What turns the parts of a machine takes a second, and comes last.
-QUICK: tuple[Section, ...] = (machine, *(s for s in SECTIONS if s is not parts))
-SLOW: tuple[Section, ...] = (cycle, parts, judged)
+# The report's, and others of which it says nothing. What makes parts comes last.
+ALL = (
+    Section(machine),
+    *(s for s in SECTIONS if not s.makes_parts),
+    Section(cycle),
+    *(s for s in SECTIONS if s.makes_parts),
+    Section(judged, makes_parts=True),
+)
+SHOWN = (ALL[0], *(s for s in SECTIONS if not s.makes_parts))  # where nothing is picked
 
 
-def values(mechanism: Mechanism, sections: Iterable[Section] = QUICK) -> dict[str, Cell]:
+def values(proof: Proof, sections: Iterable[Section] = SHOWN) -> dict[str, Cell]:
     """The quantities of some sections; what is a text of several lines or a table is left out."""
-    proof, out = Proof(mechanism), {}
+    out: dict[str, Cell] = {}
     for section in sections:
-        for name, value in section(proof).items():
+        for name, value in section.values(proof).items():
             if not isinstance(value, (tuple, Table)):
                 out[name] = value
     return out
@@ -75,7 +79,7 @@ class Pick(NamedTuple):
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """Their values, None where one does not apply."""
-        found = values(mechanism, self.sections)
+        found = values(Proof(mechanism), self.sections)
         return [found.get(name) for name in self.names]
 
 
@@ -85,10 +89,11 @@ def pick(asked: Sequence[str], mechanism: Mechanism, option: str = "--pick") -> 
     ``mechanism`` is one that has them. Raises GenevaError, with the nearest name, for a name that
     is none, or is not one alone.
     """
+    proof = Proof(mechanism)
     known: dict[str, Section] = {}
     names: dict[str, str] = {}
-    for section in (*QUICK, *SLOW):
-        known |= dict.fromkeys(values(mechanism, (section,)), section)
+    for section in ALL:
+        known |= dict.fromkeys(values(proof, (section,)), section)
         names |= {a: found for a in asked if a not in names and (found := _named(a, known, option))}
         if len(names) == len(set(asked)):
             break

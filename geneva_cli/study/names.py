@@ -25,9 +25,10 @@ def usual_fields() -> list[str]:
     from geneva_cli.machine.mechanism import build
     from geneva_cli.machine.spec import Spec
     from geneva_cli.machine.wheels.external import External
+    from geneva_cli.parts.proof import Proof
     from geneva_cli.spec.tables import Load, Size
-    from geneva_cli.study.fields import QUICK, cycle, values
+    from geneva_cli.study.fields import ALL, values
 
     load = Load(inertia_kgm2=1.0, torque_Nm=1.0)
     machine = build(Spec(External(6), size=Size(face_width_mm=10.0), load=load))
-    return list(values(machine, (*QUICK, cycle)))
+    return list(values(Proof(machine), (s for s in ALL if not s.makes_parts)))

@@ -60,6 +60,20 @@ def test_picked_quantities_by_whole_and_short_names():
     assert list(by_quantity(table)) == ["timing.dwell_s", "acceleration.max", "checks.passes"]
 
 
+def test_what_makes_parts_is_shown_only_where_it_is_picked(monkeypatch):
+    """Parts take seconds; tolerances.toml has all that they are made for."""
+
+    def made(mechanism):
+        raise AssertionError("parts are made")
+
+    monkeypatch.setattr("geneva_cli.parts.proof.outlines", made)
+    found = by_quantity(compare([path("tolerances.toml")]))
+    assert "acceleration.max" in found
+    assert not [q for q in found if q.startswith(("parts", "tolerance", "checks"))]
+    with pytest.raises(AssertionError, match="parts are made"):
+        compare([path("tolerances.toml")], picks=["dwell_position.worst_deg"])
+
+
 def test_two_keys_vary_as_a_grid():
     table = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6", "wheel.z=6,8"])
     assert table.names[1:3] == ("drive.A=0 wheel.z=6", "drive.A=0 wheel.z=8")

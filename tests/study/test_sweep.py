@@ -8,8 +8,10 @@ import signal
 import subprocess
 import sys
 import time
+from functools import lru_cache
 
 import pytest
+import tomli
 from repo import heed_signals
 from typer.testing import CliRunner
 
@@ -49,6 +51,20 @@ def test_each_row_is_the_designs_own():
         one = [design.peaks.acceleration.max, design.timing.dwell_s]
         assert found == [*one, design.mechanism.rollers_max, "side-crank"]
         assert error is None
+
+
+def test_the_text_is_parsed_once(monkeypatch):
+    """However many designs are read of it one by one, and for the files that it names."""
+    parsed = []
+
+    def once(text):
+        parsed.append(text)
+        return tomli.loads(text)
+
+    monkeypatch.setattr("geneva_cli.specfile.reader._parsed", lru_cache(once))
+    run = geneva("sweep", SPEC, "--vary", "wheel.z=5,6,7", "--pick", "drive.kind", "--jobs", "1")
+    assert run.exit_code == 0
+    assert len(parsed) == 1
 
 
 def test_words_and_kinds_vary_too():

@@ -38,7 +38,9 @@ def test_a_section_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     def slots(proof: Proof) -> Values:
         return {"slots.count": proof.mechanism.spec.wheel.z}
 
-    monkeypatch.setattr("geneva_cli.verdict.report.SECTIONS", (slots, *sections.SECTIONS))
+    monkeypatch.setattr(
+        "geneva_cli.verdict.report.SECTIONS", (sections.Section(slots), *sections.SECTIONS)
+    )
     shown = json.loads(run("report", written(tmp_path, LIMITED), "--format", "json").stdout)
     assert shown["slots"] == {"count": 6}
     assert list(shown).index("slots") < list(shown).index("inputs")

@@ -25,6 +25,7 @@ class Request(NamedTuple):
     constraints: tuple[Constraint, ...]
     objectives: tuple[Objective, ...]
     jobs: int | None
+    files: tuple[str, ...]  # that the spec is read from
 
     @property
     def chooses(self) -> bool:
@@ -86,7 +87,7 @@ def request(
     if jobs is not None and jobs < 1:
         raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
     text = read(path, given)
-    text.spec()  # what is wrong with the file is said before what is asked of it
+    files = text.spec().files  # what is wrong with the file is said before what is asked of it
     axes = [axis(text, random is not None or bool(best)) for text in vary]
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
@@ -104,7 +105,7 @@ def request(
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
-    return Request(found, constraints, objectives, jobs)
+    return Request(found, constraints, objectives, jobs, files)
 
 
 def _objectives(pareto: str, best: str) -> list[Objective]:

@@ -58,7 +58,7 @@ def report(
         "not_proved": tuple(f"{c.name}: {c.nearest}" for c in rows if c.passes is None),
     }
     for section in SECTIONS:
-        values |= section(proof)
+        values |= section.values(proof)
     values["warnings"] = told
     return Report(record_table(values, title, words(mechanism)), passes, told)
 
