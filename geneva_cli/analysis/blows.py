@@ -11,6 +11,7 @@ from geneva_cli.analysis.shock import changes, contact, drag_over, impact
 from geneva_cli.analysis.shock_force import force_N, impulse_Nms
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import scalar
 
 NO_LEVER = 1e-6  # of the centre distance: where the slot lies across the way nothing bounds a play
 
@@ -80,7 +81,7 @@ def reversal_blow(mechanism: Mechanism) -> Blow | None:
     found = []
     for engagement in mechanism.engagements if math.isfinite(drag) and clearance else ():
         for start in changes(engagement, drag):
-            lever = abs(touching(engagement, start).lever.c[0])
+            lever = abs(scalar(touching(engagement, start).lever.c[0]))
             share = clearance / (max(lever, NO_LEVER) * mechanism.center_distance_mm)
             one = impact(engagement, start, 2.0 * math.asin(min(share, 1.0)), drag)
             if one and lever > NO_LEVER:

@@ -22,8 +22,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations
-from geneva_cli.numerics.arrays import choose
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sqrt
+from geneva_cli.numerics.arrays import Mask, Truth, array, choose
+from geneva_cli.numerics.jet import Jet, atan2, sqrt
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
 
@@ -32,7 +32,7 @@ class Place(NamedTuple):
     """How far the wheel may be turned, radians; 0 where disc and recess do not go together."""
 
     angle: Jet
-    jams: Coefficient
+    jams: Mask
 
 
 class Rest(NamedTuple):
@@ -74,9 +74,10 @@ class Lock(NamedTuple):
             y = lock * math.sin(self.half)
             far = sqrt(x * x + y * y)
             angle = _at(far, L, recess) - atan2(y, x)
-        nearer = by.center_distance_mm.c[0] * -self.sign  # to the recess's bottom
-        left = spare.c[0] - np.maximum(nearer, 0.0)
-        jams = (left < -ROUNDING * L) | (angle.c[0] < -ROUNDING)
+        # to the recess's bottom
+        nearer = array(by.center_distance_mm.c[0]) * -self.sign
+        left = array(spare.c[0]) - np.maximum(nearer, 0.0)
+        jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
         on_it = nearer > np.maximum(spare.c[0], 0.0) * math.cos(min(self.reach, self.half))
         angle = _chosen(on_it & ~jams, self._on_recess(by, spare), angle)
         return Place(_chosen(jams, angle * 0.0, angle), jams)
@@ -127,6 +128,6 @@ def _at(one: Jet, other: float, opposite: Jet) -> Jet:
     return atan2(sqrt(_chosen(positive, area, area * 0.0 + 1e-300)), a)
 
 
-def _chosen(condition: Coefficient, yes: Jet, no: Jet) -> Jet:
-    condition = bool(condition) if np.ndim(condition) == 0 else condition
-    return Jet([choose(condition, a, b) for a, b in zip(yes.c, no.c, strict=True)])
+def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
+    one = bool(condition) if np.ndim(condition) == 0 else condition
+    return Jet([choose(one, a, b) for a, b in zip(yes.c, no.c, strict=True)])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.engagement import Engagement, Motion
@@ -62,7 +62,7 @@ def peak(motion: Motion, quantity: str) -> Peak:
     pick, order = QUANTITIES[quantity], _ORDER[quantity]
 
     def curve(x: float) -> tuple[float, float, float]:
-        value, slope, bend = pick(motion(x, order).derivatives())
+        value, slope, bend = pick(motion(x, order).scalars())
         return value, slope * DEGREE, bend * DEGREE * DEGREE
 
     breaks = motion.breaks_deg
@@ -100,8 +100,8 @@ def _summit(x: float, value: float, slope: float, bend: float) -> float:
 
 def ends(engagement: Engagement) -> Ends:
     """Sizes at both ends, from inside the motion."""
-    first = engagement.motion(engagement.entry_deg).derivatives()
-    last = engagement.motion(engagement.exit_deg).derivatives()
+    first = engagement.motion(engagement.entry_deg).scalars()
+    last = engagement.motion(engagement.exit_deg).scalars()
     return Ends(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
 
 
@@ -187,7 +187,7 @@ def peaks_table(mechanism: Mechanism) -> Table:
         for engagement, time in zip(mechanism.engagements, times, strict=True)
     ]
     differ = len(rows) > 1
-    values: dict[str, Any] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
+    values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
     values |= _record(worst(mechanism)) if differ else rows[0]
     values |= {"motion_deg": times[0].motion_deg, "dwell_deg": times[0].dwell_deg}
     each = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])

@@ -12,7 +12,7 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.roots import TIE
 from geneva_cli.numerics.roots_many import GROUP, peaks_many
 
@@ -55,10 +56,10 @@ class _Samples:
         angles = np.asfortranarray(x)
         if not isinstance(which, slice):
             some: Motion = taken(self.motion, which)
-            return some(angles, order).derivatives()
+            return some(angles, order).arrays()
         if which.start not in self.kept:
             motion: Motion = taken(self.motion, which)
-            self.kept[which.start] = motion(angles, self.order).derivatives()
+            self.kept[which.start] = motion(angles, self.order).arrays()
         return self.kept[which.start]
 
 
@@ -141,7 +142,7 @@ def worst_of_many(
     best: dict[str, PeakOfMany] = {}
     for engagement in mechanism.engagements:
         for name, found in peaks_of_many(engagement.motion, quantities).items():
-            at_deg: Any = engagement.mid_deg + found.at_deg[:, None]
+            at_deg = engagement.mid_deg + parameter(found.at_deg[:, None])
             here = PeakOfMany(found.max, np.ravel(mechanism.shown_deg(at_deg)))
             best[name] = _greater(best[name], here) if name in best else here
     return best

@@ -23,6 +23,7 @@ from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.roots import extrema, root
 
 if TYPE_CHECKING:
@@ -58,12 +59,12 @@ class Line(NamedTuple):
     def of(engagement: Engagement) -> Line:
         """Of an engagement with a straight slot."""
         x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # a straight slot: anywhere
-        (x, u), (y, v) = x.c, y.c
-        way = math.copysign(1.0, x * u + y * v)
+        (px, u), (py, v) = x.scalars(), y.scalars()
+        way = math.copysign(1.0, px * u + py * v)
         hub, ahead = engagement.hub, engagement.half_step - math.atan2(way * v, way * u)
         return Line(engagement, hub * math.sin(ahead), hub * math.cos(ahead))
 
-    def aside(self, crank: float, center: float) -> float:
+    def aside(self, crank: N, center: N) -> N:
         """How far the true path is from the axis where the one with errors crosses it, over L."""
         arm = self.beside + self.engagement.slot.offset  # from the slot's axis
         return (crank * arm - center * self.beside) / (1.0 + crank)
@@ -73,7 +74,8 @@ class Line(NamedTuple):
         anchor = self.engagement.motion.entry
         assert anchor is not None  # ``contact`` asks for it
         _, across = anchor.displacement(tau, 1)
-        return across.c[0], across.c[1]
+        value, slope = across.scalars()
+        return value, slope
 
     def jump(self, tau: float, crank: float, center: float) -> float:
         """The velocity that the roller gives to the wheel on the axis."""
@@ -184,15 +186,14 @@ def changes(engagement: Engagement, drag: float) -> list[float]:
     grid = np.unique([x for a, b in parts for x in np.linspace(a, b, SCAN // (len(breaks) - 1))])
     # beside the breaks, where a derivative may jump; and the peaks, of which none is stepped over
     grid = np.unique([*(0.5 * (grid[1:] + grid[:-1])), *_peaks(motion)])
-    torque = motion(grid, 2).derivatives()[2] + drag
-    kept = (
-        abs(torque) > NO_TORQUE * abs(torque).max()
-    )  # a law may run at constant speed for a while
+    torque = motion(grid, 2).arrays()[2] + drag
+    # a law may run at constant speed for a while
+    kept = abs(torque) > NO_TORQUE * abs(torque).max()
     grid, torque = grid[kept], torque[kept]
     at = np.flatnonzero(torque[:-1] * torque[1:] < 0.0)
 
     def slope(x: float) -> tuple[float, float]:
-        _, _, a, j = motion(x, 3).derivatives()
+        _, _, a, j = motion(x, 3).scalars()
         return a + drag, j * DEGREE
 
     found = [root(slope, float(grid[i]), float(grid[i + 1])) for i in at]
@@ -209,7 +210,7 @@ def _gained(engagement: Engagement, start: float, drag: float, x: float) -> tupl
     ahead = faster = 0.0
     for a, b in zip(inner[:-1], inner[1:], strict=True):
         t: Array = 0.5 * (a + b) + 0.5 * (b - a) * NODES
-        torque = (motion(t, 2).derivatives()[2] + drag) * WEIGHTS * (0.5 * (b - a) * DEGREE)
+        torque = (motion(t, 2).arrays()[2] + drag) * WEIGHTS * (0.5 * (b - a) * DEGREE)
         ahead -= float((torque * ((end - t) * DEGREE)).sum())
         faster -= float(torque.sum())
     return ahead, faster
@@ -238,14 +239,14 @@ def braking(engagement: Engagement) -> float:
     """The greatest -psi2 of a motion."""
     motion = engagement.motion
     places = (*motion.breaks_deg, *_peaks(motion))
-    return max(-float(motion(x, 2).derivatives()[2]) for x in places)
+    return max(-motion(x, 2).scalars()[2] for x in places)
 
 
 def _peaks(motion: Motion) -> list[float]:
     """Where the acceleration is stationary."""
 
     def curve(x: float) -> tuple[float, float, float]:
-        _, _, a, j, s = motion(x, 4).derivatives()
+        _, _, a, j, s = motion(x, 4).scalars()
         return a, j * DEGREE, s * DEGREE * DEGREE
 
     breaks = motion.breaks_deg

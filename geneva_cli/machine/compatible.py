@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Needs
@@ -20,7 +20,7 @@ class Clash(NamedTuple):
     Of an array of designs ``when`` may be an array of truth values.
     """
 
-    when: Callable[[Spec], Any]
+    when: Callable[[Spec], object]
     key: tuple[str, str]
     text: str
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.arrays import all_true, array
 from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, turning
 
 if TYPE_CHECKING:
@@ -160,7 +160,10 @@ class Motion(ABC):
         mirrored = self.symmetric and is_mirrored(input_deg)
         first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
         values = self(first, max(orders)).derivatives()
-        return [mirror(values[k], len(input_deg), k) if mirrored else values[k] for k in orders]
+        asked = [array(values[k]) for k in orders]
+        if not mirrored:
+            return asked
+        return [mirror(half, len(input_deg), k) for half, k in zip(asked, orders, strict=True)]
 
 
 def is_mirrored(input_deg: Array) -> bool:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, cast
 
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.roller_path import Path, exactly
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.jet import Jet
 
@@ -27,9 +27,10 @@ class ExactPoint(NamedTuple):
     def of(path: Path, phi: Decimal) -> ExactPoint:
         """The point at a crank angle in radians."""
         s, c = digits.sin_cos(phi)
-        x, y = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
-        v = (x.c[1], y.c[1])
-        return ExactPoint(phi, s, c, (x.c[0], y.c[0]), v, unit(v))
+        sine, cosine = exactly(s), exactly(c)
+        x, y = path.place(Jet((sine, cosine)), Jet((cosine, -sine)), exact=True)
+        (px, vx), (py, vy) = cast("tuple[Exact, Exact]", (x.c, y.c))
+        return ExactPoint(phi, s, c, (px, py), (vx, vy), unit((vx, vy)))
 
 
 def length(a: Exact) -> Decimal:

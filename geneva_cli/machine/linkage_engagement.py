@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -12,12 +12,12 @@ from geneva_cli.machine.engagement import Anchor, Engagement
 from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.machine.link import Link, LinkJoints
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
-from geneva_cli.machine.roller_path import LONG_PI, Path, Way, rounded
+from geneva_cli.machine.roller_path import LONG_PI, Path, Way, exactly, rounded
 from geneva_cli.machine.wheel_for_path import Fit
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
 from geneva_cli.numerics import digits
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
 
 ANCHORS = 4  # on either side of the middle: near the wheel a path is all bends
@@ -47,7 +47,7 @@ def engagement_of(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
                 wheel,
                 float(length(ray) / L),
                 along_ray(
-                    path.about(p.sine, p.cosine),
+                    path.about(exactly(p.sine), exactly(p.cosine)),
                     (float(ray[0]), float(ray[1])),
                     fit.sense,
                     float(L),
@@ -76,17 +76,18 @@ def engagement_many(path: Path, found: Fits, step: Step) -> tuple[Engagement, fl
     Every place is worked out in long doubles, where the computer has them, and rounded once.
     """
     path, found, step = _alike(path, found, step)
-    b, sense = step.b, found.sense
+    b, sense = step.b, parameter(found.sense)
     with np.errstate(all="ignore"):
         entry, exit_ = polished(path, found, step)
     middle = (entry + exit_) / 2
-    phi = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
+    turned = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
+    phi = [np.asarray(x, dtype=np.longdouble) for x in turned]
     places = [long_point(path, x) for x in phi]
     (p, t), (q, u) = places[0], places[-1]
     rho = np.abs(q - p) / np.abs(t + u)
     centre = ((p + rho * t) + (q - rho * u)) / 2
-    rays: list[Any] = [place - centre for place, _ in places]
-    L: Any = np.abs(centre)
+    rays = [place - centre for place, _ in places]
+    L = np.abs(centre)
     half_way = rays[0] / np.abs(rays[0]) + rays[-1] / np.abs(rays[-1])
     inside = [sense * rounded(np.angle(ray * half_way.conj())) for ray in rays[1:-1]]
     ends = (-1.0, *[0.0] * len(inside), 1.0)
@@ -97,7 +98,7 @@ def engagement_many(path: Path, found: Fits, step: Step) -> tuple[Engagement, fl
             wheel,
             rounded(np.abs(ray) / L),
             along_ray(
-                path.about(np.sin(x), np.cos(x)),
+                path.about(exactly(np.sin(x)), exactly(np.cos(x))),
                 (rounded(ray.real), rounded(ray.imag)),
                 sense,
                 distance,
@@ -126,7 +127,7 @@ def _alike(path: Path, found: Fits, step: Step) -> tuple[Path, Fits, Step]:
         return path, found, step
     which = np.where(fits, np.arange(len(fits)), fits.argmax())
     entry, exit_, sense = (x[which] for x in found[:3])
-    p, q = (cast(Any, x)[which] if np.ndim(x) else x for x in step)
+    p, q = (cast(int, np.asarray(x)[which]) if np.ndim(x) else x for x in step)
     return path.of(which), Fits(entry, exit_, sense, found.alone), Step(p, q)
 
 
@@ -155,5 +156,5 @@ def along_ray(way: Way, ray: tuple[float, float], sense: float, L: float, end: f
     ux, uy = ray
     if end:
         x, y = way(*sine_versine(Jet.variable(0.0, 1)))
-        ux, uy = end * x.c[1], end * y.c[1]
+        ux, uy = end * parameter(x.c[1]), end * parameter(y.c[1])
     return AlongRay(way, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -34,7 +34,10 @@ from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.spec.schema import Field, Points, Table, fields, unknown
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
+
+T = TypeVar("T")
+Change: TypeAlias = "Callable[[Array], Array]"
 
 TABLES = ("wheel", "drive", "motion", "size", "load")  # whose numbers may vary
 ONE_BY_ONE = {"rollers"}  # numbers that count what a machine is made of
@@ -44,14 +47,14 @@ class Many(NamedTuple):
     """What ``many`` built of n designs."""
 
     machine: Mechanism | None  # of those that can be built; None where there is none
-    refused: Any  # (n,) booleans
+    refused: Mask  # (n,)
 
     @property
-    def which(self) -> Any:
+    def which(self) -> Whole:
         """The numbers of the designs in ``machine``."""
         return np.flatnonzero(~self.refused)
 
-    def spread(self, values: Any) -> Array:
+    def spread(self, values: Number) -> Array:
         """A number of each design in ``machine``, among all n designs; NaN for those refused."""
         which = self.which
         out = np.full(len(self.refused), np.nan)
@@ -59,7 +62,7 @@ class Many(NamedTuple):
         return out
 
 
-def many(spec: Spec, varied: Mapping[str, Any]) -> Many:
+def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     """The machine of a spec with some of its keys varied.
 
     ``varied`` has keys as in the file (``drive.A``, ``wheel.z``, ``motion.lambda``) with arrays
@@ -100,9 +103,9 @@ def may_vary(spec: Spec, key: str) -> bool:
     return numeric and name not in ONE_BY_ONE and spec.drive.may_vary(table, name)
 
 
-def changed(spec: Spec, values: Mapping[str, Any]) -> Spec:
+def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
     """The spec with several keys changed at once: only the whole must be a design."""
-    tables: dict[str, dict[str, Any]] = {}
+    tables: dict[str, dict[str, object]] = {}
     for key, value in values.items():
         tables.setdefault(key.rpartition(".")[0], {})[_field(spec, key).attribute] = value
     parts: dict[str, Table] = {}
@@ -130,18 +133,18 @@ def _field(spec: Spec, key: str) -> Field:
     return known[name]
 
 
-def taken(thing: Any, which: Any) -> Any:
+def taken(thing: T, which: Which) -> T:
     """Some of the designs of an object of many: ``which`` is a mask or their numbers."""
-    return _changed(thing, lambda array: array[which], {})
+    return cast("T", _changed(thing, lambda array: array[which], {}))
 
 
-def _is_array(value: Any) -> bool:
+def _is_array(value: object) -> bool:
     return isinstance(value, np.ndarray)
 
 
-def _changed(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> Any:
+def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
     """The same object with every array (n, 1) in it changed; what holds none is itself."""
-    if _is_array(thing):
+    if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
     kind: Any = type(thing)
     if not _may_hold(kind):
@@ -151,7 +154,7 @@ def _changed(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> 
     return done[id(thing)]
 
 
-def _anew(thing: Any, change: Callable[[Any], Any], done: dict[int, Any]) -> Any:
+def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
     kind: Any = type(thing)
     if isinstance(thing, (tuple, list)):
         parts = [_changed(part, change, done) for part in thing]

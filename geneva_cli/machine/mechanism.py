@@ -70,7 +70,7 @@ class Mechanism(NamedTuple):
         # What rounding put before the entry is at it.
         periods = m.floor((input_deg - entry + ROUNDING_DEG) / whole)
         counted = larger(input_deg - periods * whole, entry)
-        if m is math:
+        if isinstance(input_deg, (float, int)) and isinstance(whole, float):
             return math.remainder(input_deg, whole) if whole == 360.0 else counted
         # as math.remainder does, exactly for angles of some turns
         shown: float = choose(

@@ -21,7 +21,7 @@ from geneva_cli.machine.engagement import (
 )
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import are_alike, are_designs, chosen, library, picked
+from geneva_cli.numerics.arrays import are_alike, are_designs, chosen, library, parameter, picked
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
 
 if TYPE_CHECKING:
@@ -185,7 +185,8 @@ class Classic(Followed):
         if quantity != "acceleration":
             return None
         if not outside:  # the jump at entry
-            return Known(abs(self(self.entry_deg, 2).derivatives()[2]), self.entry_deg)
+            jump = parameter(self(self.entry_deg, 2).derivatives()[2])
+            return Known(abs(jump), self.entry_deg)
         size, at_deg = classic.acceleration_peak(self.l, self.rest)
         return Known(size, -at_deg)
 

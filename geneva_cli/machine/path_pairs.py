@@ -20,8 +20,8 @@ is halved, until both change so evenly over the box that Newton finds its only p
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -30,7 +30,7 @@ from geneva_cli.machine.path_samples import Points, Samples, joined, points
 from geneva_cli.machine.roller_path import Path
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 THIRD = 1.0 / 3.0
 ALIKE = 0.1  # of a box's width, by which its corners may differ in where they say the pair is
@@ -47,10 +47,10 @@ DOUBTFUL = 1e-5  # radians of the index angle: nearer than that without a root, 
 class Pairs(NamedTuple):
     """Pairs of places of designs, entry first, in two columns."""
 
-    which: Any
+    which: Whole
     at: Points
 
-    def taken(self, where: Any) -> Pairs:
+    def taken(self, where: Which) -> Pairs:
         """Some of the pairs."""
         return Pairs(self.which[where], self.at.taken(where))
 
@@ -84,20 +84,20 @@ class _Side(NamedTuple):
     last: Points
     turn: Array
 
-    def taken(self, where: Any) -> _Side:
+    def taken(self, where: Which) -> _Side:
         return _Side(self.first.taken(where), self.last.taken(where), self.turn[where])
 
 
 class _Boxes(NamedTuple):
     """Intervals for entry and exit; ``turn`` is that from the first entry to the first exit."""
 
-    which: Any
+    which: Whole
     sense: Array  # of the wheel
     entry: _Side
     exit: _Side
     turn: Array
 
-    def taken(self, where: Any) -> _Boxes:
+    def taken(self, where: Which) -> _Boxes:
         entry, exit_ = (side.taken(where) for side in (self.entry, self.exit))
         return _Boxes(self.which[where], self.sense[where], entry, exit_, self.turn[where])
 
@@ -122,7 +122,7 @@ def pairs(path: Path, samples: Iterable[Samples], b: Array) -> Found:
     return Found(joined(found), ends.taken(~close))
 
 
-def _span(width: Any, turn: Array, first: Any, last: Any) -> tuple[Array, Array]:
+def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, Array]:
     """The least and the greatest of a cubic's coefficients (Bernstein) that turns by ``turn``."""
     a, c = THIRD * width * first, turn - THIRD * width * last
     low = np.minimum(np.minimum(a, c), np.minimum(turn, 0.0))
@@ -131,7 +131,7 @@ def _span(width: Any, turn: Array, first: Any, last: Any) -> tuple[Array, Array]
     return low - margin, high + margin
 
 
-def _against(width: Any, turn: Array, first: Any, last: Any, sense: Any) -> Any:
+def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number) -> Mask:
     """Whether the tangent turns against the wheel anywhere in an interval."""
     middle = 1.5 * turn / width - 0.25 * (first + last)
     return np.minimum(np.minimum(first * sense, last * sense), middle * sense) <= 0.0
@@ -166,7 +166,7 @@ def _of_samples(samples: Samples, wanted: Array) -> _Boxes:
         exit_ = (entry + ahead) % count
         may = _may_meet_of(at, width, row, entry, exit_)
         found.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
-    row, entry, exit_, sense = joined(found)
+    row, entry, exit_, way = joined(found)
     round_ = np.where(exit_ < entry, 1.0, 0.0)
     start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
     one, two = (
@@ -176,10 +176,10 @@ def _of_samples(samples: Samples, wanted: Array) -> _Boxes:
         end._replace(phi=end.phi + math.tau * round_) for end in (two.first, two.last)
     )
     two = _Side(near_end, far_end, two.turn)
-    return _Boxes(samples.which[row], sense, one, two, start)
+    return _Boxes(samples.which[row], way, one, two, start)
 
 
-def _may_meet_of(at: Points, width: Array, row: Any, entry: Any, exit_: Any) -> Any:
+def _may_meet_of(at: Points, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
     """``_may_meet`` of boxes between samples."""
     count = at.phi.shape[1]
     numbers = np.stack([x.ravel() for x in _numbers(at)])
@@ -194,7 +194,7 @@ def _numbers(at: Points) -> tuple[Array, ...]:
     return at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn
 
 
-def _may_turn(boxes: _Boxes, wanted: Array) -> Any:
+def _may_turn(boxes: _Boxes, wanted: Array) -> Mask:
     """Whether both ends may turn against the wheel, and the tangent by what is wanted."""
     spans = []
     good = np.ones(len(boxes.which), dtype=bool)
@@ -208,7 +208,7 @@ def _may_turn(boxes: _Boxes, wanted: Array) -> Any:
     return good & (x_low - e_high <= target) & (x_high - e_low >= target)
 
 
-def _may_meet(boxes: _Boxes) -> Any:
+def _may_meet(boxes: _Boxes) -> Mask:
     """Whether the chord may be parallel to the tangents' sum."""
     entry, exit_ = boxes.entry, boxes.exit
     corners = [[_numbers(side.first), _numbers(side.last)] for side in (entry, exit_)]
@@ -220,7 +220,7 @@ def _width(side: _Side) -> Array:
     return width
 
 
-def _across(one: Any, two: Any) -> tuple[Array, Array, Array]:
+def _across(one: Sequence[Array], two: Sequence[Array]) -> tuple[Array, Array, Array]:
     """The chord's part across the tangents' sum, and its slopes by entry and by exit."""
     px, py, tx, ty, v, w = one
     qx, qy, ux, uy, v_out, w_out = two
@@ -230,10 +230,11 @@ def _across(one: Any, two: Any) -> tuple[Array, Array, Array]:
     return cx * (ty + uy) - cy * (tx + ux), by_entry, by_exit
 
 
-def _may_be_zero(entries: Any, exits: Any, wide: Array, high: Array) -> Any:
+def _may_be_zero(
+    entries: Sequence[Sequence[Array]], exits: Sequence[Sequence[Array]], wide: Array, high: Array
+) -> Mask:
     """Whether the chord's part across may vanish in boxes so wide and so high."""
-    least: Any = np.inf
-    most: Any = -np.inf
+    least, most = np.full(wide.shape, np.inf), np.full(wide.shape, -np.inf)
     for i, one in enumerate(entries):
         for j, two in enumerate(exits):
             away, by_entry, by_exit = _across(one, two)
@@ -242,14 +243,15 @@ def _may_be_zero(entries: Any, exits: Any, wide: Array, high: Array) -> Any:
             least = np.minimum(least, away + np.minimum(e, 0.0) + np.minimum(x, 0.0))
             most = np.maximum(most, away + np.maximum(e, 0.0) + np.maximum(x, 0.0))
     margin = MARGIN * (most - least)
-    return (least <= margin) & (most >= -margin)
+    may: Mask = (least <= margin) & (most >= -margin)
+    return may
 
 
 class _Told(NamedTuple):
     """Whether all corners of a box tell the same of the pair that is nearest, and what."""
 
-    alike: Any
-    near: Any  # whether it is in the box or beside it
+    alike: Mask
+    near: Mask  # whether it is in the box or beside it
     phi: Array
 
 
@@ -300,7 +302,7 @@ def _side(first: Points, last: Points) -> _Side:
     return _Side(first, last, np.angle(last.t * first.t.conj()))
 
 
-def ends_at(path: Path, which: Any, phi: Array) -> Pairs:
+def ends_at(path: Path, which: Whole, phi: Array) -> Pairs:
     """Places of designs at entry and exit angles, in two columns."""
     return Pairs(which, points(path.roughly(which), phi))
 
@@ -320,7 +322,7 @@ def residual(ends: Pairs, b: Array) -> Residual:
     return Residual((chord * both).imag, by_entry, by_exit, excess, det, sense)
 
 
-def _solved(path: Path, boxes: _Boxes, phi: Array, b: Array) -> tuple[Pairs, Any]:
+def _solved(path: Path, boxes: _Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
     """Newton from places in boxes: where it ends, and whether that is a pair in the box."""
     low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
     high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)

@@ -8,15 +8,18 @@ where the path all but comes to a cusp, it is sampled again midway.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.machine.roller_path import Path
+from geneva_cli.numerics.arrays import Record, array
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole
+
+Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
 
 COUNT = 48  # samples of a turn that every path has
 FIRST = 0.3  # of a step, where they begin: symmetrical paths have their cusps at 0 and at pi
@@ -30,17 +33,17 @@ class Points(NamedTuple):
     numbers, unit tangent, speed and the rate at which the tangent turns.
     """
 
-    phi: Any
-    p: Any
-    v: Any
-    a: Any
-    t: Any
-    speed: Any
-    turn: Any
+    phi: Array
+    p: Complex
+    v: Complex
+    a: Complex
+    t: Complex
+    speed: Array
+    turn: Array
 
-    def taken(self, where: Any) -> Points:
+    def taken(self, where: Where) -> Points:
         """Some of the points."""
-        return Points(*(part[where] for part in self))
+        return Points._make(part[where] for part in self)
 
 
 class Samples(NamedTuple):
@@ -49,17 +52,17 @@ class Samples(NamedTuple):
     ``angle`` is the tangent's, without jumps. Rows with fewer samples repeat their last one.
     """
 
-    which: Any  # the designs' numbers
+    which: Whole  # the designs' numbers
     at: Points
     angle: Array
 
 
-def points(path: Path, phi: Any) -> Points:
+def points(path: Path, phi: Array) -> Points:
     """Places of the path; a design's angles are a row."""
     x, y = path.at(phi, 2)
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
     p, v, a = (
-        np.broadcast_to(c + 1j * d, shape)
+        np.broadcast_to(array(c) + 1j * array(d), shape)
         for c, d in zip(x.derivatives(), y.derivatives(), strict=True)
     )
     speed = np.abs(v)
@@ -102,13 +105,13 @@ def _turned(left: Points, right: Points) -> Array:
     return turn
 
 
-def _missed(left: Points, right: Points, turned: Array) -> Any:
+def _missed(left: Points, right: Points, turned: Array) -> Mask:
     """Whether the rates at two samples do not foretell the turn from one to the other."""
     half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
     return np.abs(turned - half) > FORETOLD
 
 
-def _between(path: Path, which: Any, left: Points, right: Points) -> tuple[Any, Points] | None:
+def _between(path: Path, which: Whole, left: Points, right: Points) -> tuple[Whole, Points] | None:
     """What is added between samples of designs, until all is foretold."""
     found = []
     for _ in range(DEEPEST):
@@ -127,7 +130,7 @@ def _between(path: Path, which: Any, left: Points, right: Points) -> tuple[Any, 
     return joined(found) if found else None
 
 
-def _blocks(counts: Any) -> Iterator[slice]:
+def _blocks(counts: Whole) -> Iterator[slice]:
     """Runs of rows whose pairs of samples are no more than ``CELLS``."""
     start = 0
     while start < len(counts):
@@ -139,7 +142,7 @@ def _blocks(counts: Any) -> Iterator[slice]:
         start = stop
 
 
-def _padded(rows: Any, base: Points, whose: Any, added: Points) -> Points:
+def _padded(rows: Whole, base: Points, whose: Whole, added: Points) -> Points:
     """The samples of some designs with those added, in order."""
     number = np.full(int(whose.max(initial=0)) + 1, -1)
     number[rows] = np.arange(len(rows))
@@ -154,23 +157,28 @@ def _padded(rows: Any, base: Points, whose: Any, added: Points) -> Points:
     width = int(counts.max())
     # beyond its own count a row stays at its last sample
     place = starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)
-    return Points(*(part[order][place] for part in parts))
+    return Points._make(part[order][place] for part in parts)
 
 
-def _samples(which: Any, at: Points, turned: Array) -> Samples:
+def _samples(which: Whole, at: Points, turned: Array) -> Samples:
     """Samples with the tangent's angle, which is the sum of the turns."""
     angle = np.zeros(at.phi.shape)
     np.cumsum(turned, axis=1, out=angle[:, 1:])
     return Samples(which, at, angle)
 
 
-def joined(parts: Any) -> Any:
+def joined(parts: Sequence[Record]) -> Record:
     """Records of arrays, one after the other."""
-    one = parts[0]
-    if isinstance(one, tuple):
-        fields = [joined(field) for field in zip(*parts, strict=True)]
-        return tuple(fields) if type(one) is tuple else type(one)(*fields)
-    return np.concatenate(parts)
+    fields = [_joined(field) for field in zip(*parts, strict=True)]
+    make: Callable[..., object] = type(parts[0])
+    return cast("Record", tuple(fields) if make is tuple else make(*fields))
+
+
+def _joined(parts: Sequence[object]) -> object:
+    """Members of records: arrays, or records in them."""
+    if isinstance(parts[0], tuple):
+        return joined(cast("Sequence[tuple[object, ...]]", parts))
+    return np.concatenate(cast("Sequence[Array]", parts))
 
 
 def blocks(count: int, size: int) -> Iterator[slice]:

@@ -9,7 +9,7 @@ other sign; elsewhere it is looked at more closely.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from geneva_cli.machine.path_samples import Points, Samples, blocks, joined, poi
 from geneva_cli.machine.roller_path import Path
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which, Whole
 
 THIRD = 1.0 / 3.0
 SAME = 1e-6  # radians: entries nearer to each other are one
@@ -36,13 +36,13 @@ class Wheels(NamedTuple):
     sense in which they turn on the path's own axes.
     """
 
-    which: Any
+    which: Whole
     phi: Array
     sense: Array
 
-    def taken(self, where: Any) -> Wheels:
+    def taken(self, where: Which) -> Wheels:
         """Some of the wheels."""
-        return Wheels(*(part[where] for part in self))
+        return Wheels._make(part[where] for part in self)
 
 
 class Search(NamedTuple):
@@ -66,7 +66,7 @@ class _Course(NamedTuple):
 class _Wheel(NamedTuple):
     """Centres and senses, in a column."""
 
-    centre: Any
+    centre: Complex
     square: Array  # of the distance of entry and exit
     sense: Array
 
@@ -77,8 +77,8 @@ class _Wheel(NamedTuple):
         short = self.square - (ray.real**2 + ray.imag**2)
         return _Course(moment, slope, short, -2.0 * (ray * at.v).real)
 
-    def taken(self, where: Any) -> _Wheel:
-        return _Wheel(*(part[where] for part in self))
+    def taken(self, where: Which) -> _Wheel:
+        return _Wheel._make(part[where] for part in self)
 
 
 def wheels(path: Path, b: Array) -> Search:
@@ -108,7 +108,7 @@ def followed(path: Path, phi: Array, sense: Array) -> Wheels:
         return _followed(path, next(sampled(path, 1)), ends, sense)
 
 
-def _firsts(ends: Pairs) -> Any:
+def _firsts(ends: Pairs) -> Whole:
     """Of pairs that are one, the first."""
     place = ends.at.phi[:, 0] % math.tau
     order = np.lexsort((place, ends.which))
@@ -122,7 +122,7 @@ def _followed(path: Path, samples: Samples, ends: Pairs, sense: Array) -> Wheels
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
-    wheel = _Wheel(*(x[:, None] for x in (centre, rho * rho, sense)))
+    wheel = _Wheel._make(x[:, None] for x in (centre, rho * rho, sense))
     number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
     number[samples.which] = np.arange(len(samples.which))
     at = samples.at.taken((number[ends.which], slice(0, -1)))
@@ -152,7 +152,7 @@ def _followed(path: Path, samples: Samples, ends: Pairs, sense: Array) -> Wheels
 
 def _fails(
     path: Path, wheel: _Wheel, ends: Pairs, nodes: Array, course: _Course, motion: Array
-) -> Any:
+) -> Mask:
     """Whether the roller leaves its slot between samples ``nodes`` since entry, a row a wheel."""
     bar = [ROUNDING * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
     fails = np.zeros(len(nodes), dtype=bool)
@@ -176,7 +176,7 @@ def _fails(
     return fails
 
 
-def _open(places: Array, course: _Course, inside: Any, low: Array, far: Array) -> Any:
+def _open(places: Array, course: _Course, inside: Mask, low: Array, far: Array) -> Mask:
     """Intervals in which cubics do not show that all is well."""
     width = np.diff(places, axis=1)
     sign = np.where(inside, 1.0, -1.0)
@@ -184,7 +184,7 @@ def _open(places: Array, course: _Course, inside: Any, low: Array, far: Array) -
     return short | (inside & (_least(width, course.moment, course.moment_slope, 1.0) < -low))
 
 
-def _least(width: Array, value: Array, slope: Array, sign: Any) -> Array:
+def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     """The least coefficient of a cubic between neighbours."""
     a, c = value[:, :-1], value[:, 1:]
     b, d = a + THIRD * width * slope[:, :-1], c - THIRD * width * slope[:, 1:]
@@ -192,7 +192,7 @@ def _least(width: Array, value: Array, slope: Array, sign: Any) -> Array:
     return least
 
 
-def chosen(path: Path, found: Wheels, wanted: Any = None) -> Any:
+def chosen(path: Path, found: Wheels, wanted: Number | None = None) -> Whole:
     """The numbers of the wheels that are taken, one of each design that has any, in their order.
 
     The gentlest, which has the least peak velocity, or the one entered nearest to ``wanted``
@@ -262,7 +262,7 @@ class _Velocities(NamedTuple):
     peak: Array
     beside: Array
 
-    def taken(self, where: Any) -> _Velocities:
+    def taken(self, where: Which) -> _Velocities:
         return _Velocities(self.peak[where], self.beside[where])
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import library, scalar, size
 from geneva_cli.numerics.jet import Coefficient
 
 # the columns of a table of a pitch curve with a wall on either side
@@ -48,7 +48,7 @@ def retraces(engagement: Engagement) -> bool:
     the slot's radius, and the pressure angle is 90 degrees there.
     """
     x, y = engagement.slot(0.0, 1)
-    return bool(abs(x.c[1]) + abs(y.c[1]) < RETRACE)
+    return abs(scalar(x.c[1])) + abs(scalar(y.c[1])) < RETRACE
 
 
 def pitch(engagement: Engagement, input_deg: Coefficient) -> Pitch:
@@ -64,7 +64,7 @@ def pitch(engagement: Engagement, input_deg: Coefficient) -> Pitch:
         y1 / speed,
         speed,
         (x1 * y2 - y1 * x2) / (speed * speed),
-        m.atan2(abs(x0 * y1 - y0 * x1), abs(x0 * x1 + y0 * y1)),
+        m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1)),
     )
 
 
@@ -77,13 +77,13 @@ def pitch_at_retrace(engagement: Engagement) -> Pitch:
     x, y = engagement.slot(0.0, 3)
     m = library(x.c[0])
     (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()
-    size = m.hypot(x2, y2)
+    bend = m.hypot(x2, y2)
     return Pitch(
         x0,
         y0,
-        -x2 / size,
-        -y2 / size,
+        -x2 / bend,
+        -y2 / bend,
         0.0,
-        (x2 * y3 - y2 * x3) / (2.0 * size * size),
-        m.atan2(abs(x0 * y2 - y0 * x2), abs(x0 * x2 + y0 * y2)),
+        (x2 * y3 - y2 * x3) / (2.0 * bend * bend),
+        m.atan2(size(x0 * y2 - y0 * x2), size(x0 * x2 + y0 * y2)),
     )

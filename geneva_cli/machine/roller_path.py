@@ -5,12 +5,16 @@ from __future__ import annotations
 import copy
 from abc import ABC, abstractmethod
 from decimal import Decimal
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Long, Number, Which
 
 LONG_PI = np.longdouble(str(PI))
 
@@ -22,42 +26,46 @@ class Way(Protocol):
         """(x, y), from sin d and 1 - cos d of the crank's angle d since then."""
 
 
-def rounded(x: Any) -> Any:
+def rounded(x: Number | Decimal | Long) -> float:
     """A Decimal, or long doubles, rounded to doubles; one number as a float."""
     if isinstance(x, Decimal) or not np.ndim(x):
         return float(x)
-    return np.asarray(x, dtype=np.float64)
+    return parameter(np.asarray(x, dtype=np.float64))
+
+
+def exactly(x: Decimal | Long) -> float:
+    """An exact number, for a formula that is written for floats: it reckons as they do."""
+    return cast(float, x)
 
 
 class Path(ABC):
     """A roller's closed path about the crank's axis, in millimetres.
 
     ``rough`` are its numbers: floats, or arrays (n, 1) of many designs. ``exact`` are the same as
-    Decimals of 50 digits, or of many designs as long doubles.
+    Decimals of 50 digits, or of many designs as long doubles: to the type checker floats too, for
+    which the formulas are written.
     """
 
-    rough: Any
-    exact: Any
+    rough: tuple[float, ...]
+    exact: tuple[float, ...]
 
-    def of(self, which: Any) -> Path:
+    def of(self, which: Which) -> Path:
         """The paths of some of the designs."""
-        some = copy.copy(self)
-        for name in ("rough", "exact"):
-            numbers = (x[which] if np.ndim(x) else x for x in vars(self)[name])
-            vars(some)[name] = type(self.rough)(*numbers)
+        some = self.roughly(which)
+        some.exact = _some(self.exact, which)
         return some
 
-    def roughly(self, which: Any) -> Path:
+    def roughly(self, which: Which) -> Path:
         """The paths of some of the designs, without their exact numbers."""
         some = copy.copy(self)
-        some.rough = type(self.rough)(*(x[which] if np.ndim(x) else x for x in self.rough))
+        some.rough = _some(self.rough, which)
         return some
 
     def in_long_doubles(self) -> Path:
         """The path with long doubles for exact numbers, as for many designs."""
         some = copy.copy(self)
         long = (np.longdouble(str(x)) if isinstance(x, Decimal) else x for x in self.exact)
-        some.exact = type(self.exact)(*long)
+        some.exact = tuple(long)
         return some
 
     @abstractmethod
@@ -77,7 +85,7 @@ class Path(ABC):
         """The pin (x, y) for a crank of this direction."""
 
     @abstractmethod
-    def about(self, sine: Any, cosine: Any) -> Way:
+    def about(self, sine: float, cosine: float) -> Way:
         """The pin's way since the crank stood there, written so that it vanishes there; sine and
         cosine are exact.
         """
@@ -85,3 +93,7 @@ class Path(ABC):
     def at(self, phi: Coefficient, order: int) -> tuple[Jet, Jet]:
         """The pin for a crank angle in radians."""
         return self.place(*sin_cos(Jet.variable(phi, order)))
+
+
+def _some(numbers: tuple[float, ...], which: Which) -> tuple[float, ...]:
+    return tuple(parameter(array(x)[which]) if np.ndim(x) else x for x in numbers)

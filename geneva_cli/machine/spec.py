@@ -74,7 +74,7 @@ class Motion(Table):
         super().__post_init__()
         _refuse_other(self, "law", Law, "Cycloidal()")
 
-    def with_key(self, key: str, value: Any) -> Self:
+    def with_key(self, key: str, value: object) -> Self:
         """The same with one key of the motion or of its law changed; None: its default.
 
         >>> Motion(SineGroup(0.1)).with_key("lambda", 0.05).law
@@ -93,7 +93,7 @@ def attribute(table: str) -> str:
     return table.replace(".", "_")
 
 
-def _refuse_other(of: Any, name: str, kind: type, example: str) -> None:
+def _refuse_other(of: Table | Spec, name: str, kind: type, example: str) -> None:
     """A Python user may give the word of a file, or a class, for the object that it stands for."""
     given = getattr(of, name)
     if not isinstance(given, kind):
@@ -186,7 +186,7 @@ class Spec:
         several = vars(self)[table] if table in LISTS else ()
         return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
 
-    def with_(self, key: str, value: Any) -> Self:
+    def with_(self, key: str, value: object) -> Self:
         """The same with one key changed, written ``table.key`` as in the file; None: its default.
 
         Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.

@@ -6,15 +6,22 @@ left to be solved alone, in 50 digits.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
 from geneva_cli.machine.path_wheels import chosen, wheels
-from geneva_cli.machine.roller_path import LONG_PI, Path
+from geneva_cli.machine.roller_path import LONG_PI, Path, exactly
 from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.numerics.jet import Jet
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.arrays import Array, Long, Whole
+
+    LongComplex: TypeAlias = NDArray[np.clongdouble]
 
 POLISHINGS = 3  # steps of Newton: each leaves some millionth of the error
 GROUP = 2048  # designs at a time
@@ -26,13 +33,13 @@ class Fits(NamedTuple):
     ``alone`` are the numbers of designs that are to be solved one by one.
     """
 
-    entry: Any
-    exit: Any
-    sense: Any  # +1 where the wheel turns counterclockwise on the path's own axes
-    alone: Any
+    entry: Array
+    exit: Array
+    sense: Array  # +1 where the wheel turns counterclockwise on the path's own axes
+    alone: Whole
 
 
-def fits_many(path: Path, b: Any, wanted: Any = None) -> Fits:
+def fits_many(path: Path, b: float, wanted: float | None = None) -> Fits:
     """The gentlest wheel of each path, or the one entered nearest to ``wanted`` (radians).
 
     ``path``, half the index angle b and ``wanted`` hold numbers (n, 1), or one for all.
@@ -54,15 +61,16 @@ def fits_many(path: Path, b: Any, wanted: Any = None) -> Fits:
     return Fits(entry, exit_, sense, np.concatenate(alone))
 
 
-def long_point(path: Path, phi: Any) -> tuple[Any, Any]:
+def long_point(path: Path, phi: Long) -> tuple[LongComplex, LongComplex]:
     """Place and unit tangent at an angle in long doubles, as complex numbers."""
-    s, c = np.sin(phi), np.cos(phi)
-    x, y = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
-    v = x.c[1] + 1j * y.c[1]
-    return x.c[0] + 1j * y.c[0], v / np.abs(v)
+    s, c = exactly(np.sin(phi)), exactly(np.cos(phi))
+    found = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
+    (x, vx), (y, vy) = cast("list[tuple[Long, Long]]", [jet.c for jet in found])
+    v = vx + 1j * vy
+    return x + 1j * y, v / np.abs(v)
 
 
-def polished(path: Path, found: Fits, step: Step) -> tuple[Any, Any]:
+def polished(path: Path, found: Fits, step: Step) -> tuple[Long, Long]:
     """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles."""
     every = np.arange(len(found.entry))
     ends = ends_at(path, every, np.hstack((found.entry, found.exit)))

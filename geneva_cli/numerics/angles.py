@@ -9,12 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeVar
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.arrays import Array, N, parameter
 
-Angle = TypeVar("Angle", float, "Array")
 DEGREE = math.pi / 180.0
 _BITS = 128
 _ONE = 1 << _BITS
@@ -78,11 +75,11 @@ def _cos_squared_parts(p: int, q: int) -> tuple[float, float]:
     return high, (square - int(high * 2.0**112)) / scale
 
 
-def _whole(p: Any) -> bool:
+def _whole(p: int) -> bool:
     return isinstance(p, int) or p.dtype.kind == "i"
 
 
-def of_each(f: Callable[..., tuple[float, ...]], *numbers: Any) -> list[Any]:
+def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]:
     """What a function of Python numbers says of arrays: asked once for each set that occurs.
 
     ``f`` returns a tuple; the arrays are its members.
@@ -90,9 +87,9 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: Any) -> list[Any]:
     import numpy as np
 
     # one number of NumPy's is a Python number too
-    numbers = tuple(x if np.ndim(x) else np.asarray(x).item() for x in numbers)
-    shaped = np.broadcast_arrays(*numbers)
-    varied = [i for i, x in enumerate(numbers) if np.ndim(x)]
+    plain = [x if np.ndim(x) else np.asarray(x).item() for x in numbers]
+    shaped = np.broadcast_arrays(*plain)
+    varied = [i for i, x in enumerate(plain) if np.ndim(x)]
     flat = [shaped[i].ravel() for i in varied]
     if len(flat) > 1:
         sets, index = np.unique(np.stack(flat, 1), axis=0, return_inverse=True)
@@ -101,16 +98,16 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: Any) -> list[Any]:
             kinds = [int if x.dtype.kind == "i" else float for x in flat]
             rows = [tuple(k(v) for k, v in zip(kinds, row, strict=True)) for row in rows]
     else:
-        values, index = np.unique(flat[0] if flat else np.ravel(numbers[0]), return_inverse=True)
+        values, index = np.unique(flat[0] if flat else np.ravel(plain[0]), return_inverse=True)
         rows = [(value,) for value in values.tolist()]
     found = []
     for row in rows:
-        given = list(numbers)
+        given = list(plain)
         for i, value in zip(varied or [0], row, strict=True):
             given[i] = value
         found.append(f(*given))
     return [
-        np.array(column)[index.ravel()].reshape(shaped[0].shape)
+        parameter(np.array(column)[index.ravel()].reshape(shaped[0].shape))
         for column in zip(*found, strict=True)
     ]
 
@@ -123,8 +120,8 @@ def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
     x = degrees - 90.0 * quarters
     high = x * DEGREE
     # x DEGREE - high by Dekker's product of halves
-    (a, b), (c, d) = _halves(x), _halves(DEGREE)
-    low = ((a * c - high) + a * d + b * c) + b * d + x * _DEGREE_REST
+    (a, b), (d, e) = _halves(x), _halves(DEGREE)
+    low = ((a * d - high) + a * e + b * d) + b * e + x * _DEGREE_REST
     s, c = np.sin(high), np.cos(high)
     s, c = s + low * c, c - low * s
     odd, past = quarters % 2.0 == 1.0, quarters % 4.0
@@ -133,7 +130,7 @@ def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
     return np.where(past >= 2.0, -sine, sine), np.where(behind, -cosine, cosine)
 
 
-def _halves(x: Any) -> tuple[Any, Any]:
+def _halves(x: N) -> tuple[N, N]:
     """A double as a sum of two of 26 bits (Veltkamp)."""
     big = 134217729.0 * x
     high = big - (big - x)
@@ -165,7 +162,7 @@ def sin_cos_deg(degrees: float) -> tuple[float, float]:
     return _sin_cos_degrees(degrees)
 
 
-def radians(degrees: Angle) -> Angle:
+def radians(degrees: N) -> N:
     """Degrees to radians, for numbers and arrays alike."""
     return degrees * DEGREE
 

@@ -9,39 +9,92 @@ of angles went in. To the type checker the numbers of a machine are floats.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar, cast
+
+if TYPE_CHECKING:
+    from decimal import Decimal
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+Array: TypeAlias = "NDArray[np.float64]"
+Mask: TypeAlias = "NDArray[np.bool_]"
+Whole: TypeAlias = "NDArray[np.intp]"
+Which: TypeAlias = "slice | Mask | Whole"  # some of many designs
+Complex: TypeAlias = "NDArray[np.complex128]"
+Long: TypeAlias = "NDArray[np.longdouble]"  # the longest floating-point numbers that there are
+Number: TypeAlias = "float | Array"
+Truth: TypeAlias = "bool | Mask"
+
+# One kind of number goes in, and the same kind comes out.
+N = TypeVar("N", float, "Array", "Number")
+Real = TypeVar("Real", float, "Array", "Number", "Decimal")
+Record = TypeVar("Record", bound=tuple[object, ...])
 
 _PLAIN = (float, int)
 
 
-def library(x: Any, y: Any = 0.0, z: Any = 0.0) -> Any:
+class Library(Protocol):
+    """What ``math`` and ``numpy`` both have."""
+
+    def sin(self, x: N, /) -> N: ...
+    def cos(self, x: N, /) -> N: ...
+    def asin(self, x: N, /) -> N: ...
+    def acos(self, x: N, /) -> N: ...
+    def atan2(self, y: N, x: N, /) -> N: ...
+    def hypot(self, x: N, y: N, /) -> N: ...
+    def sqrt(self, x: N, /) -> N: ...
+    def exp(self, x: N, /) -> N: ...
+    def floor(self, x: N, /) -> N: ...
+    def ceil(self, x: N, /) -> N: ...
+    def degrees(self, x: N, /) -> N: ...
+    def copysign(self, x: N, y: N, /) -> N: ...
+
+
+PLAIN = cast("Library", math)
+
+
+def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
     """The module whose sin and cos suit numbers: ``numpy`` where one of them is an array."""
     if isinstance(x, _PLAIN) and isinstance(y, _PLAIN) and isinstance(z, _PLAIN):
-        return math
+        return PLAIN
     import numpy
 
-    return numpy
+    return cast("Library", numpy)
 
 
-def choose(condition: Any, yes: Any, no: Any) -> Any:
-    """One of two values, for a truth value, or element by element for an array of them.
-
-    Of two records (tuples of the same shape) each number is chosen for itself.
-    """
+def choose(condition: Truth, yes: Real, no: Real) -> Real:
+    """One of two values, for a truth value, or element by element for an array of them."""
     if isinstance(condition, bool):
         return yes if condition else no
     if yes is no:
         return yes
-    if isinstance(yes, tuple):
-        parts = [choose(condition, a, b) for a, b in zip(yes, no, strict=True)]
-        return type(yes)(*parts) if type(yes) is not tuple else tuple(parts)
     import numpy
 
-    return numpy.where(condition, yes, no)
+    both: object = (yes, no)
+    found: object = numpy.where(condition, *cast("tuple[Array, Array]", both))
+    return cast("Real", found)
 
 
-def chosen(x: Any, cuts: Sequence[Any], records: Sequence[Any]) -> Any:
+def choose_record(condition: Truth, yes: Record, no: Record) -> Record:
+    """One of two tuples of the same shape; for an array of truth values each number for itself."""
+    if isinstance(condition, bool):
+        return yes if condition else no
+    parts = [_chosen(condition, a, b) for a, b in zip(yes, no, strict=True)]
+    return _record(yes, parts)
+
+
+def _chosen(condition: Mask, yes: object, no: object) -> object:
+    """A member of a record: a number, a record, or what both have in common."""
+    if yes is no:
+        return yes
+    if isinstance(yes, tuple) and isinstance(no, tuple):
+        return choose_record(condition, yes, no)
+    return choose(condition, cast("Number", yes), cast("Number", no))
+
+
+def chosen(x: Number, cuts: Sequence[Number], records: Sequence[Record]) -> Record:
     """``records[i]`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
     x or the cuts are arrays of designs; the record's numbers are chosen for each x.
@@ -52,13 +105,13 @@ def chosen(x: Any, cuts: Sequence[Any], records: Sequence[Any]) -> Any:
         if all_true(past):
             out = record
         elif not isinstance(past, bool) and past.any():
-            out = choose(past, record, out)
+            out = choose_record(past, record, out)
         else:
             break
     return out
 
 
-def picked(index: Any, records: Sequence[Any]) -> Any:
+def picked(index: Whole, records: Sequence[Record]) -> Record:
     """The record of each index, its numbers as arrays of the index's shape where they differ.
 
     Records are tuples of the same shape; what they hold besides numbers is the same in all.
@@ -70,17 +123,28 @@ def picked(index: Any, records: Sequence[Any]) -> Any:
     first = records[0]
     if all(one is first for one in records):
         return first
+    return _record(first, [_picked(index, members) for members in zip(*records, strict=True)])
+
+
+def _picked(index: Whole, members: Sequence[object]) -> object:
+    """A member of each index's record: a number, a record, or what all have in common."""
+    first = members[0]
     if isinstance(first, tuple):
-        parts = [picked(index, part) for part in zip(*records, strict=True)]
-        return type(first)(*parts) if type(first) is not tuple else tuple(parts)
-    if all(one == first for one in records):
+        return picked(index, cast("Sequence[tuple[object, ...]]", members))
+    if all(one == first for one in members):
         return first
     import numpy
 
-    return numpy.array(records)[index]
+    return numpy.array(members)[index]
 
 
-def are_alike(records: Sequence[Any]) -> bool:
+def _record(like: Record, parts: Sequence[object]) -> Record:
+    """A record of the kind of another."""
+    make: Callable[..., object] = type(like)
+    return cast("Record", tuple(parts) if make is tuple else make(*parts))
+
+
+def are_alike(records: Sequence[object]) -> bool:
     """Whether records differ in numbers alone, so that ``picked`` can pick of them.
 
     >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
@@ -94,32 +158,55 @@ def are_alike(records: Sequence[Any]) -> bool:
     return all(isinstance(one, _PLAIN) for one in records)
 
 
-def are_designs(x: Any, *numbers: Any) -> bool:
+def are_designs(x: Number, *numbers: Number) -> bool:
     """Whether angles are (n, k), or one of some numbers differs from design to design."""
     plain = isinstance(x, float) or x.ndim < 2
     return not (plain and all(isinstance(one, float) for one in numbers))
 
 
-def all_true(condition: Any) -> bool:
+def all_true(condition: Truth) -> bool:
     """Whether a truth value, or each of an array of them, is true."""
     return condition if isinstance(condition, bool) else bool(condition.all())
 
 
-def ascending(places: Sequence[Any]) -> list[Any]:
+def ascending(places: Sequence[float]) -> list[float]:
     """Numbers in order, each once; of designs each one's in its own order, equal ones too."""
     if all(isinstance(x, float) for x in places):
         return sorted(set(places))
     import numpy
 
     each = numpy.concatenate(numpy.broadcast_arrays(*places), axis=-1)
-    return list(numpy.hsplit(numpy.sort(each, axis=-1), each.shape[-1]))
+    columns = numpy.hsplit(numpy.sort(each, axis=-1), each.shape[-1])
+    return cast("list[float]", columns)
 
 
-def larger(a: Any, b: Any) -> Any:
+def size(x: N) -> N:
+    """Without its sign."""
+    return x.__abs__()
+
+
+def parameter(x: Number) -> float:
+    """A machine's number that comes of a jet: to the type checker a float, as all of them are."""
+    return cast(float, x)
+
+
+def scalar(x: Number) -> float:
+    """A number that is known to be one. Raises TypeError for an array."""
+    return x if isinstance(x, float) else float(x)
+
+
+def array(x: Number) -> Array:
+    """A number that is known to be an array, or may be one number for all of them."""
+    import numpy
+
+    return numpy.asarray(x)
+
+
+def larger(a: N, b: N) -> N:
     """The larger of two numbers, element by element for arrays."""
     return choose(b > a, b, a)
 
 
-def smaller(a: Any, b: Any) -> Any:
+def smaller(a: N, b: N) -> N:
     """The smaller of two numbers, element by element for arrays."""
     return choose(b < a, b, a)

@@ -14,19 +14,19 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeVar, cast
 
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import Array as Array
+from geneva_cli.numerics.arrays import Number as Number
+from geneva_cli.numerics.arrays import library, size
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import NDArray
 
-    Array: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
-    Number: TypeAlias = float | Array
+    from geneva_cli.numerics.arrays import Whole
 
-# Number is float | ndarray for the reader; arithmetic mixes them freely, which
-# is beyond what the type checker follows, so coefficients are Any inside.
-Coefficient: TypeAlias = Any
+Coefficient = Number
 
 _FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
 
@@ -53,6 +53,14 @@ class Jet:
     def derivatives(self) -> tuple[Coefficient, ...]:
         """Value, first derivative, second, ... up to the order."""
         return tuple(c if k < 2 else c * _FACTORIAL[k] for k, c in enumerate(self.c))
+
+    def scalars(self) -> tuple[float, ...]:
+        """The derivatives of a jet at one number."""
+        return cast("tuple[float, ...]", self.derivatives())
+
+    def arrays(self) -> tuple[Array, ...]:
+        """The derivatives of a jet at many numbers."""
+        return cast("tuple[Array, ...]", self.derivatives())
 
     def derivative(self) -> Jet:
         """The jet of the derivative, one order lower."""
@@ -97,7 +105,13 @@ class Jet:
         return Jet((other, *[0.0] * self.order)) / self
 
 
-def _convolve(a: Sequence[Coefficient], b: Sequence[Coefficient], k: int, first: int) -> Any:
+# What a formula of jets says of their values alone, too.
+V = TypeVar("V", Jet, "Array")
+
+
+def _convolve(
+    a: Sequence[Coefficient], b: Sequence[Coefficient], k: int, first: int
+) -> Coefficient:
     total = a[first] * b[k - first]
     for i in range(first + 1, k + 1):
         total = total + a[i] * b[k - i]
@@ -139,7 +153,7 @@ def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient, order: int) -> tu
     sine, cosine = y / length, x / length
     # 1 - cos = sin²/(1 + cos), or as it stands where the cosine is negative
     ahead = 0.5 * (1.0 + m.copysign(1.0, x))
-    versine = ahead * sine * sine / (1.0 + abs(cosine)) + (1.0 - ahead) * (1.0 - cosine)
+    versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * (1.0 - cosine)
     s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
     return s, Jet((versine, *[-a for a in c.c[1:]]))
 
@@ -185,16 +199,18 @@ def piecewise(
     import numpy as np
 
     angles = np.asarray(x)
-    if angles.ndim < 2 and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
-        return _by_parts(angles, np.searchsorted(cuts, angles), pieces)
-    index = sum((angles > cut).astype(np.int8) for cut in cuts)
-    return (_by_columns if angles.shape == index.shape and index.shape[-1] > 1 else _by_choice)(
-        x, index, pieces
-    )
+    plain = [cut for cut in cuts if isinstance(cut, float)]
+    if angles.ndim < 2 and len(plain) == len(cuts):
+        return _by_parts(angles, np.searchsorted(plain, angles), pieces)
+    none = np.zeros(angles.shape, np.int8)
+    index = sum(((angles > cut).astype(np.int8) for cut in cuts), none)
+    if angles.shape == index.shape and index.shape[-1] > 1:
+        return _by_columns(angles, index, pieces)
+    return _by_choice(x, index, pieces)
 
 
 def _by_columns(
-    x: Coefficient, index: Coefficient, pieces: Sequence[Callable[[Coefficient], Jet]]
+    x: Array, index: NDArray[np.int8], pieces: Sequence[Callable[[Coefficient], Jet]]
 ) -> Jet:
     """Of angles (n, k) of designs: columns that lie in one piece are seen by no other."""
     import numpy as np
@@ -203,7 +219,7 @@ def _by_columns(
     new = np.flatnonzero((np.diff(low) != 0) | (np.diff(high) != 0)) + 1
     if not len(new):
         return _by_choice(x, index, pieces)
-    out: list[Coefficient] = []
+    out: list[Array] = []
     for i, j in pairwise([0, *new.tolist(), x.shape[1]]):
         part = (slice(None), slice(i, j))
         found = _by_choice(x[part], index[part], pieces).c
@@ -215,7 +231,7 @@ def _by_columns(
 
 
 def _by_choice(
-    x: Coefficient, index: Coefficient, pieces: Sequence[Callable[[Coefficient], Jet]]
+    x: Coefficient, index: NDArray[np.int8], pieces: Sequence[Callable[[Coefficient], Jet]]
 ) -> Jet:
     """Each piece that holds anywhere sees all angles, and its own part is chosen."""
     import numpy as np
@@ -227,7 +243,7 @@ def _by_choice(
         found = {pieces[first]: pieces[first](x).c}
         out = list(found[pieces[first]])
         for i in range(first + 1, last + 1):
-            here, piece = index == i, pieces[i]
+            here, piece = np.equal(index, i), pieces[i]
             if here.any():
                 if piece not in found:
                     found[piece] = piece(x).c
@@ -235,9 +251,7 @@ def _by_choice(
     return Jet(out)
 
 
-def _by_parts(
-    x: Coefficient, index: Coefficient, pieces: Sequence[Callable[[Coefficient], Jet]]
-) -> Jet:
+def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) -> Jet:
     """Of angles (k,), each piece's own; its numbers may be those of many designs."""
     import numpy as np
 

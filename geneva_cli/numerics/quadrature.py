@@ -16,8 +16,8 @@ import numpy as np
 from geneva_cli.numerics.budget import ask
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Whole
 
 # places and the numbers of their spans -> the values of each function
 Integrands: TypeAlias = "Callable[[Array, Whole], Sequence[Array]]"

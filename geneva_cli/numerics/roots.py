@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from geneva_cli.numerics.arrays import all_true, choose
 from geneva_cli.numerics.budget import ask
@@ -15,7 +15,7 @@ from geneva_cli.numerics.budget import ask
 if TYPE_CHECKING:
     from decimal import Decimal
 
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Mask, Truth
 
 # x -> value, first derivative, second derivative
 Curve: TypeAlias = Callable[[float], tuple[float, float, float]]
@@ -63,7 +63,7 @@ def root(
     return x
 
 
-def boundary(holds: Callable[[Real], Any], good: Real, bad: Real) -> Real:
+def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real) -> Real:
     """The last number from ``good`` towards ``bad`` for which something holds, by halving.
 
     ``good`` and ``bad`` are floats, arrays of designs, or Decimals of a context that is set.
@@ -81,7 +81,7 @@ def boundary(holds: Callable[[Real], Any], good: Real, bad: Real) -> Real:
 
 
 def boundary_by_sections(
-    holds: Callable[[Array], Any], good: float, bad: float, sections: int = 64
+    holds: Callable[[Array], Mask], good: float, bad: float, sections: int = 64
 ) -> float:
     """The same of something that is answered for many numbers at once, in fewer questions.
 

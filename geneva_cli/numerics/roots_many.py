@@ -11,7 +11,7 @@ A design that is not a number anywhere has no number for an answer, and disturbs
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -19,10 +19,8 @@ from geneva_cli.numerics.budget import ask
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, STEPS, TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Mask, Whole
 
-    Mask: TypeAlias = np.ndarray[Any, np.dtype[np.bool_]]
-    Whole: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
     Which: TypeAlias = slice | Whole
 
 SCAN = 12  # intervals of the first scan, an even number

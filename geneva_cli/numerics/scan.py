@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -18,10 +18,7 @@ from geneva_cli.numerics.budget import ask
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
-    Mask: TypeAlias = np.ndarray[Any, np.dtype[np.bool_]]
-    Whole: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
+    from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 # places and the numbers of their spans -> values and slopes, a row for each function
 Functions: TypeAlias = "Callable[[Array, Whole], tuple[Array, Array]]"

@@ -26,8 +26,8 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
+from geneva_cli.numerics.arrays import Array, N
 from geneva_cli.numerics.digits import FIFTY
-from geneva_cli.numerics.jet import Coefficient
 
 Row: TypeAlias = list[Decimal]
 Block: TypeAlias = tuple[Row, Row]  # two equations; a column a right side
@@ -81,28 +81,30 @@ class Pieces:
         self.cuts, self.origins, self.rows = cuts, origins, rows
 
     @cached_property
-    def _arrays(self) -> tuple[Coefficient, Coefficient, Coefficient]:
+    def _arrays(self) -> tuple[Array, Array, Array]:
         import numpy as np
 
         return np.array(self.cuts), np.array(self.origins), np.array(self.rows).T.copy()
 
-    def __call__(self, x: Coefficient, order: int) -> list[Coefficient]:
+    def __call__(self, x: N, order: int) -> Sequence[N]:
         """Taylor coefficients 0 to ``order`` at a number or an array of numbers."""
-        c: Sequence[Coefficient]
         if isinstance(x, (float, int)):
             i = bisect_left(self.cuts, x)
-            t, c = x - self.origins[i], self.rows[i]
-        else:
-            cuts, origins, rows = self._arrays
-            index = cuts.searchsorted(x)
-            t, c = x - origins[index], rows[:, index]
-        out = []
-        for k in range(order + 1):
-            sum_ = 0.0 * t
-            for j in reversed(range(k, len(c))):
-                sum_ = sum_ * t + math.comb(j, k) * c[j]
-            out.append(sum_)
-        return out
+            return _taylor(x - self.origins[i], self.rows[i], order)
+        cuts, origins, rows = self._arrays
+        index = cuts.searchsorted(x)
+        return _taylor(x - origins[index], list(rows[:, index]), order)
+
+
+def _taylor(t: N, c: Sequence[N], order: int) -> list[N]:
+    """Those of a polynomial at t."""
+    out = []
+    for k in range(order + 1):
+        sum_ = 0.0 * t
+        for j in reversed(range(k, len(c))):
+            sum_ = sum_ * t + math.comb(j, k) * c[j]
+        out.append(sum_)
+    return out
 
 
 def shifted(c: Row, t: Decimal) -> Row:

@@ -16,6 +16,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.table import Table
 
@@ -93,6 +94,6 @@ def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
 
 
 def _convexities(ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
-    i, i1, i2 = ratio.derivatives()
-    inverse = (1.0 / ratio).derivatives()
+    i, i1, i2 = (array(c) for c in ratio.derivatives())
+    inverse = [array(c) for c in (1.0 / ratio).derivatives()]
     return 1.0 + inverse[0] + inverse[2], 1.0 + i + (i * i2 - i1 * i1) / i**3

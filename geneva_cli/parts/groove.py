@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,11 +12,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
 from geneva_cli.machine.slot_and_motion import SolvedPath
+from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Mask
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
@@ -73,8 +74,11 @@ def _back(groove: SolvedPath, input_deg: Array) -> list[Array]:
     span = math.radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = min(math.radians(EASED_DEG), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)
-    after = _eased(groove.distances(groove.motion.exit_deg, 2)[1].derivatives(), eased, t, 1.0)
-    entry = groove.distances(groove.motion.entry_deg, 2)[1].derivatives()
+    exit_, entry = (
+        [scalar(c) for c in groove.distances(end, 2)[1].derivatives()]
+        for end in (groove.motion.exit_deg, groove.motion.entry_deg)
+    )
+    after = _eased(exit_, eased, t, 1.0)
     before = _eased(entry, eased, span - t, -1.0)
     # Each is constant where the other begins; the step goes from one level to the other.
     length, rise = span - 2.0 * eased, before[3] - after[3]
@@ -90,7 +94,7 @@ def _back(groove: SolvedPath, input_deg: Array) -> list[Array]:
 
 
 def _eased(
-    end: tuple[float, ...], length: float, t: Array, sense: float
+    end: Sequence[float], length: float, t: Array, sense: float
 ) -> tuple[Array, Array, Array, float]:
     """Distance and two derivatives ``t`` beyond an end, and the distance it fades to.
 
@@ -127,7 +131,7 @@ def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     low, high = grid[max(i - 1, 0)], grid[min(i + 1, LOOKS)]
     sense = math.copysign(1.0, slope[i])
 
-    def rises(x: Array) -> Any:
+    def rises(x: Array) -> Mask:
         r, dr, ddr = _distances(groove, x)
         return sense * (r * ddr - dr * dr) > 0.0
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import Any
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, body
@@ -52,7 +51,7 @@ def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 def parts_list(proof: Proof) -> Table:
     """The same, of a machine whose outlines may be known; no parts where its sizes leave none."""
     mechanism = proof.mechanism
-    found: list[dict[str, Any]] = []
+    found: list[dict[str, object]] = []
     if mechanism.spec.is_flat:
         with suppress(GenevaError):  # the check of the parts says why there are none
             found += parts_rows(proof.found)
@@ -61,7 +60,7 @@ def parts_list(proof: Proof) -> Table:
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
 
 
-def parts_rows(found: Outlines) -> Iterator[dict[str, Any]]:
+def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
     """The plates of wheel and crank, each kind once with its count, as the solids have them."""
     spec, arm = found.plane.given.spec, None
     if has_arm(found):
@@ -91,7 +90,7 @@ def parts_rows(found: Outlines) -> Iterator[dict[str, Any]]:
         }
 
 
-def _pivots(mechanism: Mechanism) -> Iterator[dict[str, Any]]:
+def _pivots(mechanism: Mechanism) -> Iterator[dict[str, object]]:
     L = mechanism.center_distance_mm
     own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
     found = [p for p in own if isinstance(p, Pivot)]
@@ -101,7 +100,7 @@ def _pivots(mechanism: Mechanism) -> Iterator[dict[str, Any]]:
         yield {"row": "pivot", **one._asdict()}
 
 
-def _dimensions(mechanism: Mechanism) -> Iterator[dict[str, Any]]:
+def _dimensions(mechanism: Mechanism) -> Iterator[dict[str, object]]:
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.slot_clearance_mm
     found = [

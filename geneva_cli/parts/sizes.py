@@ -13,6 +13,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.spec.tables import Size
 
@@ -132,7 +133,7 @@ def mouth(plane: Plane, engagement: Engagement, r: float) -> float:
 def corner(plane: Plane, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
     """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
     x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
-    px, py = plane.L * x.c[0], plane.L * y.c[0]
+    px, py = plane.L * scalar(x.c[0]), plane.L * scalar(y.c[0])
     cx, cy = rest(plane, engagement, end)
     share = r / math.dist((px, py), (cx, cy))
     return px + share * (cx - px), py + share * (cy - py)

@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED, Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.table import Table
 
@@ -94,7 +95,7 @@ def pitch_at(engagement: Engagement, input_deg: Array, back: bool) -> Pitch:
     if len(middle):
         limit = pitch_at_retrace(engagement)
         for column, value in zip(at, limit, strict=True):
-            column[middle] = value
+            array(column)[middle] = value
     return at
 
 
@@ -147,12 +148,11 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
 
     def excess(x: Array, side: float) -> Array:
         at = pitch(engagement, x)
-        out: Array = at.speed - side * offset * at.turning
-        return out
+        return array(at.speed - side * offset * at.turning)
 
     # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
     step = engagement.motion_deg / SURVEY
-    grid = engagement.entry_deg + step * (np.arange(SURVEY) + 0.5)
+    grid = engagement.entry_deg + step * (np.arange(SURVEY, dtype=np.float64) + 0.5)
     at = pitch(engagement, grid)
     found = []
     for side in (-1.0, 1.0):

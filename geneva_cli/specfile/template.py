@@ -82,14 +82,14 @@ def template(kind: str) -> str:
             f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of {known}'
         )
     about, given = example(kind)
-    drive = registry.drive(given.get("drive", {}).get("kind", Crank.NAME))
+    drive = registry.drive(str(given.get("drive", {}).get("kind", Crank.NAME)))
     lines = [
         f"#:schema ./{FILE}",  # for editors: `geneva schema -o` writes it
         f"# A Geneva mechanism: {about}.",
         "# Keys behind a # have the default shown, or none; remove the # to set them.",
         f"title = {quoted(about)}",
     ]
-    gearing = registry.gearing(given["wheel"].get("gearing", External.NAME))
+    gearing = registry.gearing(str(given["wheel"].get("gearing", External.NAME)))
     # any law may be put in: a template shows the keys of all
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
     keys = keys_of(gearing, drive, law_keys)

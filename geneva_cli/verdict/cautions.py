@@ -36,12 +36,12 @@ def cautions(mechanism: Mechanism) -> list[str]:
         )
     if engagement.slot.curved and not retraces(engagement):
         out.append(_off_the_mid_condition(mechanism))
-    if max(abs(half(0.0, 2).c[2]) for half in (law.first, law.second)) > 1e-9:
+    if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
         out.append(
             f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
             "both ends"
         )
-    if abs(law.first(0.5, 2).c[2] + law.second(0.5, 2).c[2]) > 1e-9:
+    if abs(law.first(0.5, 2).scalars()[2] + law.second(0.5, 2).scalars()[2]) > 1e-9:
         out.append(
             f'the law "{law.NAME}" goes from speeding up to slowing down in a jump: a soft shock '
             "at mid-motion"
@@ -84,7 +84,7 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     motion = engagement.motion
 
     def curve(x: float) -> tuple[float, float, float]:
-        v, a, j = pick(motion(x, 3).derivatives())
+        v, a, j = pick(motion(x, 3).scalars())
         return v, a * DEGREE, j * DEGREE * DEGREE
 
     breaks = motion.breaks_deg

@@ -7,12 +7,12 @@ tangent t points away from the wheel's axis: M . t > 0, M being the roller's cen
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
-from geneva_cli.numerics.arrays import all_true, library
-from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sqrt
+from geneva_cli.numerics.arrays import all_true, library, scalar
+from geneva_cli.numerics.jet import Coefficient, Jet, V, piecewise, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -21,24 +21,24 @@ NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slo
 BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight
 
 
-class Contact(NamedTuple):
+class Contact(NamedTuple, Generic[V]):
     """What the loads need of motion and slot, each a jet of one order, or its values."""
 
-    velocity: Coefficient
-    acceleration: Coefficient
-    lever: Coefficient  # M . t: of the walls' normal about the wheel's axis
-    aside: Coefficient  # M x t: of the slot's tangent
-    along: Coefficient  # the roller centre's speed along t
-    curvature: Coefficient  # of the pitch curve, positive to the left of t: 0 in a straight slot
-    spin: Coefficient  # rate at which the body that carries the roller turns against the wheel
-    arm: Coefficient  # of friction at the wall about the wheel's axis, beyond M's: over the radius
-    touches: Coefficient  # 0 while gears drive and no roller does, else 1
-    held: tuple[tuple[Vector, Vector], ...] | None = None
+    velocity: V
+    acceleration: V
+    lever: V  # M . t: of the walls' normal about the wheel's axis
+    aside: V  # M x t: of the slot's tangent
+    along: V  # the roller centre's speed along t
+    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: V  # rate at which the body that carries the roller turns against the wheel
+    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: V  # 0 while gears drive and no roller does, else 1
+    held: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
     # what holds the roller's body (the crank's shaft, a guide) against a force of 1 along the
     # normal i t, one along t, and a couple of 1; None where the body is the crank
 
 
-def contacts(engagement: Engagement, input_deg: Array) -> Contact:
+def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
     """The contact at many ascending input angles, values alone: what is mirrored, or known in
     closed form, is not worked out again.
     """
@@ -47,14 +47,14 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact:
         found = _beside(engagement, input_deg, 0, rates)
     else:
         found = contact(engagement, input_deg)
-    if found.held is not None:  # sizes of its jets' sums
-        return found
-    return Contact._make([*[jet.c[0] for jet in found[:-1]], None])
+    *jets, holds = found
+    held = holds and [[(x.c[0], y.c[0]) for x, y in pair] for pair in holds]
+    return Contact._make([*[jet.c[0] for jet in jets], held])
 
 
 def contact(
     engagement: Engagement, input_deg: Coefficient, order: int = 0, joints: bool = True
-) -> Contact:
+) -> Contact[Jet]:
     """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
     Without ``joints`` nothing is asked of what holds the roller's body. At mid-motion of a curved
@@ -64,7 +64,8 @@ def contact(
         return _beside(engagement, input_deg, order, joints=joints)
 
     def beside(x: Coefficient) -> Jet:
-        return Jet([c for jet in _beside(engagement, x, order)[:-1] for c in jet.c])
+        *jets, _ = _beside(engagement, x, order)
+        return Jet([c for jet in jets for c in jet.c])
 
     def middle(x: Coefficient) -> Jet:
         assert order == 0
@@ -87,7 +88,7 @@ def _beside(
     order: int,
     rates: Jet | None = None,
     joints: bool = True,
-) -> Contact:
+) -> Contact[Jet]:
     """Wherever the pin moves in its slot, or the slot is straight.
 
     ``rates`` are the jet of the wheel's velocity, one order higher, where it is known.
@@ -146,19 +147,21 @@ def _held(
 def _middle(engagement: Engagement) -> list[float]:
     """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
     if not retraces(engagement):
-        values = [jet.c[0] for jet in _beside(engagement, 0.0, 0)[:-1]]
+        *jets, _ = _beside(engagement, 0.0, 0)
+        values = [scalar(jet.c[0]) for jet in jets]
         values[Contact._fields.index("lever")] = 0.0
         return values
     at = pitch_at_retrace(engagement)
-    lever = at.x * at.tangent_x + at.y * at.tangent_y
+    x, y, tangent_x, tangent_y, _, turning, _ = (scalar(c) for c in at)
+    lever = x * tangent_x + y * tangent_y
     way = 1.0 if lever > 0.0 else -1.0
-    aside = way * (at.x * at.tangent_y - at.y * at.tangent_x)
-    _, v, a = engagement.motion(0.0, 2).derivatives()
-    spin = engagement.carrier(0.0).c[0] - v
-    if abs(at.turning) > BENT:
-        curvature = math.copysign(math.inf, way * at.turning)
+    aside = way * (x * tangent_y - y * tangent_x)
+    _, v, a = engagement.motion(0.0, 2).scalars()
+    spin = scalar(engagement.carrier(0.0).c[0]) - v
+    if abs(turning) > BENT:
+        curvature = math.copysign(math.inf, way * turning)
     else:  # the way in and the way out are one, and its curvature is that beside mid-motion
-        curvature = _beside(engagement, NEAR * engagement.entry_deg, 0).curvature.c[0]
+        curvature = scalar(_beside(engagement, NEAR * engagement.entry_deg, 0).curvature.c[0])
     return [v, a, way * lever, aside, 0.0, curvature, spin, 1.0, 1.0]
 
 

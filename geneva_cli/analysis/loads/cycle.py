@@ -9,31 +9,37 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, contacts
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding, value
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
 from geneva_cli.analysis.loads.peaks import Stretch, cusps, maxima, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.jet import Coefficient
+from geneva_cli.numerics.jet import Coefficient, Jet, V
 from geneva_cli.numerics.quadrature import integrals
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.contact import Contact
+    from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Whole
 
-Integrand: TypeAlias = Callable[[Instant], Coefficient]  # of values, at many angles
-Quantity: TypeAlias = Callable[[Instant], Row]  # of jets
+Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
 # Of a cubic's integral over the step before them: Adams and Bashforth, for the way to a cusp.
 _AHEAD, _SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
+
+
+class Quantity(Protocol):
+    """What is looked for at an instant, of jets or of their values."""
+
+    def __call__(self, i: Instant[V], /) -> Row[V]:
+        """The quantity, and what bounds it."""
 
 
 class Extremes(NamedTuple):
@@ -71,7 +77,7 @@ class Cycle:
         """Input angle of the period, radians."""
         return self.mechanism.period_deg * DEGREE
 
-    def states(self, input_deg: Array) -> Instant:
+    def states(self, input_deg: Array) -> Instant[Array]:
         """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
 
         Infinite where nothing bounds a force: where friction alone holds the wheel, and at
@@ -88,19 +94,19 @@ class Cycle:
                     out[i] = None
                 else:
                     total[span.moves] = row
-        return Instant(*out)
+        return Instant._make(out)
 
-    def moving(self, engagement: Engagement, input_deg: Array) -> Instant:
+    def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays at input angles of an engagement, from its own mid-motion."""
         given, at = self.given, contacts(engagement, input_deg)
-        torque = value(at.acceleration) * given.inertia_Nm + given.resists_Nm
+        torque = at.acceleration * given.inertia_Nm + given.resists_Nm
         drives = np.copysign(1.0, torque)
-        slides = np.copysign(1.0, value(sliding(at, drives, given.radius)))
-        pays = np.copysign(1.0, drives * value(gain(given, at, drives, slides)))
+        slides = np.copysign(1.0, sliding(at, drives, given.radius))
+        pays = np.copysign(1.0, drives * gain(given, at, drives, slides))
         with np.errstate(all="ignore"):
             return bounded(instant(given, at, drives, slides, pays))
 
-    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant:
+    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
         """Arrays at input angles of a stretch of an engagement, from its own mid-motion.
 
         With the stretch's signs: at its ends the values are those from inside.
@@ -124,12 +130,12 @@ class Cycle:
 
     def _both_ways(
         self, quantities: Sequence[Quantity]
-    ) -> Callable[[Contact, Coefficient, Coefficient, Coefficient], list[Row]]:
+    ) -> Callable[[Contact[Jet], Coefficient, Coefficient, Coefficient], list[Row[Jet]]]:
         """Rows whose maxima are the greatest value of each quantity, and minus its least."""
 
         def rows(
-            at: Contact, drives: Coefficient, slides: Coefficient, pays: Coefficient
-        ) -> list[Row]:
+            at: Contact[Jet], drives: Coefficient, slides: Coefficient, pays: Coefficient
+        ) -> list[Row[Jet]]:
             found = instant(self.given, at, drives, slides, pays)
             out = []
             for quantity in quantities:
@@ -152,7 +158,7 @@ class Cycle:
 
             def rows(
                 x: Array, span: Whole, engagement: Engagement = engagement, signs: Array = signs
-            ) -> list[Coefficient]:
+            ) -> list[Array]:
                 here = values(instant(self.given, contact(engagement, x), *signs[:, span]))
                 return [f(here) for f in of]
 

@@ -20,8 +20,8 @@ from geneva_cli.numerics.quadrature import integral_of_each
 from geneva_cli.numerics.scan import scan
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Whole
 
 
 NOUGHT = 1e-26  # a mean whose square is so small a share of the mean square is rounding
@@ -81,8 +81,7 @@ def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float
 
     def torque(x: Array, span: Whole) -> Array:
         at = contact(engagement, x, joints=False)
-        out: Array = values(instant(given, at, *signs[:, of[span]])).input_torque_Nm
-        return out
+        return values(instant(given, at, *signs[:, of[span]])).input_torque_Nm
 
     works = integral_of_each(torque, spans)
     return [(work * DEGREE, (b - a) * DEGREE) for work, (a, b) in zip(works, spans, strict=True)]
@@ -95,10 +94,9 @@ def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> Array:
     signs = np.array([piece[2:] for piece in pieces]).T
 
     def above(x: Array, span: Whole) -> tuple[Array, Array]:
-        c = instant(
-            given, contact(engagement, x, 1, joints=False), *signs[:, span]
-        ).input_torque_Nm.c
-        return c[0] - mean, c[1] * DEGREE
+        at = contact(engagement, x, 1, joints=False)
+        value, slope = instant(given, at, *signs[:, span]).input_torque_Nm.arrays()
+        return value - mean, slope * DEGREE
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
         value, slope = (np.broadcast_to(row, x.shape)[None, :] for row in above(x, span))

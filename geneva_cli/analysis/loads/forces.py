@@ -13,7 +13,7 @@ that carries it, rubs along the wall: v = M' . t - d r (rate of that body - rate
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Generic, NamedTuple
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.loads.contact import Contact
@@ -22,7 +22,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Coefficient, Jet, V
 
 
 class Setting(NamedTuple):
@@ -98,55 +98,55 @@ class Greatest(NamedTuple):
     at_deg: float
 
 
-class Row(NamedTuple):
+class Row(NamedTuple, Generic[V]):
     """A quantity that is looked for, and what must be positive for it to have a bound.
 
     ``way`` is the sign towards which it goes where it has none.
     """
 
-    value: Jet
-    room: Jet | None = None
+    value: V
+    room: V | None = None
     way: Coefficient = 1.0
 
 
-class Forces(NamedTuple):
-    """Jets; force and stress mean nothing where ``grip``, and the stress where ``edge``, is <= 0.
+class Forces(NamedTuple, Generic[V]):
+    """Jets, or their values; a force has none where ``grip``, and a stress where ``edge``, is <= 0.
 
     There the friction alone holds the wheel, or the bearing wall is sharper than the roller.
     """
 
-    torque: Jet  # that the wheel needs
-    grip: Jet  # torque on the wheel over L times the pin force
-    force: Jet
-    shaft: Jet  # torque on the input shaft, before the efficiency
-    edge: Jet | None  # 1 - curvature of the bearing wall's pitch curve times the roller's radius
-    square: Jet | None  # of the contact stress
+    torque: V  # that the wheel needs
+    grip: V  # torque on the wheel over L times the pin force
+    force: V
+    shaft: V  # torque on the input shaft, before the efficiency
+    edge: V | None  # 1 - curvature of the bearing wall's pitch curve times the roller's radius
+    square: V | None  # of the contact stress
 
 
-def value(quantity: Coefficient) -> Coefficient:
+def value(quantity: V) -> Coefficient:
     """The value of a jet, or what is a value already."""
     return quantity.c[0] if isinstance(quantity, Jet) else quantity
 
 
-def sliding(at: Contact, drives: Coefficient, radius: float) -> Coefficient:
+def sliding(at: Contact[V], drives: Coefficient, radius: float) -> V:
     """Speed at which the roller rubs along the wall, over L, per input radian."""
     return at.along - at.spin * (drives * radius)
 
 
-def gain(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
+def gain(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> V:
     """Torque on the input shaft over the wheel's, times the grip: it has a value everywhere."""
     lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
     return at.velocity * _grip(given, at, drives, slides) + lost
 
 
-def _grip(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Coefficient:
+def _grip(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> V:
     if not given.friction:
         return at.lever
     rub = at.touches * (given.friction * slides)
     return at.lever + rub * (at.aside * drives - at.arm * given.radius)
 
 
-def forces(given: Setting, at: Contact, drives: Coefficient, slides: Coefficient) -> Forces:
+def forces(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> Forces[V]:
     """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
     torque = at.acceleration * given.inertia_Nm + given.resists_Nm
     grip, shaft = _grip(given, at, drives, slides), torque * at.velocity

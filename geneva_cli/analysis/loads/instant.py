@@ -5,16 +5,19 @@ From the forces of ``forces``: everything that a table of the cycle shows and it
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding, value
-from geneva_cli.numerics.jet import Coefficient, Jet, sqrt
+from geneva_cli.numerics.jet import Coefficient, Jet, V, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 
-class Instant(NamedTuple):
+class Instant(NamedTuple, Generic[V]):
     """Each a jet by the input angle in radians, or the jets' values: numbers or arrays.
 
     The wheel turns in the positive direction while it indexes, and a torque on it is positive
@@ -24,66 +27,67 @@ class Instant(NamedTuple):
     where the wheel drives it.
     """
 
-    omega_rad_s: Coefficient
-    alpha_rad_s2: Coefficient
-    wheel_torque_Nm: Coefficient  # I alpha + what resists
-    pin_force_N: Coefficient
-    stress_squared: Coefficient | None  # of the contact, MPa²; None without a face width
-    sliding_m_s: Coefficient  # of the roller, fixed to its pin, along the wall
-    input_torque_Nm: Coefficient
-    power_W: Coefficient  # input torque times input speed
-    friction_W: Coefficient  # that the contact turns to heat
-    wheel_bearing_N: Coefficient  # size of the force on the wheel, and so of its shaft's reaction
-    crank_bearing_squared: Coefficient  # of the shaft whose crank carries the roller or link, N²
-    guide_squared: Coefficient | None  # of rocker, slider, groove or fixed gear; None without
+    omega_rad_s: V
+    alpha_rad_s2: V
+    wheel_torque_Nm: V  # I alpha + what resists
+    pin_force_N: V
+    stress_squared: V | None  # of the contact, MPa²; None without a face width
+    sliding_m_s: V  # of the roller, fixed to its pin, along the wall
+    input_torque_Nm: V
+    power_W: V  # input torque times input speed
+    friction_W: V  # that the contact turns to heat
+    wheel_bearing_N: V  # size of the force on the wheel, and so of its shaft's reaction
+    crank_bearing_squared: V  # of the shaft whose crank carries the roller or link, N²
+    guide_squared: V | None  # of rocker, slider, groove or fixed gear; None without
     drives: Coefficient  # sign of the wheel's torque
     slides: Coefficient  # sign of the sliding
     pays: Coefficient  # sign of the input's torque
-    grip: Coefficient  # where it is not above 0, friction alone holds the wheel: forces are endless
-    held: Coefficient | None  # the same for what friction alone makes endless; None without
-    edge: Coefficient | None  # the same for the stress alone: the wall is sharper than the roller
+    grip: V  # where it is not above 0, friction alone holds the wheel: forces are endless
+    held: V | None  # the same for what friction alone makes endless; None without
+    edge: V | None  # the same for the stress alone: the wall is sharper than the roller
 
     @property
-    def crank_bearing_N(self) -> Coefficient:
+    def crank_bearing_N(self) -> V:
         """Size of the force on the crank's shaft, and so of its bearings' reaction."""
         return _root(self.crank_bearing_squared)
 
     @property
-    def guide_force_N(self) -> Coefficient | None:
+    def guide_force_N(self) -> V | None:
         """Size of the guide's force; None without one."""
         return None if self.guide_squared is None else _root(self.guide_squared)
 
     @property
-    def stress(self) -> Row:
+    def stress(self) -> Row[V]:
         """The square of the contact stress, likewise."""
         assert self.stress_squared is not None  # there is a face width
         return Row(self.stress_squared, self.edge)
 
     @property
-    def pressure_speed(self) -> Row:
+    def pressure_speed(self) -> Row[V]:
         """The square of p v, the greatest Hertz pressure times the sliding, likewise; W²/m⁴."""
         pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
         return Row(pv, self.edge)
 
     @property
-    def guide(self) -> Row:
+    def guide(self) -> Row[V]:
         """The square of the guide's force, likewise."""
         assert self.guide_squared is not None  # there is a guide
         return Row(self.guide_squared, self.grip)
 
     @property
-    def pin_force(self) -> Row:
+    def pin_force(self) -> Row[V]:
         """The pin force as a quantity that may have no bound, for ``Cycle.extremes``."""
         return Row(self.pin_force_N, self.grip, self.drives)
 
-    def shaft(self, quantity: Coefficient) -> Row:
-        """Something that goes with the input's torque, which friction may leave without a bound."""
-        return Row(quantity, self.held)
+    @property
+    def shaft(self) -> Row[V]:
+        """The input's torque, which friction may leave without a bound."""
+        return Row(self.input_torque_Nm, self.held)
 
 
 def instant(
-    given: Setting, at: Contact, drives: Coefficient, slides: Coefficient, pays: Coefficient
-) -> Instant:
+    given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient, pays: Coefficient
+) -> Instant[V]:
     """What happens where wheel torque, sliding and input torque have these signs."""
     found = forces(given, at, drives, slides)
     w = given.speed_rad_s
@@ -116,12 +120,12 @@ def instant(
 
 def _joints(
     given: Setting,
-    at: Contact,
-    force: Jet,
+    at: Contact[V],
+    force: V,
     drives: Coefficient,
     rub: Coefficient,
-    on_wheel: Jet,
-) -> tuple[Jet, Jet | None]:
+    on_wheel: V,
+) -> tuple[V, V | None]:
     """Squares of the reactions on the crank's shaft, and of what guides the roller's body besides.
 
     The pin pushes the wall along d i t + f s t; about its centre that force has a couple too.
@@ -131,29 +135,27 @@ def _joints(
     normal, tangent, couple = at.held
     turn = rub * drives * given.radius
 
-    def square(joint: int) -> Jet:
+    def square(joint: int) -> V:
         x, y = (
             normal[joint][i] * drives + tangent[joint][i] * rub - couple[joint][i] * turn
             for i in (0, 1)
         )
-        out: Jet = force * force * (x * x + y * y)
-        return out
+        return force * force * (x * x + y * y)
 
     return square(0), square(1)
 
 
-def _root(square: Coefficient) -> Coefficient:
+def _root(square: V) -> V:
     return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
 
 
-def values(found: Instant) -> Instant:
+def values(found: Instant[Jet]) -> Instant[Array]:
     """The values of an instant's jets."""
-    return Instant(*map(value, found))
+    return Instant._make(x.c[0] if isinstance(x, Jet) else x for x in found)
 
 
-def bounded(found: Instant) -> Instant:
+def bounded(here: Instant[Array]) -> Instant[Array]:
     """Values with infinity where nothing bounds a force, and 0 where none is needed there."""
-    here = values(found)
     held = here.grip > 0.0
     bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
     out = here._asdict()

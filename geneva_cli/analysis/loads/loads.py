@@ -17,11 +17,12 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.spec.tables import Limits
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Number
+    from geneva_cli.numerics.jet import Array, Number
 
 
 class State(NamedTuple):
@@ -45,7 +46,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) 
     given = setting(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
     at = contact(engagement, x, joints=False)
-    torque = at.acceleration.c[0] * given.inertia_Nm + given.resists_Nm
+    torque = array(at.acceleration.c[0]) * given.inertia_Nm + given.resists_Nm
     drives = np.copysign(1.0, torque)
     slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
     bound = np.where(torque == 0.0, 0.0, np.inf)
@@ -59,7 +60,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) 
         if found.edge is not None and found.square is not None:
             square = np.where(held & (found.edge.c[0] > 0.0), found.square.c[0], bound)
             stress = np.sqrt(square)
-    pressure = np.degrees(np.arctan2(abs(at.aside.c[0]), at.lever.c[0])) + 0.0 * x
+    pressure: Array = np.degrees(np.arctan2(np.abs(at.aside.c[0]), at.lever.c[0])) + 0.0 * x
     if isinstance(input_deg, (int, float)):
         one = None if stress is None else float(stress[0])
         return State(float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0]))
@@ -85,7 +86,9 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
     """The greatest of each field of ``State``, at the engagement's own input angles."""
     from geneva_cli.analysis.loads.peaks import maxima
 
-    def rows(at: Contact, drives: Coefficient, slides: Coefficient, _: Coefficient) -> list[Row]:
+    def rows(
+        at: Contact[Jet], drives: Coefficient, slides: Coefficient, _: Coefficient
+    ) -> list[Row[Jet]]:
         found = forces(given, at, drives, slides)
         grip = found.grip if given.friction else None
         slope = at.aside / at.lever
@@ -153,7 +156,9 @@ def _slowness(
     force_max, torque_max, stress_max = limits
     unit = given._replace(inertia_Nm=0.0, resists_Nm=1.0)
 
-    def rows(at: Contact, drives: Coefficient, slides: Coefficient, _: Coefficient) -> list[Row]:
+    def rows(
+        at: Contact[Jet], drives: Coefficient, slides: Coefficient, _: Coefficient
+    ) -> list[Row[Jet]]:
         found = forces(unit, at, drives, slides)
         needed = at.acceleration * given.inertia_Nm
         held: list[tuple[float, Jet]] = []

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Integrand
     from geneva_cli.analysis.loads.instant import Instant
-    from geneva_cli.numerics.jet import Coefficient
+    from geneva_cli.numerics.jet import Array
 
 TORQUE = "input_torque_Nm"
 DRIVEN = "driven_Nm"  # the input's torque while the wheel drives it, else 0
@@ -58,13 +58,13 @@ def means_of(cycle: Cycle) -> Mapping[str, Means]:
     return out | {DRIVEN: Means(*every[-2:])} if back else out
 
 
-def plain_of(i: Instant, name: str) -> Coefficient:
+def plain_of(i: Instant[Array], name: str) -> Array:
     """A quantity at an instant of values, itself where its square is looked for."""
-    value: Coefficient = QUANTITIES[name](i).value
-    return np.sqrt(abs(value)) if name in SQUARED else value
+    value = QUANTITIES[name](i).value
+    return np.sqrt(np.abs(value)) if name in SQUARED else value
 
 
-def _square(values: Coefficient, name: str) -> Coefficient:
+def _square(values: Array, name: str) -> Array:
     return values if name in SQUARED else values * values
 
 

@@ -20,14 +20,15 @@ from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, gain, slidi
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.roots_many import Roots, roots_between, roots_many
 from geneva_cli.numerics.scan import Scan, hopeful, scan
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Mask, Whole
 
 ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
 STEP = 1e-9  # share of a bracket: after so short a Newton step, what is left is rounding
@@ -46,10 +47,10 @@ class Stretch(NamedTuple):
 
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
-Rows: TypeAlias = Callable[[Contact, Coefficient, Coefficient, Coefficient], list[Row]]
+Rows: TypeAlias = Callable[[Contact[Jet], Coefficient, Coefficient, Coefficient], list[Row[Jet]]]
 
 
-Signed: TypeAlias = Callable[[Contact], Coefficient]  # something whose sign is asked for
+Signed: TypeAlias = Callable[[Contact[Jet]], Jet]  # something whose sign is asked for
 
 
 @lru_cache(maxsize=256)
@@ -60,7 +61,7 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     it keeps away from the slopes that are rounding.
     """
 
-    def torque(at: Contact) -> Coefficient:
+    def torque(at: Contact[Jet]) -> Jet:
         return at.acceleration * given.inertia_Nm + given.resists_Nm
 
     def rubs(drives: float) -> Signed:
@@ -161,8 +162,8 @@ def _between(engagement: Engagement, given: Setting, before: Stretch, after: Str
     if b - a > NEAR * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
         def torque(way: float) -> tuple[float, float]:
-            c = engagement.motion(a + way, 3).derivative().derivative().c
-            return c[0] * given.inertia_Nm + given.resists_Nm, c[1] * given.inertia_Nm * DEGREE
+            _, _, epsilon, rise = engagement.motion(a + way, 3).scalars()
+            return epsilon * given.inertia_Nm + given.resists_Nm, rise * given.inertia_Nm * DEGREE
 
         if torque(0.0)[0] * torque(b - a)[0] < 0.0:
             return a + root(torque, 0.0, b - a)
@@ -267,7 +268,7 @@ def maxima(
     out = []
     for i in range(len(found.value)):
 
-        def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row:
+        def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row[Jet]:
             return rows(contact(engagement, x, order), *piece[2:])[i]
 
         lost = np.isnan(found.value[i])
@@ -348,21 +349,21 @@ def _at_mid_motion(
     x = np.zeros(1)
     at = contact(engagement, x)
     torque = at.acceleration * given.inertia_Nm + given.resists_Nm
-    needed = float(torque.c[0][0])
+    needed = float(torque.arrays()[0][0])
     beside = [p for p in pieces if NEAR * engagement.entry_deg in (p.end, -p.start)]
     if is_straight(engagement):
         with np.errstate(all="ignore"):
             return [least for _ in rows(at, 1.0, 1.0, 1.0)]
     # The tangent points away from the axis on the way in and out; at a cusp they are one.
     ways = (1.0,) if retraces(engagement) else (1.0, -1.0)
-    common = given.inertia_Nm * abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
+    common = given.inertia_Nm * abs(scalar(engagement.motion(0.5 * engagement.entry_deg, 2).c[2]))
     loaded = abs(needed) > ZERO * (common + given.resists_Nm)
     limits = [_towards_mid_motion(engagement, piece, rows) for piece in beside]
     out: list[float] = []
     for way in ways:
         here = at._replace(along=at.along * way, aside=at.aside * way, curvature=at.curvature * way)
         drives = math.copysign(1.0, needed)
-        slides = math.copysign(1.0, float(sliding(here, drives, given.radius).c[0][0]))
+        slides = math.copysign(1.0, float(sliding(here, drives, given.radius).arrays()[0][0]))
         with np.errstate(all="ignore"):
             pays = float(np.ravel(gain(given, here, drives, slides).c[0])[0]) * drives
             asked = rows(here, drives, slides, math.copysign(1.0, pays))
@@ -398,7 +399,7 @@ def _brink(
     found: Scan,
     lost: Mask,
     pieces: tuple[Stretch, ...],
-    at: Callable[[Coefficient, Stretch, int], Row],
+    at: Callable[[Coefficient, Stretch, int], Row[Jet]],
 ) -> float:
     """Where a quantity ceases to have a value: at the first place where what it needs is 0."""
     turns = np.flatnonzero((lost[1:] != lost[:-1]) & found.joined)

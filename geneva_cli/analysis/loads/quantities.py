@@ -20,7 +20,7 @@ QUANTITIES: dict[str, Quantity] = {
     "pin_force_N": lambda i: i.pin_force,
     STRESS: lambda i: i.stress,
     "sliding_m_s": lambda i: Row(i.sliding_m_s),
-    "input_torque_Nm": lambda i: i.shaft(i.input_torque_Nm),
+    "input_torque_Nm": lambda i: i.shaft,
     "wheel_bearing_N": lambda i: Row(i.wheel_bearing_N, i.grip),
     "crank_bearing_N": lambda i: Row(i.crank_bearing_squared, i.grip),
     PV: lambda i: i.pressure_speed,

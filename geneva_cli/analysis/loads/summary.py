@@ -15,7 +15,6 @@ from geneva_cli.analysis.loads.means import Means, means_of, plain_of
 from geneva_cli.analysis.loads.quantities import PRESSED, PV, SQUARED, STRESS, ends_of, known
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
-from geneva_cli.numerics.jet import Coefficient
 from geneva_cli.table import Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
@@ -101,7 +100,7 @@ def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     return {name: out.get(name, Summary()) for name in SHOWN}
 
 
-def plain(cycle: Cycle, states: Instant, name: str) -> Coefficient:
+def plain(cycle: Cycle, states: Instant[Array], name: str) -> Array:
     """A quantity of ``known``, or one that is its share, at states of the cycle."""
     source, share, _ = shares(cycle).get(name, (name, 1.0, ""))
     assert share is not None  # of what is known
@@ -166,7 +165,7 @@ def loads_table(
     have a value are the rows of a table.
     """
     spec = cycle.mechanism.spec
-    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     found = summaries(cycle)
     if for_people:
         rows = [(name, *one) for name, one in found.items() if one != Summary()]

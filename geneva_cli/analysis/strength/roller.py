@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.loads.forces import Setting
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Whole
 
 EXPONENT = 10.0 / 3.0  # p, of line contact
 RATED = 1e6  # revolutions that C is rated for
@@ -72,12 +72,12 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
     def rows(x: Array, span: Whole) -> list[Array]:
         at = contact(engagement, x, joints=False)
         found = forces(given, at, drives[span], slides[span])
-        rubs = abs(sliding(at, drives[span], given.radius).c[0]) * given.L
+        rubs = abs(sliding(at, drives[span], given.radius).arrays()[0]) * given.L
         with np.errstate(all="ignore"):
             force = np.where(found.grip.c[0] > 0.0, found.force.c[0], np.inf) * at.touches.c[0]
             # nothing presses on a wall where nothing is to be turned
             force = np.where(found.torque.c[0] == 0.0, 0.0, force)
-            along = abs(at.along.c[0]) * given.L * at.touches.c[0]
+            along = abs(at.along.arrays()[0]) * given.L * at.touches.c[0]
             return [along, rubs, force * rubs, force**EXPONENT * rubs]
 
     radian = math.radians(1.0)  # the integrals are by degrees

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Coefficient, Jet
     from geneva_cli.spec.tables import Shaft
 
-    On = Callable[[Instant, Contact], tuple[Jet, Jet]]
+    On = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
 
 
 class Turned(NamedTuple):
@@ -75,17 +75,17 @@ def least_diameter_mm(moment_Nm: float, allowed_MPa: float) -> float:
     return math.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
 
 
-def on_wheel(i: Instant, at: Contact) -> tuple[Jet, Jet]:
+def on_wheel(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
     """Square of the force on the wheel's shaft, and torque: what slot and wheel pass on."""
     return i.wheel_bearing_N * i.wheel_bearing_N, i.wheel_torque_Nm
 
 
-def on_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
+def on_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
     """Likewise of a crank's shaft that is the input shaft, or turns with it."""
     return i.crank_bearing_squared, i.input_torque_Nm
 
 
-def on_driven_crank(i: Instant, at: Contact) -> tuple[Jet, Jet]:
+def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
     """Likewise of the shaft of a crank with a transmission before it.
 
     It turns at another rate than the input, that of the roller's body; the torque is as much less
@@ -104,7 +104,7 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     given, known = mechanism.spec.shaft, setting(mechanism)
     lever = given.bending_factor * ends.overhang_mm / 1000.0
 
-    def rows(at: Contact, *signs: Coefficient) -> list[Row]:
+    def rows(at: Contact[Jet], *signs: Coefficient) -> list[Row[Jet]]:
         i = instant(known, at, *signs)
         square, torque = loaded(i, at)
         bent, turned = square * (lever * lever), torque * given.torsion_factor

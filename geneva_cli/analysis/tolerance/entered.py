@@ -12,6 +12,7 @@ from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -51,7 +52,7 @@ class Entered(NamedTuple):
         0 for a machine that misses it: what it does at the mouth is another matter.
         """
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        aside = np.atleast_1d(self.line.aside(crank, center))
+        aside = np.atleast_1d(self.line.aside(array(crank), array(center)))
         moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.line.along, aside.shape)
         jump, missed = np.zeros(len(aside)), aside != 0.0
         for branch in self.branches:
@@ -88,9 +89,10 @@ def _branch(engagement: Engagement, way: float) -> Branch:
     span = 0.5 * engagement.motion_deg * DEGREE
     tau = way * span * np.geomspace(FIRST, 1.0, PLACES)
     along, across = anchor.displacement(tau, 1)
-    root = np.sqrt(abs(across.c[0]))
+    off, slope = across.arrays()
+    root = np.sqrt(abs(off))
     first = int(np.argmax(root > NOTHING))
     leaves = np.append(np.diff(root[first:]) > 0.0, False)
     part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
-    side, root = float(np.sign(across.c[0][first])), root[part]
-    return Branch(side, root, abs(across.c[1])[part] / root, anchor.along + along.c[0][part])
+    side, root = float(np.sign(off[first])), root[part]
+    return Branch(side, root, abs(slope)[part] / root, anchor.along + along.arrays()[0][part])

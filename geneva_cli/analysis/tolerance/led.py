@@ -18,7 +18,7 @@ from geneva_cli.analysis.blows import arm_mm
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sqrt
 
 LOOKS = 361  # input angles of a motion that are tried first
@@ -60,7 +60,7 @@ class Led(NamedTuple):
             low, high = self.engagement.entry_deg, self.engagement.exit_deg
             for _ in range(CLOSER):
                 at = np.linspace(low, high, LOOKS)
-                off = (self(each, at, side).c[0] * side).max(axis=0)
+                off = (array(self(each, at, side).c[0]) * side).max(axis=0)
                 i = int(np.argmax(off))
                 best = max(best, (float(off[i]), float(at[i]), side), key=_size)
                 step = (at[1] - at[0]) * LOOKS / 20.0

@@ -15,6 +15,7 @@ import numpy as np
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Number
 from geneva_cli.numerics.budget import ask
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def _of_motion(motion: Motion) -> tuple[Derivatives, Sequence[float]]:
     return derivatives, [(x - motion.entry_deg) / whole for x in motion.breaks_deg]
 
 
-def _by_order(c: Sequence[Array], rate: float, u: Array) -> Array:
+def _by_order(c: Sequence[Number], rate: float, u: Array) -> Array:
     """Derivatives 1, 2, ... from Taylor coefficients, by ``rate`` times the variable."""
     return np.array(
         [np.broadcast_to(v * (math.factorial(k) * rate**k), u.shape) for k, v in enumerate(c) if k]

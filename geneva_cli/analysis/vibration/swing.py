@@ -22,11 +22,7 @@ import numpy as np
 from geneva_cli.analysis.vibration.shape import TERMS, Shape
 
 if TYPE_CHECKING:
-    from typing import Any, TypeAlias
-
-    from geneva_cli.numerics.jet import Array
-
-    Complex: TypeAlias = np.ndarray[Any, np.dtype[np.complex128]]
+    from geneva_cli.numerics.arrays import Array, Complex
 
 BLOCK = 2048  # period ratios at a time, so that they stay in the cache
 ENTRIES = 1 << 20  # of an array over period ratios and panels

@@ -18,7 +18,7 @@ from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, choose, larger
+from geneva_cli.numerics.arrays import all_true, choose, larger, parameter
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.numerics.roots import boundary
 
@@ -70,7 +70,7 @@ class Cam(PinPath):
         body = Turning(-wheel.SIGN)  # the roller slides along the crank, and turns with it
         slot, joints = RadialSlot(path), Slide()
         engagement = Engagement(0.0, path, slot, turned, groove=path, body=body, joints=joints)
-        ratio = path.distances(0.0, 0)[1].c[0]
+        ratio = parameter(path.distances(0.0, 0)[1].c[0])
         return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
 
 
@@ -103,8 +103,7 @@ def _half_way(law: Law) -> float:
     if all_true(even):
         return 0.5
     first, last = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
-    half: float = boundary(lambda u: law(u, 0).c[0] < 0.5, first, last)
-    return half
+    return boundary(lambda u: law(u, 0).c[0] < 0.5, first, last)
 
 
 def _refuse_unreachable(motion: LawMotion, sign: float) -> None:

@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.engagement import Displacement, Engagement
 from geneva_cli.machine.layout import Layout, Link
@@ -50,7 +50,7 @@ class Example(NamedTuple):
     """A machine to start from: what it is, and the keys that it sets, table by table."""
 
     about: str
-    tables: dict[str, dict[str, Any]]
+    tables: dict[str, dict[str, object]]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -89,12 +89,12 @@ class Focal(NamedTuple):
     there, a sum of positive terms.
     """
 
-    e: Coefficient
-    sin_h: Coefficient
-    cos_h: Coefficient
-    sin_p: Coefficient
-    cos_p: Coefficient
-    size: Coefficient
+    e: float
+    sin_h: float
+    cos_h: float
+    sin_p: float
+    cos_p: float
+    size: float
 
     def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the driven gear's angle d since, ``tau`` input radians later."""
@@ -114,7 +114,7 @@ class Focal(NamedTuple):
         return sine_versine_of(rate, y, x, order)
 
 
-def _about(e: Coefficient, crank_deg: float) -> About:
+def _about(e: float, crank_deg: float) -> About:
     m = library(e, crank_deg)
     sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
     a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h

@@ -134,9 +134,9 @@ class PlanetJoints(NamedTuple):
     The mesh is -R0/c farther out than the planet's axis: nearer on a sun, farther in a ring.
     """
 
-    R0: Coefficient  # over L
-    rp: Coefficient
-    c: Coefficient
+    R0: float  # over L
+    rp: float
+    c: float
 
     def __call__(
         self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import reduce
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
@@ -113,25 +113,13 @@ class FourBar(Linkage):
         return CouplerPath(self)
 
 
-class _Links(NamedTuple):
-    """Crank, ground, coupler, rocker and the point's place on the coupler (along it, aside)."""
-
-    a: Any
-    g: Any
-    b: Any
-    c: Any
-    p: Any
-    q: Any
-
-
 class CouplerPath(RodPath):
     """The path of a point of the coupler.
 
     With d the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²),
-    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D).
+    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). Its numbers
+    are crank, ground, coupler, rocker, and the point's place on the coupler: a, g, b, c, p, q.
     """
-
-    Numbers = _Links
 
     def __init__(self, keys: FourBar) -> None:
         lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
@@ -154,7 +142,7 @@ class CouplerPath(RodPath):
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
-    def about(self, sine: Any, cosine: Any) -> Way:
+    def about(self, sine: float, cosine: float) -> Way:
         """The change of each of A, D, 1/D, N, k and e, from the one before it."""
         a, g, b, c, p, q = self.exact
         D0 = g * g + a * a - 2 * g * a * cosine

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
@@ -22,7 +22,7 @@ from geneva_cli.machine.layout import Dimension, Layout, Link
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import larger, library, smaller
+from geneva_cli.numerics.arrays import larger, library, parameter, size, smaller
 from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
@@ -99,13 +99,12 @@ class GearSector(PinPath):
         """The half angle b of the slots that make up the step together with the gears."""
         wanted, D = math.pi / z, radians(self.sector_deg)
 
-        def excess(b: float) -> Any:
+        def excess(b: float) -> float:
             u, _, turn = self._handover(b)
             return b - turn + 0.5 * u * D - wanted
 
         if isinstance(self.gear_ratio, str):  # the step grows with b
-            grown: float = boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
-            return grown
+            return boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
         # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
         # turns the wheel.
         u = self.gear_ratio
@@ -120,8 +119,7 @@ class GearSector(PinPath):
                 ("drive", "sector_deg"),
             ),
         )
-        half: float = boundary(lambda b: excess(b) < 0.0, *ends)
-        return half
+        return boundary(lambda b: excess(b) < 0.0, *ends)
 
     def _handover(self, b: float) -> tuple[float, float, float]:
         """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""
@@ -141,10 +139,10 @@ class SectorMotion(Motion):
     def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
         self.inner, self.u = inner, u
         self.half_sector = 0.5 * sector_deg
-        self.handover_deg: float = library(handover).degrees(handover)
+        self.handover_deg = library(handover).degrees(handover)
         half = inner.exit_deg - self.handover_deg + self.half_sector
-        turn = inner(self.handover_deg, 0).c[0]
-        gears: float = u * radians(self.half_sector)
+        turn = parameter(inner(self.handover_deg, 0).c[0])
+        gears = u * radians(self.half_sector)
         super().__init__(-half, half, inner.half_step - turn + gears)
 
     @property
@@ -154,7 +152,7 @@ class SectorMotion(Motion):
 
     def slot_deg(self, input_deg: Coefficient) -> Coefficient:
         """The crank angle of the roller in its slot; in the gears, the one at handover."""
-        out = larger(abs(input_deg) - self.half_sector, 0.0) + self.handover_deg
+        out = larger(size(input_deg) - self.half_sector, 0.0) + self.handover_deg
         return library(out, input_deg).copysign(out, input_deg)
 
     def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
@@ -203,7 +201,7 @@ class SectorSlot(Slot):
 
     def touches(self, input_deg: Coefficient) -> Coefficient:
         """Not while the gears drive."""
-        slot = abs(input_deg) >= self.motion.half_sector
+        slot = size(input_deg) >= self.motion.half_sector
         return float(slot) if isinstance(slot, bool) else slot.astype(float)
 
 

@@ -16,7 +16,7 @@ from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
-from geneva_cli.numerics.arrays import choose, library
+from geneva_cli.numerics.arrays import choose, choose_record, library
 from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
 from geneva_cli.spec.rules import Z_MAX, Range
 
@@ -81,8 +81,8 @@ class GenevaPair(Transmission):
         reach = self.reach_deg
         inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
         running = _running(middle, _crank_at(self.first_z, inside))
-        ends = choose(crank_deg < 0.0, entry, exit_)
-        pose = choose(abs(crank_deg) == reach, ends, running)
+        ends = choose_record(crank_deg < 0.0, entry, exit_)
+        pose = choose_record(abs(crank_deg) == reach, ends, running)
         return About(pose.crank_deg, FirstWheel(pose))
 
 

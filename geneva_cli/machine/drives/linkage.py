@@ -11,9 +11,7 @@ from functools import reduce
 from typing import (
     TYPE_CHECKING,
     Annotated,
-    Any,
     ClassVar,
-    NamedTuple,
     Self,
     TypeAlias,
     TypeVar,
@@ -34,7 +32,7 @@ from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.machine.wheels_for_paths import fits_many
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import larger, library, smaller
+from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
@@ -42,6 +40,7 @@ from geneva_cli.spec.tables import DISTANCE_MM
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.arrays import Long
     from geneva_cli.numerics.jet import Array
 
 Place = TypeVar("Place", float, "Array")
@@ -88,7 +87,7 @@ class Linkage(PinPath):
                 raise _none_fits(spec.wheel.z)
             engagement, L = engagement_of(path, found, step)
         x, y = engagement.path(0.0, 0)
-        return self.planned(engagement, library(L).hypot(1.0 - x.c[0], y.c[0]), L)
+        return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
 
     def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
         """A point of the linkage's own frame, about the crank's axis, in the machine's."""
@@ -100,8 +99,8 @@ class Linkage(PinPath):
         direction = sin_cos(Jet((at.middle,)))
         pin, roller = at.path.joint(*direction), at.path.place(*direction)
         return (
-            self.placed(plan, "crank pin A", pin[0].c[0], pin[1].c[0]),
-            self.placed(plan, "roller C", roller[0].c[0], roller[1].c[0]),
+            self.placed(plan, "crank pin A", *(parameter(x.c[0]) for x in pin)),
+            self.placed(plan, "roller C", *(parameter(x.c[0]) for x in roller)),
             Dimension("crank turns", "counterclockwise" if at.sense > 0.0 else "clockwise"),
         )
 
@@ -111,7 +110,7 @@ class Linkage(PinPath):
         turn = radians(input_deg) + at.middle
         direction = sin_cos(Jet((turn,)))
         pin, unit, roller = (
-            (x.c[0], y.c[0])
+            (array(x.c[0]), array(y.c[0]))
             for x, y in (f(*direction) for f in (at.path.joint, at.path.link, at.path.place))
         )
         reach = at.path.hold(*direction)[0]
@@ -169,8 +168,8 @@ class Linkage(PinPath):
             values = (
                 (float(fit_i.entry), float(fit_i.exit), fit_i.sense) if fit_i else (math.nan,) * 3
             )
-            for array, value in zip(found[:3], values, strict=True):
-                array[i, 0] = value
+            for column, value in zip(found[:3], values, strict=True):
+                column[i, 0] = value
         refuse(found.entry != found.entry, lambda: _none_fits(step.q))
         return engagement_many(path, found, step)
 
@@ -203,41 +202,39 @@ class RodPath(Path):
     """The path of a point of the link that the crank's pin A carries: a coupler, a connecting rod.
 
     Its numbers are the links' lengths, crank a first, and at the end the point's places along the
-    link, p, and aside, q; they make one record of the class's ``Numbers``.
+    link, p, and aside, q.
     """
-
-    Numbers: ClassVar[type[NamedTuple]]
 
     def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
         many = any(is_array(x) for x in (*lengths, reach_mm, angle_deg))
         numbers = (_long if many else _exactly)(*lengths, reach_mm=reach_mm, angle_deg=angle_deg)
-        self.exact = type(self).Numbers(*numbers)
-        self.rough = type(self).Numbers(*(rounded(x) for x in numbers))
+        self.exact = cast("tuple[float, ...]", numbers)
+        self.rough = tuple(rounded(x) for x in numbers)
 
     def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
         """The crank's pin A."""
-        return cosine * self.rough.a, sine * self.rough.a
+        a, *_ = self.rough
+        return cosine * a, sine * a
 
     def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """Crank, and the link's unit vector turned and stretched to the point."""
-        numbers = self.exact if exact else self.rough
-        a, p, q = numbers.a, numbers.p, numbers.q
+        a, *_, p, q = self.exact if exact else self.rough
         ex, ey = self.link(sine, cosine, exact)
         return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
 
 
-def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> list[Decimal]:
+def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:
     """Lengths to 50 digits, and so a point's places along a line and aside, from its distance and
     angle.
     """
     with localcontext(digits.FIFTY):
         sine, cosine = digits.sin_cos(digits.of_degrees(angle_deg))
         point = Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
-        return [*(Decimal(x) for x in lengths), *point]
+        return (*(Decimal(x) for x in lengths), *point)
 
 
-def _long(*lengths: float, reach_mm: float, angle_deg: float) -> list[Any]:
+def _long(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Long, ...]:
     """The same for arrays of designs, in the longest floating-point numbers that there are."""
     turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
     point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)
-    return [np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point)]
+    return tuple(np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point))

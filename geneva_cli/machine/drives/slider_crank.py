@@ -8,7 +8,7 @@ centre is not given but solved for.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Plan
@@ -89,20 +89,11 @@ class SliderCrank(Linkage):
         return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
 
 
-class _Rod(NamedTuple):
-    """Crank, rod, height and the point's place on the rod (along it, aside), of either kind."""
-
-    a: Any
-    b: Any
-    h: Any
-    p: Any
-    q: Any
-
-
 class SlidingRod(RodPath):
-    """The path of a point of the connecting rod."""
+    """The path of a point of the connecting rod.
 
-    Numbers = _Rod
+    Its numbers are crank, rod, height, and the point's place on the rod: a, b, h, p, q.
+    """
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
         """The rod's unit vector, from A towards B."""
@@ -112,9 +103,10 @@ class SlidingRod(RodPath):
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """The slider's guide pushes across itself."""
-        return self.rough.b, (sine * 0.0, cosine * 0.0 + 1.0)
+        _, b, *_ = self.rough
+        return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
-    def about(self, sine: Any, cosine: Any) -> Way:
+    def about(self, sine: float, cosine: float) -> Way:
         """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
         a, b, h, _, _ = self.exact
         level = (h - sine * a) / b

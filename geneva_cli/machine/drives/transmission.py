@@ -17,6 +17,7 @@ from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, middle
 from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
 
 if TYPE_CHECKING:
@@ -161,7 +162,7 @@ class Transmission(Drive):
         """
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
-        return wheel.matched_ratio(turned / crank)
+        return wheel.matched_ratio(parameter(turned / crank))
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError where the crank cannot turn through the whole motion in one go."""

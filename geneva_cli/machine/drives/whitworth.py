@@ -8,7 +8,7 @@ coulisse's. A = a/r. With the input at phi the coulisse points along the vector
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.transmission import About
@@ -27,7 +27,7 @@ A_MAX = 1.0 - 0.999e-12
 A_SURE = 0.999  # up to it the quicker ways to the peaks miss none
 
 
-def refuse_rounding(A: Coefficient) -> None:
+def refuse_rounding(A: float) -> None:
     """Raise GenevaError so near to 1 that the motion is rounding."""
     refuse(
         abs(A) > A_MAX,
@@ -41,8 +41,8 @@ def refuse_rounding(A: Coefficient) -> None:
 class PeakOf(NamedTuple):
     """The peak acceleration of a plain wheel behind a side-crank, without the general search."""
 
-    A: Coefficient
-    z: Coefficient
+    A: float
+    z: int
     sign: float
 
     def __call__(self, quantity: str) -> Known | None:
@@ -59,7 +59,7 @@ class PeakOf(NamedTuple):
         return Known(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
-def known(A: Coefficient, wheel: Gearing, place: Place) -> PeakOf | None:
+def known(A: float, wheel: Gearing, place: Place) -> PeakOf | None:
     """The peak of a plain wheel's first roller; None for others."""
     closed = wheel.closed_form(place)
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
@@ -76,14 +76,14 @@ class Coulisse(NamedTuple):
     sign of A with which W = x² + y² is a sum of positive terms another way.
     """
 
-    A: Coefficient
-    sin_f: Coefficient
-    cos_f: Coefficient
-    sin_h: Coefficient
-    cos_h: Coefficient
-    length: Coefficient
-    rest: Coefficient
-    grows: Any  # bool, or an array of them
+    A: float
+    sin_f: float
+    cos_f: float
+    sin_h: float
+    cos_h: float
+    length: float
+    rest: float
+    grows: bool  # of many designs an array of them
 
     def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the coulisse's angle d since then, ``tau`` input radians later."""
@@ -103,7 +103,7 @@ class Coulisse(NamedTuple):
         return sine_versine_of(rate, y, x, order)
 
 
-def about(A: Coefficient, crank_deg: float) -> About:
+def about(A: float, crank_deg: float) -> About:
     """About a coulisse angle f in degrees, for an offset A between -1 and 1."""
     m = library(A, crank_deg)
     s, c = sin_cos_deg(crank_deg)

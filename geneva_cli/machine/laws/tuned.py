@@ -19,7 +19,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.arrays import all_true, scalar
 from geneva_cli.numerics.jet import Coefficient, Jet
 from geneva_cli.spec.rules import OneOf, Range
 
@@ -101,4 +101,4 @@ class Tuned(Law):
 def _serves(y: Law) -> bool:
     """Whether the law's derivatives to the third vanish at both ends, and jump nowhere."""
     ends = [c for x in (0.0, 1.0) for c in y(x, SMOOTH).c[1:]]
-    return not y.breaks and all(abs(c) < ROUNDING for c in ends)
+    return not y.breaks and all(abs(scalar(c)) < ROUNDING for c in ends)

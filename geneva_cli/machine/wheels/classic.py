@@ -5,6 +5,8 @@ b = pi p/q is half the index angle (p/q = 1/z for equal steps), l = R/L = sin b 
 
 from __future__ import annotations
 
+from typing import cast
+
 from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import library
@@ -28,8 +30,7 @@ def rollers_max(motion_deg: float) -> int:
 
     A whole number, which of an array is a float.
     """
-    most: int = library(motion_deg).ceil(360.0 / motion_deg) - 1
-    return most
+    return cast(int, library(motion_deg).ceil(360.0 / motion_deg)) - 1
 
 
 def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.layout import Dimension, Layout
@@ -82,7 +82,7 @@ class External(Gearing):
         return self.steps_deg or ()
 
     @property
-    def skewed(self) -> Any:
+    def skewed(self) -> bool:
         """Whether slots are not radial or not alike."""
         return True if self.steps_deg else self.offset_mm != 0.0
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.layout import Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
@@ -72,7 +72,7 @@ class Gearing(Table):
         return ()
 
     @property
-    def skewed(self) -> Any:
+    def skewed(self) -> bool:
         """Whether slots are not radial or not alike, as a drive or a law may need them.
 
         A truth value, or of an array of designs one each.

@@ -34,7 +34,7 @@ class OffsetSlot(Slot):
 class OffsetFollowed(Followed):
     """The motion of a wheel whose offset slot follows the pin."""
 
-    def __init__(self, path: AnchoredPath, half_step: Coefficient, skew: Skew) -> None:
+    def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
         super().__init__(path, half_step)
         self.skew = skew
 

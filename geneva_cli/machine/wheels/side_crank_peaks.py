@@ -375,7 +375,7 @@ def _crossing(last: Any, left: Any, right: Any) -> Any:
 
 
 def _take(w: Wheel, which: Any) -> Wheel:
-    return Wheel(*[tuple(p[which] for p in v) if isinstance(v, tuple) else v[which] for v in w])
+    return Wheel._make((v[0][which], v[1][which]) if isinstance(v, tuple) else v[which] for v in w)
 
 
 def _refined(

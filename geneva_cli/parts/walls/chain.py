@@ -24,8 +24,8 @@ from geneva_cli.parts.walls.joint import Place, joint, point, runs
 from geneva_cli.parts.walls.ways import FINE, Wall, walls
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Mask
 
 EACH = 4  # points for each of a wall's samples
 TURNS = 64  # walls a chain may have before it is lost

@@ -10,6 +10,7 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Contour, Line, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes, corner, mouth, rest
 
@@ -55,14 +56,14 @@ def _axis(plane: Plane, engagement: Engagement) -> tuple[float, float]:
     u, v = engagement.slot(0.0, 0)
     px, py = plane.L * x.c[0], plane.L * y.c[0]
     angle = math.atan2(plane.sign * (y.c[0] - v.c[0]), plane.sign * (x.c[0] - u.c[0]))
-    level = py * math.cos(angle) - px * math.sin(angle)
+    level = scalar(py * math.cos(angle) - px * math.sin(angle))
     return angle, level if abs(level) > 1e-12 * plane.L else 0.0
 
 
 def _deepest(plane: Plane, engagement: Engagement, angle: float) -> float:
     """The farthest place along the slot's axis that the roller's centre comes to."""
     x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, LOOKS), 0)
-    along = plane.L * (x.c[0] * math.cos(angle) + y.c[0] * math.sin(angle))
+    along = array(plane.L * (x.c[0] * math.cos(angle) + y.c[0] * math.sin(angle)))
     return float(along.min() if plane.sign > 0.0 else along.max())
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import Pitch, retraces
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.sizes import Sizes, rest
@@ -185,11 +186,11 @@ def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array
     turn folds back into the roller's own outline. It is cut where it comes out of that.
     """
     order = np.argsort(np.abs(t))
-    folded = (L * at.speed < side * at.turning - ROUNDING * L)[order]
+    folded = L * array(at.speed)[order] < side * array(at.turning)[order] - ROUNDING * L
     if not folded[0]:
         return t
     first = int(np.argmin(folded))
-    centre = L * np.array((at.x[order[0]], at.y[order[0]]))
+    centre = L * np.array((array(at.x)[order[0]], array(at.y)[order[0]]))
 
     def out(x: Array) -> NDArray[np.bool_]:
         found: NDArray[np.bool_] = np.hypot(*(curve(x)[0] - centre).T) > abs(side)
@@ -210,7 +211,7 @@ def _pitch(plane: Plane, engagement: Engagement, t: Array) -> Array:
 def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     """The roller's direction where it comes to a stop in the wheel at mid-motion."""
     at = pitch_at(engagement, np.zeros(1), True)
-    return float(at.tangent_x[0]), float(at.tangent_y[0])
+    return float(array(at.tangent_x)[0]), float(array(at.tangent_y)[0])
 
 
 def _free(points: Array, path: Array, least: float) -> NDArray[np.bool_]:

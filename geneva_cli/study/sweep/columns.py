@@ -111,6 +111,6 @@ def _peaks(machine: Mechanism, sought: Sequence[str]) -> Columns:
 def _entry(machine: Mechanism, order: int) -> Array:
     """The greatest size of a derivative just after an entry."""
     motions = [e.motion for e in machine.engagements]
-    found = [np.ravel(abs(m(m.entry_deg, order).derivatives()[order])) for m in motions]
+    found = [np.ravel(abs(m(m.entry_deg, order).arrays()[order])) for m in motions]
     greatest: Array = np.max(np.broadcast_arrays(*found), axis=0)
     return greatest

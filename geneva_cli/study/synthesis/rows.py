@@ -164,7 +164,7 @@ def _law_costs(machine: Mechanism, law: str) -> tuple[float, ...]:
     return (
         C_v * step * rate,
         C_a * step * rate**2,
-        abs(engagement.motion(engagement.entry_deg).derivatives()[2]),
+        abs(engagement.motion(engagement.entry_deg).scalars()[2]),
         C_j * step * rate**3,
         C_p * step**2 * rate**3,
     )

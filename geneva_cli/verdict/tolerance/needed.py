@@ -81,11 +81,12 @@ def _across(
     for at in (engagement.entry_deg, engagement.exit_deg):
         x, y = engagement.path(at, 1)
         # there the roller runs along the slot, whose normal this is
-        speed = math.hypot(x.c[1], y.c[1])
-        nx, ny = -y.c[1] / speed, x.c[1] / speed
-        of_arm = abs(nx * (x.c[0] - engagement.hub) + ny * y.c[0]) * L * share
+        (px, vx), (py, vy) = x.scalars(), y.scalars()
+        speed = math.hypot(vx, vy)
+        nx, ny = -vy / speed, vx / speed
+        of_arm = abs(nx * (px - engagement.hub) + ny * py) * L * share
         of_distance = abs(nx) * sizes["center_distance_mm"]
-        lever = abs(ny * x.c[0] - nx * y.c[0]) * L
+        lever = abs(ny * px - nx * py) * L
         of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(yields))
         most = max(most, of_arm + of_distance + of_angle)
     return most

@@ -59,7 +59,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     sizes = list(use.values())
     ends = corners(sizes)
     discs = _locks(mechanism, proof, told)
-    held = max(discs, key=lambda one: _most(one(ends).angle.c[0]), default=None)
+    held = max(discs, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
     yields = min((float(np.min(one(ends).angle.c[0])) for one in discs), default=0.0)
     leads = [(one, *one.greatest(ends)) for one in led(mechanism)]
     lead = max(leads, key=lambda found: found[1], default=None)
@@ -70,7 +70,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     drawn = draw(machines, samples, held, at_worst, comes)
     dwell = motion = at_deg = entry = None
     if held:
-        worst = _most(held(ends).angle.c[0]) + use["slot_angle_deg"]
+        worst = _most(held(ends).angle.arrays()[0]) + use["slot_angle_deg"]
         dwell = spread(lambda by: held(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
         told.append(
