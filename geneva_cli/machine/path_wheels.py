@@ -92,7 +92,7 @@ def wheels(path: Path, b: Array) -> Search:
         steep = np.abs(rest.det) >= FLAT * np.abs(rest.by_exit)
         doubtful = joined([doubtful, ends.taken(~steep)])
         # A path that stops has no direction there; boxes about it are of no place at all.
-        doubtful = doubtful.taken(np.isfinite(doubtful.at.phi).all(axis=1))
+        doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
         ends, sense = ends.taken(steep), rest.sense[steep]
         block = np.zeros(len(b), dtype=int)
         for i, samples in enumerate(every):
