@@ -211,11 +211,14 @@ def up(piece):
     return (start[0], -start[1]), (end[0], -end[1]), flipped
 
 
+BESIDE = ("FILL", "NOTES", "ARROWS", "TEXT")  # groups that are no layers
+
+
 def svg_shapes(text):
-    """As ``dxf_shapes``, with y up; the scale bar and texts are left out."""
+    """As ``dxf_shapes``, with y up; notes and fills are left out."""
     shapes = {}
     for group in ElementTree.fromstring(text):
-        if not group.tag.endswith("}g") or group.get("id") in ("SCALE_BAR", "TEXT"):
+        if not group.tag.endswith("}g") or group.get("id") in BESIDE:
             continue
         assert not group.get("transform")
         found = shapes.setdefault(group.get("id"), [])

@@ -13,6 +13,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import (
     DRAWN,
     DXF_VERSIONS,
+    FILLS,
     FORMATS,
     draw,
     draw_sheet,
@@ -77,6 +78,15 @@ def run(
             autocompletion=completion.words(lambda: DXF_VERSIONS),
         ),
     ] = None,
+    fill: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LOOK",
+            help=f"Of .svg, how plates look: {one_of(FILLS)[:-1]}. An assembly has tint, parts to "
+            "cut have none: hairlines alone, which cutters' programs follow.",
+            autocompletion=completion.words(lambda: FILLS),
+        ),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
     given: Given = None,
     output: Output = "-",
@@ -109,7 +119,8 @@ def run(
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
     design = load(spec, given or ())
-    own = {"version": dxf_version} if dxf_version else {}
+    asked = {"version": dxf_version, "fill": fill}
+    own = {key: value for key, value in asked.items() if value is not None}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
         _refuse(units=units, kerf=kerf, own=own)
@@ -122,6 +133,10 @@ def run(
     _judge(design, proof, force)
     if sheet:
         _refuse(units=units, kerf=kerf)
+        if fill is not None:
+            raise GenevaError(
+                "--fill is for single parts and the assembly; a sheet has lines alone"
+            )
         draw_sheet(design.sheet(tolerance, curves, proof, part), output, format, files, **own)
     else:
         drawing = design.drawing(part, tolerance, curves, proof, kerf)
@@ -136,7 +151,7 @@ def _refuse(units: str, kerf: float | None, own: dict[str, str] | None = None) -
     if kerf is not None:
         raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
     if own:
-        raise GenevaError("--dxf-version is for drawings; this one is a table of points")
+        raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")
 
 
 def _judge(design: Design, proof: Proof, force: bool) -> None:

@@ -78,18 +78,34 @@ class Circle(NamedTuple):
 Shape: TypeAlias = Contour | Circle
 
 
+class Span(NamedTuple):
+    """A level distance between two points, and the name that it goes by."""
+
+    start: Point
+    end: Point
+    name: str
+
+
+class Look(NamedTuple):
+    """What a drawing that is to be looked at has besides its shapes: distances, and what turns.
+
+    Turns are arcs, with an arrow at their end.
+    """
+
+    spans: tuple[Span, ...] = ()
+    turns: tuple[Arc, ...] = ()
+
+
 class Drawing(NamedTuple):
     """Shapes and a title.
 
-    ``scale_bar`` asks for one beside them, ``tinted`` names layers whose outlines are to be filled
-    lightly: where the format has such. ``solid`` is what is drawn as the solid that it is, for
-    formats of solids.
+    ``look`` is for drawings to look at, where the format has such, and None for those to cut.
+    ``solid`` is what is drawn as the solid that it is, for formats of solids.
     """
 
     title: str
     shapes: tuple[Shape, ...]
-    scale_bar: bool = False
-    tinted: tuple[str, ...] = ()
+    look: Look | None = None
     solid: Part | None = None
 
     @property

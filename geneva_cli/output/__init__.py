@@ -27,6 +27,8 @@ EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *D
 EXTENSIONS["stp"] = "step"
 # what ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and read by all
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
+# how plates are shown in .svg
+FILLS = ("none", "tint", "hatch")
 # options that one format of drawings and sheets has -> as a user knows it, and the format
 OPTIONS = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
 

@@ -6,6 +6,7 @@ Layers: WHEEL, CRANK, ARM, GROOVE and BORE are cut; ROLLER is a circle; PITCH is
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -18,8 +19,11 @@ from geneva_cli.curves.shapes import (
     Contour,
     Drawing,
     Line,
+    Look,
     Segment,
     Shape,
+    Span,
+    about,
     closed,
     joined,
 )
@@ -28,13 +32,14 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
 from geneva_cli.parts.assembly import Plane
-from geneva_cli.parts.crank import crank_circles
+from geneva_cli.parts.crank import crank_circles, roller_centres
 from geneva_cli.parts.outlines import Outlines, slot_walls
 from geneva_cli.parts.plates import arm_plate, crank_group, wheel_plate
 from geneva_cli.parts.walls.ways import beside
 from geneva_cli.parts.wheel import wheel_circles, wheel_contour
 
 PITCH = "PITCH"
+BEYOND = 0.04  # of the centre distance: between a part and the arrow that says how it turns
 
 
 def wheel(found: Outlines, tolerance: float, curves: str) -> Drawing:
@@ -89,7 +94,24 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
             Member(crank_group(found, carrier), (plane.L, 0.0), angle),
         ),
     )
-    return Drawing(_title(found, ""), tuple(shapes), scale_bar=True, tinted=(ARM,), solid=solid)
+    look = Look((Span((0.0, 0.0), (plane.L, 0.0), "L"),), tuple(_turns(found)))
+    return Drawing(_title(found, ""), tuple(shapes), look, solid)
+
+
+def _turns(found: Outlines) -> Iterator[Arc]:
+    """Which way the wheel turns, and a crank, as arcs outside of them."""
+    plane, sizes = found.plane, found.sizes
+    reach = max(math.hypot(*s.start) for s in found.wheel.segments)
+    beyond = (sizes.outer or reach) + BEYOND * plane.L
+    yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
+    if not plane.given.spec.drive.CRANKED:
+        return
+    step = math.remainder(float(np.diff(plane.crank(np.array([-0.5, 0.5])))[0]), math.tau)
+    sense = math.copysign(1.0, step)
+    # inside, the crank turns within the wheel: the arrow is near its shaft
+    far = max(math.hypot(*c) for c in roller_centres(plane)) + 2.0 * sizes.roller
+    radius = far + BEYOND * plane.L if plane.sign > 0.0 else 0.5 * sizes.arm
+    yield about((plane.L, 0.0), radius, -sense * 0.5, sense)
 
 
 def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:

@@ -43,8 +43,8 @@ def text(drawing, units="mm"):
     return "".join(chunks(drawing, units))
 
 
-def of(*shapes, title="", scale_bar=False):
-    return Drawing(title, shapes, scale_bar)
+def of(*shapes, title="", look=None):
+    return Drawing(title, shapes, look)
 
 
 def bow(turn=1.0, layer="WHEEL"):

@@ -10,11 +10,12 @@ from hypothesis import given, settings
 from test_dxf import MANY, TINY, bow, of, smooth
 
 from geneva_cli.curves.measure import extent
-from geneva_cli.curves.shapes import Circle, Cubic, Line, about, closed
+from geneva_cli.curves.shapes import Circle, Cubic, Line, Look, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
-from geneva_cli.output.svg import MARGIN, STROKE, chunks, round_length
+from geneva_cli.output.svg import MARGIN, STROKE, chunks
+from geneva_cli.output.svg_look import round_length
 
 # mm. The last decimal is 1e-9; a radius that is off by half of that moves an arc's centre by up to
 # 4 times as much (at 150 and 210 degrees), and a chord's ends add to it.
@@ -98,9 +99,8 @@ def test_true_size_and_layers(units, suffix, unit):
 def test_the_scale_bar(size, units):
     suffix, unit = {"mm": ("mm", 1.0), "inch": ("in", 25.4)}[units]
     drawing = of(Circle("WHEEL", (size, 0.0), 0.5 * size), title="A title\x1b of <40>\nletters")
-    svg = root(drawing._replace(scale_bar=True), units)
-    (group,) = (g for g in svg.iter(f"{NAME}g") if g.get("id") == "SCALE_BAR")
-    (path,) = group
+    svg = root(drawing._replace(look=Look()), units)
+    (path,) = (p for p in svg.iter(f"{NAME}path") if p.get("id") == "SCALE_BAR")
     numbers = [float(n) for n in re.findall(r"-?\d+\.\d+", path.get("d"))]
     xs, ys = numbers[::2], numbers[1::2]
     label, title = svg.iter(f"{NAME}text")
@@ -114,13 +114,13 @@ def test_the_scale_bar(size, units):
     assert share - 1e-9 <= 0.2 * math.sqrt(2.5)
     assert title.text == "A title  of <40> letters"
     # outside the shapes, inside the view
-    left, right, bottom, _ = view(drawing._replace(scale_bar=True), units)
+    left, right, bottom, _ = view(drawing._replace(look=Look()), units)
     lowest = -0.5 * size / unit
     assert all(bottom < -y < lowest for y in ys)
     assert all(left < x < right for x in xs)
     for element in (label, title):
         x, y = float(element.get("x")), -float(element.get("y"))
-        height = 3.5 / unit
+        height = 0.02 * size / unit  # 5 mm where the drawing has 250
         assert left < x < x + 0.6 * height * len(element.text) < right
         assert bottom < y < y + 0.75 * height < lowest
 
@@ -138,8 +138,13 @@ def test_round_lengths(length, rounded):
 
 @pytest.mark.parametrize("units", ["mm", "inch"])
 def test_decimals_are_fixed(units):
-    written = text(TINY._replace(scale_bar=True, title=""), units)
-    body = re.sub(r"<text.*?</text>|<\?xml.*\?>|version=\"1.1\"|2000|#\w+", "", written)
+    written = text(TINY._replace(look=Look(), title=""), units)
+    body = re.sub(
+        r"<text.*?</text>|<style>.*?</style>|<\?xml.*?\?>|version=\"1.1\"|/2000/|#\w+",
+        "",
+        written,
+        flags=re.DOTALL,
+    )
     numbers = re.findall(r"(?<![\w.])-?[\d.]+(?:[eE][-+]?\d+)?", body)
     assert len(numbers) > 50
     flags = {"0", "1"}

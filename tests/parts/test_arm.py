@@ -210,7 +210,7 @@ def test_an_arm_that_meets_the_hub_is_told():
 
 
 def test_written_files(tmp_path):
-    """The assembly has the arm on its layer, tinted; the arm's own file is closed contours."""
+    """The assembly has the arm on its layer, to look at; the arm's own file is closed contours."""
     out = tmp_path / "arm.dxf"
     spec = str(ROOT / "three-rollers-z4.toml")
     assert (
@@ -224,4 +224,4 @@ def test_written_files(tmp_path):
     assert sum(1 for p in outline.get_points() if p[4]) == 3  # an arc about each roller
     assert {e.dxftype() for e in entities if e.dxf.layer == "BORE"} == {"CIRCLE"}
     drawn = load(spec).drawing("assembly")
-    assert drawn.tinted == ("ARM",) and "ARM" in drawn.layers
+    assert drawn.look and "ARM" in drawn.layers

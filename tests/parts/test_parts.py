@@ -211,7 +211,7 @@ def test_assembly_of_every_design(name):
     root = ElementTree.fromstring(text)
     box = [float(x) for x in root.get("viewBox").split()]
     assert (root.get("width"), root.get("height")) == tuple(f"{x:.9f}mm" for x in box[2:])
-    assert "SCALE_BAR" in [group.get("id") for group in root]
+    assert "SCALE_BAR" in [element.get("id") for element in root.iter()]
 
     rollers = machine.spec.drive.rollers
     angles = machine.spec.drive.roller_angles_deg

@@ -1,0 +1,79 @@
+"""Plates of an SVG, filled: with a light tint of their layer's colour, or hatched.
+
+The lowest first, so that what lies above is seen; bores are left open.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+from geneva_cli.curves.measure import mapped, turned
+from geneva_cli.curves.plates import Group, Part, Plate
+from geneva_cli.curves.shapes import Contour, Point, Shape, about
+from geneva_cli.output.inks import inks
+from geneva_cli.output.svg_paths import number, path
+
+TINTS = {"ROLLER": 0.55}  # opaqueness; of other layers:
+TINT = 0.16
+HATCH, RULE = 4.0, 0.25  # mm: between hatch lines, and their width
+TURNS = (45, 135, 75, 105, 15, 165)  # degrees: of the hatches of layers, in turn
+
+Move = Callable[[Shape], Shape]
+
+
+def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
+    """All plates; ``unit`` is the file's in mm, ``mm`` a millimetre of lines in that."""
+    every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
+    layers = tuple(dict.fromkeys(plate.layer for plate, _ in every))
+    if fill == "hatch":
+        yield "<defs>\n"
+        for turn, (layer, ink) in zip(TURNS * len(layers), inks(layers).items(), strict=False):
+            step = number(mm * HATCH)
+            yield (
+                f'<pattern id="hatch-{layer}" width="{step}" height="{step}"'
+                f' patternUnits="userSpaceOnUse" patternTransform="rotate({turn})">'
+                f'<path d="M 0,0 L {step},0" stroke="{ink.rgb}"'
+                f' stroke-width="{number(mm * RULE)}"/></pattern>\n'
+            )
+        yield "</defs>\n"
+    yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
+    for plate, move in every:
+        rings = [
+            _contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
+            for s in (plate.outline, *plate.holes)
+        ]
+        if fill == "hatch":
+            how = f'fill="url(#hatch-{plate.layer})"'
+        else:
+            ink = inks(layers)[plate.layer]
+            how = f'fill="{ink.rgb}" fill-opacity="{TINTS.get(plate.layer, TINT)}"'
+        yield f'<path {how} d="{" ".join(map(path, rings))}"/>\n'
+    yield "</g>\n"
+
+
+def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
+    """Each plate with what brings its outline to its place."""
+    if isinstance(part, Plate):
+        yield part, move
+        return
+    assert isinstance(part, Group)
+    for member in part.members:
+
+        def then(shape: Shape, at: Point = member.at, turn: float = member.turn) -> Shape:
+            return move(mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1])))
+
+        yield from _placed(member.part, then)
+
+
+def _divided(unit: float) -> Callable[[Point], Point]:
+    return lambda p: (p[0] / unit, p[1] / unit)
+
+
+def _contour(shape: Shape) -> Contour:
+    if isinstance(shape, Contour):
+        return shape
+    half = math.pi
+    return Contour(
+        shape.layer, tuple(about(shape.centre, shape.radius, a, half) for a in (0.0, half))
+    )

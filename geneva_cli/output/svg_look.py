@@ -1,0 +1,149 @@
+"""What an SVG to look at has besides its shapes: a page that is light or dark, distances, arrows of
+rotation, a scale bar and the title.
+"""
+
+from __future__ import annotations
+
+import math
+from xml.sax.saxutils import escape
+
+from geneva_cli.curves.measure import Box, at, bounds, mapped
+from geneva_cli.curves.pieces import SUFFIX, UNITS
+from geneva_cli.curves.shapes import Arc, Contour, Look, Point, Span
+from geneva_cli.output.inks import inks
+from geneva_cli.output.letters import width
+from geneva_cli.output.strokes import DARK, LIGHT
+from geneva_cli.output.svg_paths import number, path, place, point
+
+# In mm, where the drawing is ``svg.SIZE`` large:
+STROKE = 0.25
+GAP = 3.0
+TEXT = 5.0  # height of letters
+TICK = 1.5  # half a scale bar's end mark
+ARROW = 4.5, 0.9  # an arrow's length, and half its width
+GREY = "#757575"
+BRIGHTER = 0.45  # of the way to white: the inks in the dark
+
+
+def style(layers: tuple[str, ...], frame: Box, margin: float) -> str:
+    """The page behind the drawing, and the colours of both; programs without CSS have the light."""
+    dark = "".join(
+        f"g[id='{layer}'] {{ stroke: {_brighter(ink.rgb)} }}\n"
+        for layer, ink in inks(layers).items()
+    )
+    x, y = number(frame.x0 - margin), number(-frame.y1 - margin)
+    wide, high = frame.x1 - frame.x0 + 2.0 * margin, frame.y1 - frame.y0 + 2.0 * margin
+    return (
+        "<style>\n@media screen and (prefers-color-scheme: dark) {\n"
+        f".page {{ fill: {DARK.page} }}\n"
+        f"#NOTES {{ stroke: {DARK.axis} }}\n"
+        f"#TEXT, #ARROWS {{ fill: {DARK.text} }}\n{dark}"
+        "}\n</style>\n"
+        f'<rect class="page" fill="{LIGHT.page}" x="{x}" y="{y}" width="{number(wide)}"'
+        f' height="{number(high)}"/>\n'
+    )
+
+
+def notes(look: Look, box: Box, title: str, mm: float, units: str) -> tuple[list[str], Box]:
+    """Lines, arrows and texts beside the shapes, and the box around all.
+
+    Distances stand below the shapes, below them the scale bar and then the title.
+    """
+    lines: list[str] = []
+    heads: list[str] = []
+    texts: list[tuple[Point, str]] = []
+    unit, text, gap = UNITS[units], mm * TEXT, mm * GAP
+    left, right, low, high = box.x0, box.x1, box.y0, box.y1
+    for turn in look.turns:
+        arc = mapped(Contour("", (turn,), closed=False), lambda p: (p[0] / unit, p[1] / unit))
+        lines.append(path(arc))
+        piece = arc.segments[0]
+        assert isinstance(piece, Arc)
+        back = 0.5 * mm * ARROW[0] / piece.radius  # of the arc under the arrow's head
+        x, y = piece.centre
+        end = math.atan2(piece.end[1] - y, piece.end[0] - x)
+        way = math.copysign(1.0, piece.bulge)
+        heads.append(_head(at(piece, 1.0), end + way * (0.5 * math.pi - back), mm))
+        around = bounds(arc)
+        left, right = min(left, around.x0), max(right, around.x1)
+        low, high = min(low, around.y0), max(high, around.y1)
+    for span in look.spans:
+        low -= gap + 1.4 * text
+        lines += _span(span, unit, low, gap)
+        (a, b), shown = _ends(span, unit), _shown(span, units)
+        heads += [_head((a, low), math.pi, mm), _head((b, low), 0.0, mm)]
+        start = 0.5 * (a + b - width(shown) * text)
+        texts.append(((start, low + 0.35 * text), shown))
+        left, right = min(left, start), max(right, start + width(shown) * text)
+    tick = mm * TICK
+    bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
+    y = low - gap - max(tick, 0.5 * text)
+    marks = (left, left + bar)
+    lines.append(f"M {point((left, y))} L {point((left + bar, y))}")
+    scale = [f"M {point((x, y - tick))} L {point((x, y + tick))}" for x in marks]
+    label = f"{bar:g} {SUFFIX[units]}"
+    texts.append(((left + bar + gap, y - 0.35 * text), label))
+    right = max(right, left + bar + gap + width(label) * text)
+    low = y - max(tick, 0.5 * text)
+    if title:
+        texts.append(((left, low - 1.2 * text), title))
+        right = max(right, left + width(title) * text)
+        low -= 1.5 * text
+    thin = number(mm * STROKE)
+    ruler = " ".join([*scale, lines.pop()])
+    return [
+        f'<g id="NOTES" stroke="{GREY}" stroke-width="{thin}">\n',
+        *(f'<path d="{d}"/>\n' for d in lines),
+        f'<path id="SCALE_BAR" d="{ruler}"/>\n</g>\n',
+        f'<g id="ARROWS" fill="{GREY}">\n',
+        *heads,
+        f'</g>\n<g id="TEXT" fill="{LIGHT.text}" font-family="sans-serif"'
+        f' font-size="{number(text)}">\n',
+        *(f"<text {place(p)}>{escape(t)}</text>\n" for p, t in texts),
+        "</g>\n",
+    ], Box(left, low, right, high)
+
+
+def _ends(span: Span, unit: float) -> tuple[float, float]:
+    a, b = sorted((span.start[0] / unit, span.end[0] / unit))
+    return a, b
+
+
+def _shown(span: Span, units: str) -> str:
+    """The name and the length, to four decimals in an inch and three in a millimetre."""
+    a, b = _ends(span, UNITS[units])
+    value = f"{b - a:.{4 if units == 'inch' else 3}f}".rstrip("0").rstrip(".")
+    return f"{span.name} = {value} {SUFFIX[units]}"
+
+
+def _span(span: Span, unit: float, low: float, gap: float) -> list[str]:
+    """The line of a distance, and from its ends down to it."""
+    (a, b) = _ends(span, unit)
+    found = [f"M {point((a, low))} L {point((b, low))}"]
+    for x, y in (span.start, span.end):
+        here = x / unit
+        found.append(f"M {point((here, y / unit))} L {point((here, low - 0.4 * gap))}")
+    return found
+
+
+def _head(tip: Point, way: float, mm: float) -> str:
+    """An arrow's head."""
+    long, half = mm * ARROW[0], mm * ARROW[1]
+    c, s = math.cos(way), math.sin(way)
+    left, right = (
+        (tip[0] - long * c - side * half * s, tip[1] - long * s + side * half * c)
+        for side in (1.0, -1.0)
+    )
+    return f'<path d="M {point(tip)} L {point(left)} L {point(right)} Z"/>\n'
+
+
+def _brighter(rgb: str) -> str:
+    parts = (int(rgb[i : i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{round(p + BRIGHTER * (255 - p)):02x}" for p in parts)
+
+
+def round_length(length: float) -> float:
+    """1, 2 or 5 times a power of ten: the one that is nearest by ratio."""
+    power = 10.0 ** math.floor(math.log10(length))
+    rounds = [float(f"{n * power:.0e}") for n in (1, 2, 5, 10)]
+    return min(rounds, key=lambda r: abs(math.log(r / length)))

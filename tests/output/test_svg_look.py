@@ -1,0 +1,145 @@
+"""SVG to look at: lines that suit its size, plates filled, notes; and parts to cut without."""
+
+import math
+import re
+from xml.etree import ElementTree
+
+import pytest
+from drawing_witness import apart, drawn_shapes, svg_path, svg_shapes
+from shapely.geometry import Polygon
+from test_svg import luminance
+from typer.testing import CliRunner
+from words import Drive, Spec, Wheel
+
+from geneva_cli.app import app
+from geneva_cli.curves.plates import plates
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.output import FILLS, draw
+from geneva_cli.output.inks import INKS
+from geneva_cli.output.strokes import DARK
+from geneva_cli.output.svg import chunks
+from geneva_cli.output.svg_look import _brighter
+from geneva_cli.spec.tables import Size
+
+NAME = "{http://www.w3.org/2000/svg}"
+
+
+def design(L=100.0, wheel=None, rollers=1, **size):
+    return Design.of(Spec(wheel or Wheel(6), Drive(rollers=rollers), size=Size(L, **size)))
+
+
+@pytest.fixture(scope="module")
+def assembly():
+    return design().drawing("assembly", 0.01)
+
+
+def root(drawing, units="mm", **own):
+    return ElementTree.fromstring("".join(chunks(drawing, units, **own)))
+
+
+def groups(svg):
+    return {g.get("id"): g for g in svg.findall(f"{NAME}g")}
+
+
+@pytest.mark.parametrize("L", [30.0, 900.0])
+def test_lines_and_texts_grow_with_the_machine(L):
+    """As shares of the picture they are always the same; a hairline is a 1500th of its width."""
+    svg = root(design(L).drawing("assembly", 1e-4 * L))
+    width = float(svg.get("viewBox").split()[2])
+    wheel, text = groups(svg)["WHEEL"], groups(svg)["TEXT"]
+    assert 1.0 / 900.0 < float(wheel.get("stroke-width")) / width < 1.0 / 600.0
+    assert 0.015 < float(text.get("font-size")) / width < 0.025
+
+
+@pytest.mark.parametrize("part", ["wheel", "crank", "arm"])
+def test_parts_to_cut_are_lines_alone(part):
+    svg = root(design().drawing(part, 0.01))
+    assert set(groups(svg)) <= {"WHEEL", "CRANK", "ARM", "ROLLER", "BORE"}
+    assert {g.get("stroke-width") for g in groups(svg).values()} == {"0.250000000"}
+    assert not [e for e in svg.iter() if e is not svg and e.get("fill")]
+    assert not list(svg.iter(f"{NAME}style"))
+
+
+@pytest.mark.parametrize(
+    ("units", "unit", "shown"), [("mm", 1, "100 mm"), ("inch", 25.4, "3.937 in")]
+)
+def test_the_centre_distance_is_written_and_drawn(assembly, units, unit, shown):
+    svg = root(assembly, units)
+    assert f"L = {shown}" in [t.text for t in svg.iter(f"{NAME}text")]
+    lines = [svg_path(p.get("d")) for p in groups(svg)["NOTES"] if not p.get("id")]
+    level = [(a, b) for ((a, b, _),) in (one for one in lines if len(one) == 1)]
+    assert any(
+        abs(a[1] - b[1]) < 1e-9 and abs(a[0]) < 1e-8 and abs(b[0] - 100.0 / unit) < 1e-8
+        for a, b in level
+    )
+
+
+@pytest.mark.parametrize(
+    ("wheel", "sense"), [(Wheel(6), -1.0), (Wheel(4, "internal"), 1.0)], ids=["out", "in"]
+)
+def test_arrows_turn_as_the_machine_does(wheel, sense):
+    """The wheel turns counterclockwise; outside the crank turns against it, inside with it."""
+    own, crank = design(wheel=wheel).drawing("assembly", 0.01).look.turns
+    assert own.bulge > 0.0
+    assert math.copysign(1.0, crank.bulge) == sense
+    assert crank.centre == pytest.approx((100.0, 0.0), abs=1e-9)
+
+
+def polygon(pieces):
+    return Polygon([point(i / 96) for _, _, point in pieces for i in range(96)])
+
+
+def test_a_fill_is_what_the_plates_are(assembly):
+    """Areas of outlines less their holes, by shapely, of what the file fills."""
+    svg = root(assembly)
+    paths = list(groups(svg)["FILL"])
+    assert groups(svg)["FILL"].get("fill-rule") == "evenodd"
+    solid = sorted(plates(assembly.solid), key=lambda p: (p.high, p.low))
+    assert len(paths) == len(solid)
+    for path, plate in zip(paths, solid, strict=True):
+        assert path.get("fill") == INKS[plate.layer].rgb
+        rings = re.findall(r"M [^M]*", path.get("d"))
+        outer, *holes = (polygon(svg_path(ring.strip())) for ring in rings)
+        area = outer.area - sum(hole.area for hole in holes)
+        assert area == pytest.approx(plate.moments.area, rel=1e-3)  # of 96 chords a piece
+    # the layers themselves are what they are without it
+    assert apart(svg_shapes("".join(chunks(assembly, "mm"))), drawn_shapes(assembly)) < 1e-8
+
+
+def test_fills(assembly):
+    assert "FILL" not in groups(root(assembly, fill="none"))
+    hatched = root(assembly, fill="hatch")
+    patterns = {p.get("id"): p for p in hatched.iter(f"{NAME}pattern")}
+    turns = [p.get("patternTransform") for p in patterns.values()]
+    assert len(set(turns)) == len(turns) > 2
+    used = {re.match(r"url\(#(.*)\)", p.get("fill"))[1] for p in groups(hatched)["FILL"]}
+    assert used == set(patterns)
+    wheel = design().drawing("wheel", 0.01)
+    assert len(list(groups(root(wheel, fill="tint"))["FILL"])) == 1
+    with pytest.raises(GenevaError, match="--fill blue: it must be one of none, tint, hatch"):
+        root(assembly, fill="blue")
+    with pytest.raises(GenevaError, match="--fill: nothing here is a plate"):
+        root(design().drawing("slot", 0.01), fill="tint")
+    with pytest.raises(GenevaError, match=r"--fill is for .svg, and this is dxf; leave it out"):
+        draw(wheel, "-", "dxf", fill="tint")
+    assert FILLS == ("none", "tint", "hatch")
+
+
+def test_inks_in_the_dark():
+    """A contrast above 4.5 to the dark page, as WCAG 2 asks of small text."""
+    page = luminance(DARK.page) + 0.05
+    for ink in INKS.values():
+        assert (luminance(_brighter(ink.rgb)) + 0.05) / page > 4.5
+
+
+def test_the_command(tmp_path):
+    spec = tmp_path / "spec.toml"
+    spec.write_text("[wheel]\nz = 6\n", encoding="utf-8")
+    for more, said in (
+        (["--part", "sheet", "--fill", "tint", "-o", "a.pdf"], "a sheet has lines alone"),
+        (["--fill", "tint"], "this is a table of points"),
+    ):
+        result = CliRunner().invoke(app, ["profile", str(spec), *more])
+        assert result.exit_code != 0
+        assert said in result.output
