@@ -4,6 +4,7 @@ rooms touch files or know Typer; and nobody asks which machine it is.
 
 import ast
 import os
+import re
 import textwrap
 from graphlib import CycleError, TopologicalSorter
 
@@ -169,6 +170,36 @@ def asks(text):
             yield ast.unparse(node)
 
 
+CORE = {"numerics", "machine", "curves", "analysis", "parts"}
+# Where `Any` stands in the core's annotations, for what is no number of a formula: the cells of a
+# table, a key's value of any type, a class that is found by its name.
+ANY = {
+    "analysis.loads.summary": {"rows", "_rows", "_cells"},
+    "analysis.vibration.answers": {"values"},
+    "machine.registry": {"_found"},
+    "machine.spec": {"but", "table"},
+    "parts.catalogue": {"_made"},
+    "parts.sheet.sheet": {"_views", "_composed", "_items"},
+}
+
+
+def untyped(text):
+    """The names of functions, fields and aliases of a source that are annotated with ``Any``."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            given = node.args
+            every = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+            name, said = node.name, [one.annotation for one in every if one] + [node.returns]
+        elif isinstance(node, ast.AnnAssign):
+            name, said = ast.unparse(node.target), [node.annotation, node.value]
+        else:
+            continue
+        # an alias may be a text
+        words = " ".join(ast.unparse(one) for one in said if one)
+        if re.search(r"\bAny\b", words):
+            yield name
+
+
 CLASSES = {
     path.partition(":")[2]
     for kinds in (registry.DRIVES, registry.GEARINGS, registry.LAWS)
@@ -254,6 +285,29 @@ def test_nobody_asks_which_machine_it_is(module):
 def test_an_import_upwards_would_be_noticed(line):
     assert climbs("machine.mechanism", line)
     assert not climbs("machine.mechanism", "if TYPE_CHECKING:\n" + textwrap.indent(line, "    "))
+
+
+@pytest.mark.parametrize(
+    "module",
+    [m for m in MODULES if room(m) in {"numerics", "machine", "curves", "analysis", "parts"}],
+)
+def test_no_number_of_the_core_is_any(module):
+    """What goes through a formula is a float, an array, or one of both, to the type checker too."""
+    assert set(untyped(source(module))) == ANY.get(module, set())
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "def f(x: float, y: Any) -> float: ...",
+        "def f(*x: float) -> list[Any]: ...",
+        "Number: TypeAlias = Any",
+        'Row: TypeAlias = "list[Any]"',
+        "class Links(NamedTuple):\n    a: Any",
+    ],
+)
+def test_an_any_would_be_noticed(line):
+    assert list(untyped(line))
 
 
 def test_a_stream_would_be_noticed():

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -146,7 +146,7 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
     """The same object with every array (n, 1) in it changed; what holds none is itself."""
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
-    kind: Any = type(thing)
+    kind: type = type(thing)
     if not _may_hold(kind):
         return thing
     if id(thing) not in done:
@@ -155,7 +155,7 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
 
 
 def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
-    kind: Any = type(thing)
+    kind: type = type(thing)
     if isinstance(thing, (tuple, list)):
         parts = [_changed(part, change, done) for part in thing]
         if all(a is b for a, b in zip(parts, thing, strict=True)):
@@ -165,13 +165,13 @@ def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
     values = {name: _changed(value, change, done) for name, value in held.items()}
     if all(values[name] is value for name, value in held.items()):
         return thing
-    new = kind.__new__(kind)
+    new = object.__new__(kind)
     vars(new).update(values)
     return new
 
 
 @cache
-def _may_hold(kind: Any) -> bool:
+def _may_hold(kind: type) -> bool:
     """Whether it is a kind of object of the machine or of its spec, whose numbers may be arrays."""
     if issubclass(kind, Points):
         return False

@@ -124,7 +124,7 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     steps = [2.0 * math.degrees(e.half_step) for e in mechanism.engagements]
     turned = np.max([share * step for share, step in zip(each, steps, strict=True)], axis=0)
     worst = worst_residuals(mechanism, ratio, load.damping)
-    settled: Any = [None] * samples
+    settled: object = [None] * samples
     if load.damping:
         settled = np.max(steady(mechanism, ratio, load.damping), axis=0)
     return Table(SPECTRUM, [speed, ratio, np.max(each, axis=0), turned, worst, settled])

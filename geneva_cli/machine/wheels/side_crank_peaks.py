@@ -27,16 +27,17 @@ triangle of base, crank and coulisse put in for phi.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.wheels.classic import half_motion_deg
 from geneva_cli.numerics.angles import DEGREE, one_minus_sin_pi, sin_cos_pi
+from geneva_cli.numerics.arrays import PLAIN, choose, library
 from geneva_cli.spec.rules import Z_MAX
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Library, Mask, Number, Truth, Which, Whole
 
 SCAN = 10  # intervals of the scan; 8 miss none of a million designs, 6 miss twelve
 SCAN_ONE = 16  # of one design
@@ -46,38 +47,41 @@ SOON, STEPS = 3, 60  # steps of Newton: in a block, and at most
 EXACT_Z = 64  # from here on, rounding pi/z costs less than half a unit in the last place
 
 
-class Wheel(NamedTuple):
+K = TypeVar("K", float, "Array")
+
+
+class Wheel(NamedTuple, Generic[K]):
     """One design, or arrays of many: what the formulas need of it."""
 
-    sign: Any  # +1 external, -1 internal
-    l: Any  # sin(pi/z)
-    rest: Any  # 1 - l
-    tan: Any  # tan(pi/z)
-    half: Any  # crank angle of half the motion, radians
-    A: Any
-    end: Any  # sine and cosine of ``half``, exactly: cos b and +-l
-    big: Any  # 1 + 4 l + l²
-    rest2: Any  # (1-l)²
-    minus: Any  # 1 - A²
+    sign: K  # +1 external, -1 internal
+    l: K  # sin(pi/z)
+    rest: K  # 1 - l
+    tan: K  # tan(pi/z)
+    half: K  # crank angle of half the motion, radians
+    A: K
+    end: tuple[K, K]  # sine and cosine of ``half``, exactly: cos b and +-l
+    big: K  # 1 + 4 l + l²
+    rest2: K  # (1-l)²
+    minus: K  # 1 - A²
 
 
-def _wheel(sign: Any, l: Any, rest: Any, cos_b: Any, half: Any, A: Any) -> Wheel:
+def _wheel(sign: K, l: K, rest: K, cos_b: K, half: K, A: K) -> Wheel[K]:
     big = 1.0 + l * (4.0 + l)
     minus = (1.0 - A) * (1.0 + A)
     return Wheel(sign, l, rest, l / cos_b, half, A, (cos_b, sign * l), big, rest * rest, minus)
 
 
-def _front(m: Any, w: Wheel, s: Any, c: Any) -> tuple[Any, Any]:
+def _front(m: Library, w: Wheel[K], s: K, c: K) -> tuple[K, K]:
     """C and rho where the crank's sine and cosine are s and c."""
     C = m.sqrt(c * c + w.minus * (s * s))
     Ac = w.A * c
-    if m is math:
-        return C, (w.minus / (C - Ac) if Ac < 0.0 else C + Ac)
     long = C + abs(Ac)
-    return C, m.where(Ac < 0.0, w.minus / long, long)
+    if isinstance(Ac, float):
+        return C, w.minus / long if Ac < 0.0 else long
+    return C, choose(Ac < 0.0, w.minus / long, long)
 
 
-def _value(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
+def _value(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """The size of the acceleration at the crank angle f, and the input angle there."""
     sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
     s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
@@ -91,21 +95,21 @@ def _value(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
     return w.l * s * abs(wheel - front), _input(m, w, s, c, C, rho)
 
 
-def _versine(m: Any, w: Wheel, sine: Any, cosine: Any) -> Any:
+def _versine(m: Library, w: Wheel[K], sine: K, cosine: K) -> K:
     """1 - cos f outside, 1 + cos f inside, from the half angle."""
-    if m is math:
-        half: Any = sine if w.sign > 0.0 else cosine
-        return 2.0 * half * half
-    half = m.where(w.sign > 0.0, sine, cosine)
+    if isinstance(sine, float):
+        half = sine if w.sign > 0.0 else cosine
+    else:
+        half = choose(w.sign > 0.0, sine, cosine)
     return 2.0 * half * half
 
 
-def _input(m: Any, w: Wheel, s: Any, c: Any, C: Any, rho: Any) -> Any:
+def _input(m: Library, w: Wheel[K], s: K, c: K, C: K, rho: K) -> K:
     """The input angle, radians: the end of the coulisse as seen from the input crank's axis."""
     return m.atan2(rho * s, C * c - w.A * (s * s))
 
 
-def _end(m: Any, w: Wheel) -> tuple[Any, Any]:
+def _end(m: Library, w: Wheel[K]) -> tuple[K, K]:
     """The acceleration's jump at entry and exit, tan(b) f1², and the input angle there."""
     s, c = w.end
     C, rho = _front(m, w, s, c)
@@ -113,7 +117,7 @@ def _end(m: Any, w: Wheel) -> tuple[Any, Any]:
     return w.tan * f1 * f1, _input(m, w, s, c, C, rho)
 
 
-def _slope(m: Any, w: Wheel, c: Any) -> Any:
+def _slope(m: Library, w: Wheel[K], c: K) -> K:
     """The acceleration's slope over f, divided by f1² and by l (1-l²): only its sign counts.
 
     It is taken times (C D)³, which is positive; (1-A²) / rho is C - A cos f.
@@ -130,7 +134,7 @@ def _slope(m: Any, w: Wheel, c: Any) -> Any:
     return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
 
 
-def _slopes(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
+def _slopes(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """First and second derivative of the acceleration over f, both over f1² l (1-l²) / D³."""
     sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
     s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
@@ -152,7 +156,7 @@ def _slopes(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
     return g3 + 3.0 * g2 * f2 + g1 * f2_f, g4 + 5.0 * g3 * f2 + 4.0 * g2 * f2_f + g1 * f2_ff
 
 
-def _rest(m: Any, w: Wheel, c: Any) -> Any:
+def _rest(m: Library, w: Wheel[K], c: K) -> K:
     """h / rho, by its sign the acceleration without what vanishes with sin f."""
     Ac = w.A * c
     C2 = w.minus + Ac * Ac
@@ -162,7 +166,7 @@ def _rest(m: Any, w: Wheel, c: Any) -> Any:
     return w.rest * (1.0 + w.l) * C2 - w.sign * (w.rest - v) * D * w.A * (m.sqrt(C2) - Ac)
 
 
-def _rests(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
+def _rests(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """h and its slope over f."""
     sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
     s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
@@ -174,7 +178,7 @@ def _rests(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
     return own * C * C * rho - w.sign * (w.rest - v) * D * front, s * slope
 
 
-def _velocity(m: Any, w: Wheel, f: Any) -> tuple[Any, Any]:
+def _velocity(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """The velocity at the crank angle f, and the input angle there."""
     sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
     s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
@@ -193,21 +197,21 @@ def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     l, cos_b = sin_cos_pi(1, z)
     half = half_motion_deg(sign, 1, z) * DEGREE
     w = _wheel(sign, l, one_minus_sin_pi(1, z), cos_b, half, A)
-    best = _end(math, w)
+    best = _end(PLAIN, w)
     step = half / SCAN_ONE
     before = 0.0
     for i in range(SCAN_ONE + 1):
-        here = _slope(math, w, math.cos(i * step) if i < SCAN_ONE else w.end[1])
+        here = _slope(PLAIN, w, math.cos(i * step) if i < SCAN_ONE else w.end[1])
         if before * here < 0.0:
-            best = max(best, _value(math, w, _root(w, (i - 1) * step, i * step, before)))
+            best = max(best, _value(PLAIN, w, _root(w, (i - 1) * step, i * step, before)))
         before = here
     return best[0], -best[1] / DEGREE
 
 
-def _root(w: Wheel, a: float, b: float, before: float) -> float:
+def _root(w: Wheel[float], a: float, b: float, before: float) -> float:
     x = 0.5 * (a + b)
     for _ in range(STEPS):
-        slope, bend = _slopes(math, w, x)
+        slope, bend = _slopes(PLAIN, w, x)
         if (slope > 0.0) == (before > 0.0):
             a = x
         else:
@@ -221,7 +225,9 @@ def _root(w: Wheel, a: float, b: float, before: float) -> float:
     return x
 
 
-def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
+def acceleration_peaks(
+    z: Number | Whole, internal: Truth | Sequence[bool], A: Number
+) -> tuple[Array, Array]:
     """Peak |acceleration| of many designs, and where.
 
     ``z`` (whole numbers from 3), ``internal`` (booleans) and ``A`` (above -1, below 1) are scalars
@@ -232,16 +238,17 @@ def acceleration_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     The peak's relative error is at most 4e-15, its angle's as a double allows. Raises GenevaError
     where a value is out of its range.
     """
-    import numpy as np
 
     w, shape = _designs(z, internal, A)
-    size, at = _end(np, w)
+    size, at = _end(library(w.l), w)
     _compete(w, size, at, ACCELERATION)
     at /= -DEGREE
     return size.reshape(shape), at.reshape(shape)
 
 
-def velocity_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
+def velocity_peaks(
+    z: Number | Whole, internal: Truth | Sequence[bool], A: Number
+) -> tuple[Array, Array]:
     """Peak velocity of many designs (invariant) and its signed input angle, degrees.
 
     Everything as of ``acceleration_peaks``.
@@ -262,16 +269,20 @@ def velocity_peaks(z: Any, internal: Any, A: Any) -> tuple[Array, Array]:
     return size.reshape(shape), (at + 0.0).reshape(shape)
 
 
-def _designs(z: Any, internal: Any, A: Any) -> tuple[Wheel, tuple[int, ...]]:
+def _designs(
+    z: Number | Whole, internal: Truth | Sequence[bool], A: Number
+) -> tuple[Wheel[Array], tuple[int, ...]]:
     import numpy as np
 
-    z, internal, A = np.broadcast_arrays(np.atleast_1d(z), internal, np.asarray(A, dtype=float))
-    _refuse(
-        bool(((z >= 3) & (z <= Z_MAX) & (z == np.floor(z))).all()),
-        internal.dtype == bool,
-        bool((np.abs(A) < 1.0).all()),
+    slots, inside, offset = np.broadcast_arrays(
+        np.atleast_1d(z), np.asarray(internal), np.asarray(A, dtype=float)
     )
-    return _wheels(z.ravel(), internal.ravel(), A.ravel()), z.shape
+    _refuse(
+        bool(((slots >= 3) & (slots <= Z_MAX) & (slots == np.floor(slots))).all()),
+        inside.dtype == bool,
+        bool((np.abs(offset) < 1.0).all()),
+    )
+    return _wheels(slots.ravel(), inside.ravel(), offset.ravel()), slots.shape
 
 
 def _refuse(z: bool, gearing: bool, A: bool) -> None:
@@ -283,7 +294,7 @@ def _refuse(z: bool, gearing: bool, A: bool) -> None:
         raise GenevaError("A must be above -1 and below 1")
 
 
-def _wheels(z: Any, internal: Any, A: Any) -> Wheel:
+def _wheels(z: Array, internal: Mask, A: Array) -> Wheel[Array]:
     import numpy as np
 
     b = np.pi / z
@@ -297,12 +308,16 @@ def _wheels(z: Any, internal: Any, A: Any) -> Wheel:
     return _wheel(sign, l, rest, cos_b, 0.5 * np.pi - sign * b, A)
 
 
+# of the crank angle f
+OfAngle: TypeAlias = "Callable[[Library, Wheel[Array], Array], tuple[Array, Array]]"
+
+
 class Search(NamedTuple):
     """A quantity: what is zero where it may be greatest, that with its slope, and its size."""
 
-    zero: Callable[..., Any]  # module, wheel, cos f
-    slopes: Callable[..., tuple[Any, Any]]  # module, wheel, f
-    value: Callable[..., tuple[Any, Any]]  # module, wheel, f: size and input angle
+    zero: Callable[[Library, Wheel[Array], Array], Array]  # of cos f
+    slopes: OfAngle
+    value: OfAngle  # size and input angle
     close: float = CLOSE  # h may be all but flat where it is zero
     only_rising: bool = False  # where it falls through zero, the quantity is least
 
@@ -314,14 +329,14 @@ VELOCITY = Search(_rest, _rests, _velocity, 1e-11, True)
 class Brackets(NamedTuple):
     """Where a search's function changes sign: designs, the places beside it, a guess between."""
 
-    which: Any
-    low: Any
-    guess: Any
-    high: Any
-    falling: Any
+    which: Whole
+    low: Array
+    guess: Array
+    high: Array
+    falling: Mask
 
 
-def _compete(w: Wheel, size: Any, at: Any, search: Search) -> None:
+def _compete(w: Wheel[Array], size: Array, at: Array, search: Search) -> None:
     """Puts greater sizes, with their places, where ``size`` and ``at`` have less.
 
     Designs go through in blocks; the few that Newton is not soon done with wait for each other.
@@ -340,7 +355,7 @@ def _compete(w: Wheel, size: Any, at: Any, search: Search) -> None:
         _refined(w, (size, at), search, joined, STEPS)
 
 
-def _scanned(w: Wheel, search: Search) -> Brackets:
+def _scanned(w: Wheel[Array], search: Search) -> Brackets:
     """The changes of sign between the places of a scan."""
     import numpy as np
 
@@ -350,7 +365,7 @@ def _scanned(w: Wheel, search: Search) -> Brackets:
     last = before = np.zeros(len(step))
     brackets = []
     for i in range(SCAN + 1):
-        here = search.zero(np, w, c if i < SCAN else w.end[1])
+        here = search.zero(library(w.l), w, c if i < SCAN else w.end[1])
         turned = before * here < 0.0
         which = np.flatnonzero(turned & (here > 0.0) if search.only_rising else turned)
         left, right, near = before[which], here[which], step[which]
@@ -363,7 +378,7 @@ def _scanned(w: Wheel, search: Search) -> Brackets:
     return Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
 
 
-def _crossing(last: Any, left: Any, right: Any) -> Any:
+def _crossing(last: Array, left: Array, right: Array) -> Array:
     """Where the parabola through values at -1, 0 and 1 is zero between the latter two."""
     import numpy as np
 
@@ -374,12 +389,12 @@ def _crossing(last: Any, left: Any, right: Any) -> Any:
     return np.where((share > 0.0) & (share < 1.0), share, 0.5)
 
 
-def _take(w: Wheel, which: Any) -> Wheel:
+def _take(w: Wheel[Array], which: Which) -> Wheel[Array]:
     return Wheel._make((v[0][which], v[1][which]) if isinstance(v, tuple) else v[which] for v in w)
 
 
 def _refined(
-    w: Wheel, best: tuple[Any, Any], search: Search, found: Brackets, steps: int
+    w: Wheel[Array], best: tuple[Array, Array], search: Search, found: Brackets, steps: int
 ) -> Brackets:
     """Newton in each bracket, so many steps; what it found is put in ``best``, the rest returned.
 
@@ -391,22 +406,22 @@ def _refined(
     _, a, x, b, falling = found
     out, live, part = np.full(len(x), np.nan), np.arange(len(x)), some
     for _ in range(steps):
-        slope, bend = search.slopes(np, part, x)
+        slope, bend = search.slopes(library(part.l), part, x)
         left = (slope > 0.0) == falling
         a, b = np.where(left, x, a), np.where(left, b, x)
         with np.errstate(divide="ignore", invalid="ignore"):
             new = x - slope / bend
         new = np.where((new > a) & (new < b), new, 0.5 * (a + b))
-        far = np.abs(new - x) >= search.close
-        out[live] = np.where(far, np.nan, new)
-        far = np.flatnonzero(far)
+        apart = np.abs(new - x) >= search.close
+        out[live] = np.where(apart, np.nan, new)
+        far = np.flatnonzero(apart)
         if len(far) < len(live):
             part, a, b, falling, live = _take(part, far), a[far], b[far], falling[far], live[far]
         x = new[far]
         if not len(far):
             break
     size, at = best
-    value, where = search.value(np, some, out)
+    value, where = search.value(library(some.l), some, out)
     more = np.flatnonzero(value > size[found.which])
     # A design may have several roots: the greatest is written last.
     order = more[np.argsort(value[more])]
