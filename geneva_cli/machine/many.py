@@ -165,7 +165,7 @@ def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
     values = {name: _changed(value, change, done) for name, value in held.items()}
     if all(values[name] is value for name, value in held.items()):
         return thing
-    new = object.__new__(kind)
+    new: object = object.__new__(kind)
     vars(new).update(values)
     return new
 
