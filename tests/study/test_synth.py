@@ -371,6 +371,10 @@ def test_several_rollers_share_the_turn():
             {"tau": "0.3", "z": "6", "subject_to": ["jrk.max <= 1"]},
             ["--subject-to jrk.max", '"jerk.max"'],
         ),
+        (
+            {"tau": "0.3", "subject_to": ["dwell_s >= 0.8", "timing.dwell_s <= 0.7"]},
+            ["nothing is both", "timing.dwell_s <= 0.7"],
+        ),
         ({"tau": "0.3", "z": "6", "sort": "loads.pin"}, ["--sort loads.pin", "no quantity"]),
         ({"step": "60", "cycle": "1", "rollers": 3}, ["--rollers 3", "at most 2"]),
         ({"tau": "0.3", "rollers": 0}, ["--rollers 0", "at least 1"]),

@@ -13,6 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.text import chunks
+from geneva_cli.spec.tables import Limits
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.reading import SPANS, read_wish, span
 from geneva_cli.study.synthesis.search import search
@@ -187,6 +188,13 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert ours["cam"].way.motion_deg == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
     # a side-crank's peak velocity is at mid-motion, where it is the plain crank's 1 over 1 + A
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].way.A
+
+
+def test_limits_do_not_turn_the_parts_of_a_sphere():
+    """A frame's limits are checked on a spherical wheel; of parts nothing is known."""
+    frame = Spec(Wheel(6), limits=Limits(velocity_max=0.9))
+    found = rows(frame=frame, motion_deg="180", spherical=True)
+    assert {row.way.parts for row in found} == {None}
 
 
 def test_what_no_array_has_is_asked_of_each_machine():

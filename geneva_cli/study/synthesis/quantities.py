@@ -12,7 +12,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import known
-from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.sweep.constraints import Constraint, is_number, refuse_contradictions
 from geneva_cli.study.synthesis.rows import Row
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
@@ -45,6 +45,7 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     of_bounds = pick(wanted, machine, "--subject-to").asked if wanted else ()
     found = pick([*of_sort, *of_bounds], machine)
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
+    refuse_contradictions(bounds)  # of two names for one quantity
     return Asked(found, bounds, of_sort[0] if of_sort else "")
 
 

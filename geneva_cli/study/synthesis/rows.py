@@ -82,7 +82,8 @@ def looked(spec: Spec) -> Looked:
     limited = any(value is not None for value in spec.limits.as_dict().values())
     if not found.why and (limited or machine.engagements[0].groove):
         sized = machine._replace(spec=found.spec)
-        found = found._replace(why=_failing(sized) if limited else _wedged(machine))
+        failed = _failing(sized) if limited else _wedged(machine)
+        found = found._replace(why=failed or found.why)
     return Looked(machine, found)
 
 
