@@ -89,7 +89,8 @@ def run(
     """From wishes to machines that grant them all, the lowest peak acceleration first.
 
     Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
-    0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak.
+    0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak; with bounds
+    and no wish for a motion, the one nearest to the plain crank that keeps them.
 
     Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
     tenth of the centre distance aside; a side-crank; equal elliptical gears; a planet gear (z 3, 4,

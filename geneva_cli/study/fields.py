@@ -5,7 +5,7 @@ A section of the report is worked out only where one of its quantities is asked 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.analysis.loads.cycle import cycle_of
@@ -83,24 +83,31 @@ class Pick(NamedTuple):
         return [found.get(name) for name in self.names]
 
 
-def pick(asked: Sequence[str], mechanism: Mechanism, option: str = "--pick") -> Pick:
+def pick(
+    asked: Sequence[str],
+    mechanism: Mechanism,
+    option: str = "--pick",
+    options: Mapping[str, str] | None = None,
+) -> Pick:
     """The quantities of these names, which need not be whole: ``dwell_s`` is timing.dwell_s.
 
-    ``mechanism`` is one that has them. Raises GenevaError, with the nearest name, for a name that
-    is none, or is not one alone.
+    ``mechanism`` is one that has them; ``options`` says which option asked for a name, where it was
+    not ``option``. Raises GenevaError, with the nearest name, for a name that is none, or is not
+    one alone.
     """
+    by = dict.fromkeys(asked, option) | dict(options or {})
     proof = Proof(mechanism)
     known: dict[str, Section] = {}
     names: dict[str, str] = {}
     for section in ALL:
         known |= dict.fromkeys(values(proof, (section,)), section)
-        names |= {a: found for a in asked if a not in names and (found := _named(a, known, option))}
+        names |= {a: found for a in asked if a not in names and (found := _named(a, known, by[a]))}
         if len(names) == len(set(asked)):
             break
     for a in asked:
         if a not in names:
             raise GenevaError(
-                f"{option} {cut(a)}: no quantity of a design{nearest(a, known)}; `geneva compare` "
+                f"{by[a]} {cut(a)}: no quantity of a design{nearest(a, known)}; `geneva compare` "
                 "shows all that are quick, and check names stand behind checks."
             )
     sections = tuple(dict.fromkeys(known[names[a]] for a in asked))

@@ -100,7 +100,9 @@ def request(
     if not names and not wanted:
         names = list(DEFAULT)
     asked = [o.name for o in wanted] + [c.name for c in bounds]
-    found = sweep(text, plan(axes, random, seed), [*asked, *names], check, part)
+    by = dict.fromkeys([c.name for c in bounds], "--subject-to")
+    by |= dict.fromkeys([o.name for o in wanted], "--best" if best else "--pareto")
+    found = sweep(text, plan(axes, random, seed), [*asked, *names], check, part, by)
     whole = dict(zip([*asked, *names], found.asked, strict=False))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)

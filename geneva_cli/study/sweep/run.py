@@ -93,14 +93,16 @@ def sweep(
     picks: Sequence[str] = DEFAULT,
     check: bool = False,
     shard: Shard = WHOLE,
+    options: Mapping[str, str] | None = None,
 ) -> Sweep:
-    """The sweep of a spec. ``check`` adds whether each design passes every check.
+    """The sweep of a spec. ``check`` adds whether each design passes every check; ``options`` says
+    which option asked for a quantity, where it was not --pick.
 
     Raises GenevaError for a quantity that does not exist, and where none of the first designs can
     be built.
     """
     asked = [*picks, *(CHECKED if check else ())]
-    return Sweep(text, plan, pick(asked, _first(text, plan)), shard)
+    return Sweep(text, plan, pick(asked, _first(text, plan), options=options), shard)
 
 
 def _first(text: Text, plan: Plan) -> Mechanism:
