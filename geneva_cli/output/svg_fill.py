@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from geneva_cli.curves.measure import mapped, turned
 from geneva_cli.curves.plates import Group, Part, Plate
 from geneva_cli.curves.shapes import Contour, Point, Shape, about
-from geneva_cli.output.inks import inks
+from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
 TINTS = {"ROLLER": 0.55}  # opaqueness; of other layers:
@@ -25,7 +25,8 @@ Move = Callable[[Shape], Shape]
 def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     """All plates; ``unit`` is the file's in mm, ``mm`` a millimetre of lines in that."""
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
-    layers = tuple(dict.fromkeys(plate.layer for plate, _ in every))
+    here = dict.fromkeys(plate.layer for plate, _ in every)
+    layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
     if fill == "hatch":
         yield "<defs>\n"
         for turn, (layer, ink) in zip(TURNS * len(layers), inks(layers).items(), strict=False):
