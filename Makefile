@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress cad editors fuzz bench bench-start dist clean
+.PHONY: demo test lint stress cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -39,6 +39,13 @@ stress: .venv/dev
 editors: .venv/dev
 	$(BIN)/pip install --quiet "taplo>=0.9,<1" "tombi>=1,<2"
 	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests:tests/machine:tests/stress python tests/stress/schema_agrees.py taplo tombi
+
+# The page of every design in a headless Chromium, which must be installed: the slider, the console,
+# frames a second, and pictures in build/page to look at; some minutes.
+page: .venv/dev
+	@mkdir -p build/page
+	$(BIN)/pip install --quiet "websocket-client>=1.8,<2"
+	PYTHONPATH=tests:tests/output $(BIN)/python tests/stress/page_in_browser.py build/page
 
 # Every design's STEP files read by a CAD kernel, which is installed for it (0.5 GB); two minutes.
 cad: .venv/dev

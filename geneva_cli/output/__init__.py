@@ -15,12 +15,14 @@ if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
+    from geneva_cli.scene import Scene
 
 # --format -> module; the extension of a file names a format too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 # of drawings only; they are written in FORMATS as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
 SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
+MOVING = (".html", ".htm", ".gif")  # of scenes only
 PICTURES = ("png", "pdf")  # of figures only
 PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
@@ -163,6 +165,26 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
     from geneva_cli.output.plot_matplotlib import written
 
     write_bytes(output, [written(figure, name)], inputs)
+
+
+def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
+    """Write the scene as a page of HTML, ``-`` to standard output, or as a moving .gif.
+
+    Raises GenevaError where the extension is another, Pillow is missing for a .gif, or the file
+    cannot be written.
+    """
+    extension = os.path.splitext(output)[1].lower()
+    if output != "-" and extension not in MOVING:
+        raise GenevaError(f'-o "{cut(output)}": it must end in {" or ".join(MOVING)}')
+    if extension == ".gif":
+        from geneva_cli.output.files import write_bytes
+        from geneva_cli.output.moving_gif import written
+
+        write_bytes(output, [written(scene)], inputs)
+        return
+    from geneva_cli.output import page
+
+    _put(page.chunks(scene), output, inputs)
 
 
 def plotted_as(output: str, format: str) -> str:

@@ -46,6 +46,8 @@ def test_help_of_a_command_ends_with_its_examples(name):
 @pytest.mark.parametrize(("name", "example"), EXAMPLES, ids=[e for _, e in EXAMPLES])
 def test_an_example_runs_as_it_stands(name, example, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("webbrowser.open", lambda page: True)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     shutil.copy(repo.DESIGNS / "turret.toml", "spec.toml")
     program, *words = example.split()
     assert program == "geneva" and name in words[:1]

@@ -67,6 +67,8 @@ ROWS = [
     Row("loads cam-geneva.toml --format json", "tomli numpy json"),
     Row("plot press-straight.toml", "tomli numpy"),
     Row("plot press-curved.toml press-345.toml --format svg", "tomli numpy"),
+    Row("animate press-straight.toml", "tomli numpy json"),
+    Row("view press-straight.toml", "tomli numpy json"),
     Row("profile press-straight.toml", "tomli numpy"),
     Row("profile press-curved.toml", "tomli numpy"),
     Row("profile press-curved.toml --part wheel --format svg", "tomli numpy"),

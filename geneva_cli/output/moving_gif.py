@@ -1,0 +1,138 @@
+"""A scene as a moving GIF: one turn, again and again. Pillow draws it, which comes with `plot`."""
+
+from __future__ import annotations
+
+import io
+import math
+from bisect import bisect_right
+from typing import TYPE_CHECKING, Any
+
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.shapes import Circle, Line, Point, Shape
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.inks import INKS
+
+if TYPE_CHECKING:
+    from geneva_cli.scene import Body, Place, Scene, Track
+
+WIDE = 400  # px
+FRAMES = 60  # of a turn
+SECONDS = 6.0  # that a turn takes on the screen
+FINER = 3  # times: lines are smooth where they are drawn larger and made smaller
+MARGIN = 0.03  # of the greater side
+PIECES = 24  # chords of a curved segment
+ROUND = 96  # of a circle
+LINK, GREY = "#a56752", "#5c6670"
+
+
+def written(scene: Scene) -> bytes:
+    """The file. Raises GenevaError where Pillow is not installed.
+
+    The same scene gives the same bytes, with the same Pillow.
+    """
+    try:
+        from PIL import Image, ImageDraw
+    except ImportError:
+        raise GenevaError("a .gif needs Pillow: pip install 'geneva-cli[plot]'") from None
+    x0, y0, x1, y1 = scene.box
+    margin = MARGIN * max(x1 - x0, y1 - y0)
+    scale = FINER * WIDE / (x1 - x0 + 2.0 * margin)
+    high = round((y1 - y0 + 2.0 * margin) * scale / FINER)
+
+    def on_paper(p: Point) -> Point:
+        return (p[0] - x0 + margin) * scale, (y1 + margin - p[1]) * scale
+
+    outlines = {
+        body.name: [(shape.layer, _points(shape), _is_closed(shape)) for shape in body.shapes]
+        for body in scene.bodies
+    }
+    frames: list[Image.Image] = []
+    for i in range(FRAMES):
+        t = scene.turn_deg * i / FRAMES
+        image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
+        pen = ImageDraw.Draw(image, "RGBA")
+        for body in scene.bodies:
+            for layer, points, closed in outlines[body.name]:
+                _outline(pen, layer, [on_paper(p) for p in _turned(points, body, t)], closed)
+        for bar in scene.bars:
+            joints = [on_paper(_place(place, t)) for place in bar.joints]
+            if bar.radius:
+                _ring(pen, joints[0], bar.radius * scale, GREY)
+            elif len(joints) > 1:
+                pen.line([*joints, joints[0]], fill=LINK, width=4 * FINER)
+        for place in scene.rollers:
+            centre = on_paper(_place(place, t))
+            _ring(pen, centre, scene.roller_radius * scale, INKS["ROLLER"].rgb, "50")
+        small = image.resize((WIDE, high), Image.Resampling.LANCZOS)
+        colours = {"palette": frames[0]} if frames else {"colors": 48}  # one palette for all
+        frames.append(small.quantize(**colours, dither=Image.Dither.NONE))
+    out = io.BytesIO()
+    each = round(1000.0 * SECONDS / FRAMES)
+    frames[0].save(
+        out, "GIF", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False
+    )
+    return out.getvalue()
+
+
+def _is_closed(shape: Shape) -> bool:
+    return isinstance(shape, Circle) or shape.closed
+
+
+def _points(shape: Shape) -> list[Point]:
+    """A shape as a chain of points."""
+    if isinstance(shape, Circle):
+        (x, y), r = shape.centre, shape.radius
+        angles = (math.tau * i / ROUND for i in range(ROUND + 1))
+        return [(x + r * math.cos(a), y + r * math.sin(a)) for a in angles]
+    points = [shape.segments[0].start]
+    for segment in shape.segments:
+        n = 1 if isinstance(segment, Line) else PIECES
+        points += [at(segment, (i + 1) / n) for i in range(n)]
+    return points
+
+
+def _turned(points: list[Point], body: Body, t: float) -> list[Point]:
+    angle, (x, y) = value_at(body.angle, t), body.centre
+    c, s = math.cos(angle), math.sin(angle)
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in points]
+
+
+def _outline(pen: Any, layer: str, points: list[Point], closed: bool) -> None:
+    ink = INKS[layer].rgb if layer in INKS else GREY
+    if layer in ("BORE", "HOLLOW"):
+        pen.polygon(points, fill="#ffffff")
+    elif closed and layer not in ("PITCH", "GROOVE"):
+        pen.polygon(points, fill=f"{ink}30")
+    pen.line(points, fill=INKS["WHEEL"].rgb if layer == "HOLLOW" else ink, width=2 * FINER)
+
+
+def _ring(pen: Any, centre: Point, r: float, ink: str, opaque: str = "") -> None:
+    (x, y), fill = centre, f"{ink}{opaque}" if opaque else None
+    pen.ellipse((x - r, y - r, x + r, y + r), outline=ink, fill=fill, width=2 * FINER)
+
+
+def _place(place: Place, t: float) -> Point:
+    return value_at(place[0], t), value_at(place[1], t)
+
+
+def value_at(track: Track, t: float) -> float:
+    """A track's value at an input angle, as the page's script has it.
+
+    >>> from geneva_cli.output.moving_gif import value_at
+    >>> from geneva_cli.scene import Track
+    >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
+    1.0
+    """
+    if len(track.at) == 1:
+        return track.value[0]
+    i = min(max(bisect_right(track.at, t) - 1, 0), len(track.at) - 2)
+    h = track.at[i + 1] - track.at[i]
+    if not h > 0.0:
+        return track.value[i + 1]
+    u = min(1.0, max(0.0, (t - track.at[i]) / h))
+    w = 1.0 - u
+    return (
+        w * w * (1.0 + 2.0 * u) * track.value[i]
+        + u * u * (1.0 + 2.0 * w) * track.value[i + 1]
+        + u * w * h * (w * track.slope[i] - u * track.slope[i + 1])
+    )

@@ -1,0 +1,126 @@
+"""A scene as one page of HTML that needs no network: outlines that turn, curves, and a slider."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from geneva_cli.errors import clean
+from geneva_cli.output.inks import INKS
+from geneva_cli.output.svg_paths import element
+
+if TYPE_CHECKING:
+    from geneva_cli.figure import Curve, Panel
+    from geneva_cli.scene import Bar, Body, Push, Scene, Track
+
+DIGITS = 10  # significant, of angles and places: 1e-9 of a turn
+SEEN = 5  # of what only is looked at
+SHORT = 120  # points of a curve that is looked at
+
+
+def chunks(scene: Scene) -> Iterator[str]:
+    """The page's text; the same scene gives the same bytes."""
+    data = json.dumps(_data(scene), separators=(",", ":"), allow_nan=False)
+    parts = {
+        "TITLE": escape(clean(scene.title)),
+        "CAPTION": escape(clean(scene.caption)),
+        "SPEC": escape(scene.spec),
+        "STYLE": _file("page.css"),
+        "DRAWING": "".join(_group(body) for body in scene.bodies),
+        "DATA": data.replace("<", "\\u003c"),
+        "MOTION": _file("motion.js"),
+        "SCRIPT": _file("page.js"),
+        "VIEW": _view(scene),
+    }
+    text = _file("page.html")
+    for name, value in parts.items():
+        text = text.replace(f"%{name}%", value)
+    yield text
+
+
+def _file(name: str) -> str:
+    with open(os.path.join(os.path.dirname(__file__), name), encoding="utf-8") as file:
+        return file.read()
+
+
+def _view(scene: Scene) -> str:
+    """What the drawing shows, with a margin; y points down."""
+    x0, y0, x1, y1 = scene.box
+    margin = 0.02 * max(x1 - x0, y1 - y0)
+    found = (x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin)
+    return " ".join(f"{v:.6g}" for v in found)
+
+
+def _group(body: Body) -> str:
+    shapes = [
+        f'<g class="{shape.layer.lower()}">{element(shape).strip()}</g>' for shape in body.shapes
+    ]
+    return f'<g id="{body.name.replace(" ", "-")}">{"".join(shapes)}</g>\n'
+
+
+def _data(scene: Scene) -> dict[str, Any]:
+    """What the page's script reads."""
+    x0, y0, x1, y1 = scene.box
+    return {
+        "start": scene.start_deg,
+        "turn": scene.turn_deg,
+        "seconds": scene.seconds,
+        "size": max(x1 - x0, y1 - y0),
+        "bodies": [
+            {"id": b.name.replace(" ", "-"), "centre": b.centre, "angle": _track(b.angle)}
+            for b in scene.bodies
+        ],
+        "bars": [_bar(bar) for bar in scene.bars],
+        "rollers": [[_track(t) for t in place] for place in scene.rollers],
+        "radius": scene.roller_radius,
+        "pushes": [_push(push) for push in scene.pushes],
+        "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
+        "panels": [_panel(panel) for panel in scene.figure.panels],
+        "window": scene.figure.window,
+        "inks": {layer.lower(): ink.rgb for layer, ink in INKS.items()},
+    }
+
+
+def _track(track: Track) -> dict[str, Any]:
+    columns = (track.at, track.value, track.slope)
+    named = dict(zip("avs", ([_exact(x) for x in column] for column in columns), strict=True))
+    return {**named, "g": track.gain} if track.gain else named
+
+
+def _bar(bar: Bar) -> dict[str, Any]:
+    joints = [[_track(t) for t in place] for place in bar.joints]
+    return {"name": bar.name, "joints": joints, "radius": bar.radius}
+
+
+def _push(push: Push) -> list[list[float]]:
+    return [[_short(v) for v in column] for column in push]
+
+
+def _panel(panel: Panel) -> dict[str, Any]:
+    low, high = panel.span()
+    unit = f", {panel.y.unit}" if panel.y.unit else ""
+    return {
+        "name": panel.y.label + unit,
+        "low": low,
+        "high": high,
+        "pieces": [piece for curve in panel.curves for piece in _pieces(curve)],
+    }
+
+
+def _pieces(curve: Curve) -> Iterator[list[list[float]]]:
+    """The curve with at most some points a piece, its ends kept."""
+    for x, y in curve.pieces:
+        every = max(1, len(x) // SHORT)
+        chosen = sorted({*range(0, len(x), every), len(x) - 1})
+        yield [[_short(x[i]) for i in chosen], [_short(y[i]) for i in chosen]]
+
+
+def _exact(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.{SEEN}g}")

@@ -1,0 +1,1 @@
+"""A design as a scene: what turns, what is driven by whom, and the forces between."""

@@ -1,0 +1,111 @@
+"""The bodies of a scene: parts as they are cut, and what stands for parts that are not drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.scene import Body
+from geneva_cli.study.animation.tracks import still
+from geneva_cli.study.animation.turn import Turn
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+WHEEL, ROLLER, PITCH = "WHEEL", "ROLLER", "PITCH"
+HOLLOW = "HOLLOW"  # what is cut out of a plate, with the plate's edge
+GEAR = 241  # points of a gear's pitch curve
+
+
+def bodies(design: Design, turn: Turn) -> Iterator[Body]:
+    """Wheel, crank with its arm, the cam's groove, gears: those that the machine has."""
+    L, wheel, crank = turn.L, turn.wheel(), turn.crank()
+    shapes = _hollow(_shapes(design, "wheel"))
+    flat = bool(shapes)
+    yield Body("wheel", (*(shapes or _slots(turn)), _mark(shapes, turn)), (0.0, 0.0), wheel)
+    if flat:
+        carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
+        carried = tuple(shape for shape in carried if shape.layer != ROLLER)
+        yield Body("crank", carried, (L, 0.0), crank)
+        yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
+    if design.spec.drive.gears:
+        yield from _gears(design, turn)
+
+
+def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
+    """A part's shapes in its own frame; none where the machine does not have it."""
+    with suppress(GenevaError):
+        return design.drawing(part).shapes
+    return ()
+
+
+def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
+    """Of a ring, with its slots inside: the rim first, and then what is cut out of it."""
+    rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == WHEEL)
+    if not rims:
+        return shapes
+    return (
+        *rims,
+        *(s._replace(layer=HOLLOW) if s.layer == WHEEL else s for s in shapes if s not in rims),
+    )
+
+
+def _slots(turn: Turn) -> tuple[Shape, ...]:
+    """A wheel that is not drawn, as a disc with a line along each slot."""
+    spec, one = turn.mechanism.spec, turn.passages[0]
+    x, y = turn.pin(one, np.linspace(one.entry, one.exit, 181)).T
+    reach = np.hypot(x, y)
+    lines = [
+        Contour(WHEEL, (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
+        for a in np.arange(spec.wheel.z) * math.tau / spec.wheel.z
+    ]
+    return (Circle(WHEEL, (0.0, 0.0), 1.02 * float(reach.max())), *lines)
+
+
+def _at(r: float, a: float) -> tuple[float, float]:
+    return float(r * math.cos(a)), float(r * math.sin(a))
+
+
+def _mark(shapes: tuple[Shape, ...], turn: Turn) -> Shape:
+    """A dot behind the first slot's end: without it one slot looks like another."""
+    one = turn.passages[0]
+    least = float(np.hypot(*turn.pin(one, np.linspace(one.entry, one.exit, 181)).T).min())
+    return Circle(PITCH, (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
+
+
+def _gears(design: Design, turn: Turn) -> Iterator[Body]:
+    """Both pitch curves: the driven one is fast on the crank, the driver beyond it."""
+    table = design.part_table("gears", samples=GEAR).to_dict()
+    sign = turn.mechanism.spec.wheel.SIGN
+    gears = turn.mechanism.spec.drive.gears
+    assert gears
+    # the table's frames have the driver before the driven gear, and an external wheel's senses
+    driver = _closed(-table["driver_x_mm"], -sign * table["driver_y_mm"])
+    driven = _closed(-table["driven_x_mm"], -sign * table["driven_y_mm"])
+    rate = sign * math.pi / 180.0
+    begin = rate * (turn.start - turn.passages[0].mid)
+    angle = still(0.0)._replace(
+        at=(0.0, turn.whole),
+        value=(begin, begin + rate * turn.whole),
+        slope=(rate, rate),
+        gain=rate * turn.whole,
+    )
+    yield Body("driver gear", (driver,), (turn.L + gears.distance_mm, 0.0), angle)
+    crank = turn.crank()
+    ahead = math.pi if sign > 0.0 else 0.0
+    level = crank._replace(value=tuple(v - ahead for v in crank.value))
+    yield Body("driven gear", (driven,), (turn.L, 0.0), level)
+
+
+def _closed(x: Array, y: Array) -> Contour:
+    points = list(zip(x[:-1].tolist(), y[:-1].tolist(), strict=True))
+    return closed(
+        "GEAR", [Line(a, b) for a, b in zip(points, [*points[1:], points[0]], strict=True)]
+    )

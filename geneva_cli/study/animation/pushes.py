@@ -1,0 +1,59 @@
+"""The rollers' forces on the wheel, where they bear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.scene import Push
+from geneva_cli.study.animation.turn import Passage, Turn
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+PLACES = 73  # of a motion
+INSIDE = 1e-6  # of a motion, from its ends
+
+
+def pushes(cycle: Cycle, turn: Turn) -> Iterator[Push]:
+    """One for each passage of the turn; none without a load."""
+    if not cycle.is_loaded:
+        return
+    each = len(cycle.mechanism.engagements)
+    for i, one in enumerate(turn.passages):
+        local = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, PLACES)
+        local *= 1.0 - INSIDE
+        states = cycle.states(local + turn.passages[i % each].mid)
+        force, torque = np.abs(states.pin_force_N), np.asarray(states.wheel_torque_Nm)
+        sound = np.isfinite(force)
+        if not sound.any():
+            continue
+        normal = _normals(one, local, turn)
+        pin = turn.pin(one, one.mid + local)
+        arm = pin[:, 0] * normal[:, 1] - pin[:, 1] * normal[:, 0]
+        normal *= np.where(arm * torque < 0.0, -1.0, 1.0)[:, None]
+        contact = (pin + turn.mechanism.roller_radius_mm * normal)[sound]
+        arrow = (force[:, None] * normal)[sound]
+        at = (one.mid + local - turn.start)[sound]
+        columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
+        yield Push(*(tuple(column.tolist()) for column in columns))
+
+
+def _normals(one: Passage, local: Array, turn: Turn) -> Array:
+    """Unit normals of the slot in the fixed frame, whichever way; of a sphere's as it is seen."""
+    if turn.mechanism.spec.wheel.FLAT:
+        x, y = one.engagement.slot(local, 2)
+        way = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
+        bend = np.column_stack((x.c[2] + 0.0 * local, y.c[2] + 0.0 * local))
+        slow = np.hypot(*way.T) < 1e-6  # the roller turns round, and goes on along its bend
+        way[slow] = bend[slow]
+        psi = one.engagement.motion(local, 0).c[0]
+        c, s = np.cos(psi), np.sin(psi)
+        way = np.column_stack((c * way[:, 0] - s * way[:, 1], s * way[:, 0] + c * way[:, 1]))
+    else:
+        way = turn.pin(one, one.mid + local)
+    out: Array = np.column_stack((-way[:, 1], way[:, 0])) / np.hypot(*way.T)[:, None]
+    return out

@@ -1,0 +1,122 @@
+"""A design as a scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.scene import Bar, Body, Box, Place, Scene, State
+from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.study.animation.bodies import bodies
+from geneva_cli.study.animation.pushes import pushes
+from geneva_cli.study.animation.turn import Turn
+from geneva_cli.verdict.report.words import words
+
+if TYPE_CHECKING:
+    from geneva_cli.figure import Figure
+
+SHOWN = ("velocity", "acceleration", "pin_force_N", "input_torque_Nm")
+
+
+def scene(design: Design) -> Scene:
+    """The machine over a whole turn of its crank, with curves, forces and what holds the wheel.
+
+    Raises GenevaError for a spec that makes no machine.
+
+    >>> from geneva_cli.study.animation.scene import scene
+    >>> found = scene(Design(External(6)))
+    >>> [body.name for body in found.bodies], found.turn_deg, len(found.states)
+    (['wheel', 'crank'], 360.0, 2)
+    """
+    mechanism = design.mechanism
+    turn = Turn(mechanism)
+    made = [body for body in bodies(design, turn) if body.shapes]
+    bars, rollers = turn.bars(), tuple(turn.roller(one) for one in turn.passages)
+    if not mechanism.spec.drive.OUTLINED:  # its rollers are where its links end
+        rollers = bars[0].joints[1:]
+    spec = design.spec
+    title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    return Scene(
+        title,
+        words(mechanism) + _seen(design, made),
+        "\n".join((f"title = {quoted(title)}", *written(spec))),
+        mechanism.shown_deg(turn.start),
+        turn.whole,
+        turn.whole / (6.0 * spec.drive.n_rpm),
+        tuple(made),
+        bars,
+        rollers,
+        mechanism.roller_radius_mm,
+        tuple(pushes(design.cycle, turn)),
+        tuple(_states(design, turn)),
+        _figure(design),
+        _box(made, bars, rollers, mechanism.roller_radius_mm),
+    )
+
+
+def _seen(design: Design, made: list[Body]) -> str:
+    """What the picture shows otherwise than the machine is."""
+    if not design.spec.wheel.FLAT:
+        return " Seen along the wheel's shaft."
+    if len(made) > 1:  # more than the wheel
+        return ""
+    return " Links are shown as bars, gears by their pitch circles."
+
+
+def _figure(design: Design) -> Figure:
+    loaded = design.cycle.is_loaded
+    return design.figure(SHOWN if loaded else SHOWN[:2])
+
+
+def _states(design: Design, turn: Turn) -> Iterator[State]:
+    held = _held(design)
+    last = turn.passages[-1]
+    for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
+        which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+        a, b = one.entry - turn.start, one.exit - turn.start
+        yield State(a, b, True, f"{which} moves the wheel")
+        end = after.entry - turn.start if after else turn.whole
+        if end > b + 1e-9:
+            yield State(b, end, False, held)
+    assert last.exit <= turn.end + 1e-9
+
+
+def _held(design: Design) -> str:
+    """What holds the wheel at rest."""
+    by = design.spec.wheel.held_by
+    if by:
+        return f"the wheel rests, held by a {by}"
+    try:
+        locks = design.parts.sizes.lock > 0.0
+    except GenevaError:
+        return "the wheel rests"
+    return "the wheel rests, locked by the disc" if locks else "the wheel rests; nothing holds it"
+
+
+def _box(made: list[Body], bars: tuple[Bar, ...], rollers: tuple[Place, ...], radius: float) -> Box:
+    """What all bodies, turned any way, and all joints and rollers cover."""
+    boxes = []
+    for body in made:
+        reach = max(map(_reach, body.shapes))
+        (x, y) = body.centre
+        boxes.append((x - reach, y - reach, x + reach, y + reach))
+    places = [(place, bar.radius) for bar in bars for place in bar.joints]
+    places += [(place, radius) for place in rollers]
+    for (across, up), r in places:
+        x0, x1, y0, y1 = min(across.value), max(across.value), min(up.value), max(up.value)
+        boxes.append((x0 - r, y0 - r, x1 + r, y1 + r))
+    columns = list(zip(*boxes, strict=True))
+    return min(columns[0]), min(columns[1]), max(columns[2]), max(columns[3])
+
+
+def _reach(shape: Shape) -> float:
+    """How far from its own origin a shape gets, to a little."""
+    if isinstance(shape, Circle):
+        return math.hypot(*shape.centre) + shape.radius
+    ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))
+    return max(math.hypot(*point) for point in ends)

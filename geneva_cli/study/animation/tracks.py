@@ -1,0 +1,98 @@
+"""A function of the input angle as knots of a cubic that keeps to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from geneva_cli.scene import Track
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+# value and slope by the input in degrees, at input angles in degrees
+Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
+
+BEGUN = 4  # steps in a stretch, at the least
+NEAREST = 1e-3  # degrees: knots come no nearer to each other
+INSIDE = (0.2, 0.5, 0.8)  # where a cubic is held against the function
+DIFFERENCE = 1e-3  # degrees, of a slope that is not known
+
+
+def still(value: float) -> Track:
+    """A value that does not move."""
+    return Track((0.0,), (float(value),), (0.0,))
+
+
+def track(
+    pieces: Iterable[tuple[float, float, Moving]], error: float, start: float, gain: float = 0.0
+) -> Track:
+    """Stretches one after the other, each of one smooth function, within ``error`` of it.
+
+    ``start`` is the input angle from which the track counts.
+
+    >>> from numpy import cos, radians, sin
+    >>> from geneva_cli.study.animation.tracks import track
+    >>> def wave(x): return sin(radians(x)), radians(cos(radians(x)))
+    >>> len(track([(0.0, 180.0, wave)], 1e-6, 0.0).at)
+    31
+    """
+    columns: tuple[list[float], ...] = ([], [], [])
+    for a, b, moving in pieces:
+        if b > a:
+            knots, v, s = _knots(a, b, moving, error)
+            for column, found in zip(columns, (knots - start, v, s), strict=True):
+                column += found.tolist()
+    at, value, slope = map(tuple, columns)
+    return Track(at, value, slope, gain)
+
+
+def sampled(f: Callable[[Array], Array], a: float, b: float) -> Moving:
+    """A function without a derivative, on a stretch: its slopes are differences."""
+
+    def moving(x: Array) -> tuple[Array, Array]:
+        d = min(DIFFERENCE, 0.1 * (b - a))
+        left, right = np.maximum(x - d, a), np.minimum(x + d, b)
+        return f(x), (f(right) - f(left)) / (right - left)
+
+    return moving
+
+
+def resting(value: float) -> Moving:
+    """No motion."""
+    return lambda x: (0.0 * x + value, 0.0 * x)
+
+
+def cut(a: float, b: float, places: Sequence[float]) -> list[tuple[float, float]]:
+    """A stretch cut at the places inside it: where a function's derivatives may jump."""
+    return list(pairwise([a, *sorted(x for x in set(places) if a < x < b), b]))
+
+
+def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Array, Array]:
+    """Even steps, and halves of those whose cubic is not within the error."""
+    knots = np.linspace(a, b, BEGUN + 1)
+    while True:
+        v, s = moving(knots)
+        h = np.diff(knots)
+        off = np.zeros(len(h))
+        for u in INSIDE:
+            there = moving(knots[:-1] + u * h)[0]
+            off = np.maximum(off, np.abs(_hermite(u, h, v, s) - there))
+        wide = (off > error) & (h > NEAREST)
+        if not wide.any():
+            return knots, v, s
+        knots = np.sort(np.concatenate((knots, (knots[:-1] + 0.5 * h)[wide])))
+
+
+def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
+    """The cubics between knots, at the share ``u`` of each step."""
+    w = 1.0 - u
+    out: Array = (
+        w * w * (1.0 + 2.0 * u) * v[:-1]
+        + u * u * (1.0 + 2.0 * w) * v[1:]
+        + u * w * h * (w * s[:-1] - u * s[1:])
+    )
+    return out

@@ -1,0 +1,143 @@
+"""Where wheel, crank, rollers and links of a machine are, over the turn after which it repeats."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.groove import distance
+from geneva_cli.scene import Bar, Place, Track
+from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+ANGLE = 1e-7  # rad, of wheel and crank: a tenth of what the page keeps to
+SHARE = 2e-6  # of the centre distance, of joints and rollers: below what a screen shows
+
+
+class Passage(NamedTuple):
+    """One roller's way through a slot: its engagement, and the input angle of its middle."""
+
+    engagement: Engagement
+    mid: float
+    roller: int  # from 1
+
+    @property
+    def entry(self) -> float:
+        """Input angle where the wheel begins to move."""
+        return self.mid + self.engagement.entry_deg
+
+    @property
+    def exit(self) -> float:
+        """Input angle where it comes to rest."""
+        return self.mid + self.engagement.exit_deg
+
+
+class Turn:
+    """A machine's whole turn: input angles from the first entry on."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self.L = mechanism.center_distance_mm
+        self.whole = 360.0 * mechanism.spec.drive.turns
+        periods = round(self.whole / mechanism.period_deg)
+        each = mechanism.engagements
+        self.passages = tuple(
+            Passage(one, one.mid_deg + k * mechanism.period_deg, k * len(each) + i + 1)
+            for k in range(periods)
+            for i, one in enumerate(each)
+        )
+        self.start = self.passages[0].entry
+        self.end = self.start + self.whole
+
+    def wheel(self) -> Track:
+        """The wheel's angle, 0 half-way through the first step."""
+        pieces: list[tuple[float, float, Moving]] = []
+        turned = 0.0
+        for one, after in zip(self.passages, (*self.passages[1:], None), strict=True):
+            motion = one.engagement.motion
+            for a, b in cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
+                pieces.append((one.mid + a, one.mid + b, _by_motion(one, turned)))
+            turned += one.engagement.half_step
+            pieces.append((one.exit, after.entry if after else self.end, resting(turned)))
+            turned += after.engagement.half_step if after else 0.0
+        first = self.passages[0].engagement.half_step
+        return track(pieces, ANGLE, self.start, turned + first)
+
+    def crank(self) -> Track:
+        """The direction of what carries the first roller, about the crank's axis, radians."""
+        one, sign = self.passages[0], self.mechanism.spec.wheel.SIGN
+        sense = one.engagement.crank_sense
+        ahead = math.pi if sign > 0.0 else 0.0
+        gain = -sign * (sense or 1.0) * math.tau
+        rate = gain / self.whole
+
+        def even(x: Array) -> Array:
+            return ahead + rate * (x - one.mid)
+
+        def angle(x: Array) -> Array:
+            u, v = (self.pin(one, x) - (self.L, 0.0)).T
+            off: Array = (np.arctan2(v, u) - even(x) + math.pi) % math.tau - math.pi
+            return even(x) + off
+
+        return self._sampled(even if sense else angle, ANGLE, gain)
+
+    def pin(self, one: Passage, input_deg: Array) -> Array:
+        """A roller's centre, mm, (n, 2)."""
+        half = 0.5 * self.whole
+        at = (input_deg - one.mid + half) % self.whole - half
+        groove = one.engagement.groove
+        if groove is not None:
+            R, angle = distance(groove, at), np.radians(at)
+            x, y = 1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)
+        else:
+            path = one.engagement.path(at, 0)
+            x, y = (along.c[0] + 0.0 * at for along in path)
+        return self.L * np.column_stack((x, y))
+
+    def roller(self, one: Passage) -> Place:
+        """A roller's centre over the turn."""
+        return self._place(lambda x: self.pin(one, x))
+
+    def bars(self) -> tuple[Bar, ...]:
+        """The drive's links."""
+        drive, plan = self.mechanism.spec.drive, self.mechanism.plan
+        sign = self.mechanism.spec.wheel.SIGN
+
+        def joint(i: int, j: int) -> Place:
+            def place(x: Array) -> Array:
+                return np.column_stack(drive.links(plan, sign, x)[i].joints[j])
+
+            return self._place(place)
+
+        shown = drive.links(plan, sign, np.zeros(1))
+        return tuple(
+            Bar(link.name, tuple(joint(i, j) for j in range(len(link.joints))), link.radius_mm)
+            for i, link in enumerate(shown)
+        )
+
+    def _place(self, place: Callable[[Array], Array]) -> Place:
+        def along(i: int) -> Track:
+            return self._sampled(lambda x: place(x)[:, i], SHARE * self.L)
+
+        return along(0), along(1)
+
+    def _sampled(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
+        """Over the whole turn, cut where a roller enters and leaves."""
+        places = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
+        pieces = [(a, b, sampled(f, a, b)) for a, b in cut(self.start, self.end, places)]
+        return track(pieces, error, self.start, gain)
+
+
+def _by_motion(one: Passage, turned: float) -> Moving:
+    def moving(x: Array) -> tuple[Array, Array]:
+        psi = one.engagement.motion(x - one.mid, 1)
+        return turned + np.asarray(psi.c[0]), np.asarray(psi.c[1]) * (math.pi / 180.0)
+
+    return moving

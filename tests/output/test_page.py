@@ -1,0 +1,202 @@
+"""The page on which a machine turns: its script puts the wheel where the core has it."""
+
+import json
+import re
+from functools import cache
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+import repo
+from py_mini_racer import MiniRacer
+
+from geneva_cli import load
+from geneva_cli.output import animate, moving_gif, page
+from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turn import Turn
+
+DESIGNS = sorted(design.stem for design in repo.DESIGNS.glob("*.toml"))
+# What the page promises: its knots keep to 1e-7, and 10 digits of an angle of some turns to 1e-8.
+ANGLE = 1e-6
+# of the picture's size: a hundredth of a pixel
+PLACE = 1e-5
+
+
+@cache
+def design_of(name):
+    return load(str(repo.DESIGNS / f"{name}.toml"))
+
+
+@cache
+def text_of(name):
+    return "".join(page.chunks(scene(design_of(name))))
+
+
+def script(name):
+    """The page's own script and data in an engine of its own."""
+    data = re.search(r'type="application/json">(.*?)</script>', text_of(name), re.DOTALL)
+    motion = re.search(r"<script>\n(// Where things are.*?)</script>", text_of(name), re.DOTALL)
+    engine = MiniRacer()
+    engine.eval(f"const scene = {data[1]};\n{motion[1]}")
+    return engine, json.loads(data[1])
+
+
+def wheel_by_core(design, at):
+    """The wheel's angle at shown input angles, from the rows of `geneva motion`."""
+    turn = Turn(design.mechanism)
+    out, turned = np.zeros(len(at)), 0.0
+    first = turn.passages[0].engagement.half_step
+    for one in turn.passages:
+        local = np.clip(
+            at + turn.start - one.mid, one.engagement.entry_deg, one.engagement.exit_deg
+        )
+        psi = np.array([float(one.engagement.motion(float(x), 0).c[0]) for x in local])
+        out += psi + one.engagement.half_step
+        turned += 2.0 * one.engagement.half_step
+    return out - first, turned
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
+    design = design_of(name)
+    engine, data = script(name)
+    turn = Turn(design.mechanism)
+    at = np.sort(np.random.default_rng(14).uniform(0.0, data["turn"], 60))
+    asked = json.dumps(at.tolist())
+    wheel = json.loads(
+        engine.eval(f"JSON.stringify({asked}.map(t => afterTurns(scene.bodies[0].angle, t, 2)))")
+    )
+    expected, gain = wheel_by_core(design, at)
+    assert np.abs(np.array(wheel) - (expected + 2.0 * gain)).max() < ANGLE
+    if not design.spec.drive.OUTLINED:  # its rollers are joints of a link: tests of the links
+        return
+    ask = f"JSON.stringify({asked}.map(t => scene.rollers.map(p => p.map(v => valueAt(v, t)))))"
+    rollers = np.array(json.loads(engine.eval(ask)))
+    for i, one in enumerate(turn.passages):
+        there = turn.pin(one, turn.start + at)
+        assert np.abs(rollers[:, i] - there).max() < PLACE * data["size"]
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_roller_runs_in_the_slot_that_is_drawn(name):
+    """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
+    design = design_of(name)
+    engine, _ = script(name)
+    for one in Turn(design.mechanism).passages[:1]:
+        e = one.engagement
+        if not (design.spec.wheel.FLAT and design.spec.drive.OUTLINED):
+            continue
+        local = np.linspace(e.entry_deg, e.exit_deg, 25) * (1.0 - 1e-9)
+        t = json.dumps((local - e.entry_deg).tolist())
+        tracks = "[scene.bodies[0].angle, ...scene.rollers[0]]"
+        ask = f"{t}.map(t => {tracks}.map(v => valueAt(v, t)))"
+        psi, x, y = np.array(json.loads(engine.eval(f"JSON.stringify({ask})"))).T
+        own = np.column_stack(
+            (np.cos(psi) * x + np.sin(psi) * y, np.cos(psi) * y - np.sin(psi) * x)
+        )
+        slot = np.column_stack([c.c[0] + 0.0 * local for c in e.slot(local, 0)])
+        L = design.mechanism.center_distance_mm
+        assert np.abs(own - L * slot).max() < 1e-5 * L
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_what_is_said_of_the_wheel_is_what_it_does(name):
+    """Where it is said to rest it rests; the stretches follow each other over the whole turn."""
+    _, data = script(name)
+    ends = [0.0, *(state[1] for state in data["states"])]
+    starts = [*(state[0] for state in data["states"]), data["turn"]]
+    assert np.allclose(starts, ends, atol=2e-3)
+    motion = design_of(name).motion(721).to_dict()
+    still = [
+        w
+        for w, v, a in zip(
+            *(motion[k] for k in ("input_deg", "velocity", "acceleration")), strict=True
+        )
+        if v == a == 0.0
+    ]
+    rests = sum(b - a for a, b, moves, _ in data["states"] if not moves)
+    whole, period = data["turn"], design_of(name).mechanism.period_deg
+    assert rests * period / whole == pytest.approx(
+        len(still) * period / 720.0, abs=1.1 * period / 360.0
+    )
+
+
+class Outer(HTMLParser):
+    """What a page asks for from outside, and whether its elements close."""
+
+    VOID = ("meta", "input", "line", "circle", "path")
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.asked, self.ids = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.asked += [v for k, v in attributes if k in ("src", "href")]
+        self.ids += [given["id"]] if "id" in given else []
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.ids += [v for k, v in attributes if k == "id"]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_page_stands_alone(name):
+    text = text_of(name)
+    assert len(text.encode()) <= 300_000
+    assert "http" not in text.replace("http://www.w3.org/2000/svg", "")
+    assert "%" not in re.sub(
+        r"\d+%|% ", "", re.sub(r"<style>.*?</style>|<script.*?</script>", "", text, flags=re.DOTALL)
+    )
+    outer = Outer()
+    outer.feed(text)
+    outer.close()
+    assert outer.asked == [] and outer.open == [] and len(outer.ids) == len(set(outer.ids))
+
+
+def test_the_force_is_the_pin_force_and_pushes_the_wheel_the_way_it_is_driven():
+    design = design_of("turret")
+    engine, _ = script("turret")
+    rows = design.load_cycle(721).to_dict()
+    for t in (1.0, 40.0, 70.0, 120.0, 134.0):
+        x, y, fx, fy = json.loads(engine.eval(f"JSON.stringify(pushAt(scene.pushes[0], {t}))"))
+        at = rows["input_deg"][0] + t
+        force = np.interp(at, rows["input_deg"], rows["pin_force_N"])
+        torque = np.interp(at, rows["input_deg"], rows["wheel_torque_Nm"])
+        # chords of 73 places, and of 721 rows
+        assert np.hypot(fx, fy) == pytest.approx(abs(force), rel=2e-3)
+        # friction turns with the normal's torque: 0.05 of it, on the wall's arm of a roller
+        assert 1e-3 * (x * fy - y * fx) == pytest.approx(torque, rel=0.02)
+    assert engine.eval("pushAt(scene.pushes[0], 200)") is None
+
+
+def test_a_gif_moves_as_the_page_does(tmp_path):
+    from PIL import Image
+
+    found = scene(design_of("internal-z6"))
+    engine, _ = script("internal-z6")
+    for t in (0.0, 33.3, 150.0, 359.9):
+        by_page = engine.eval(f"valueAt(scene.bodies[0].angle, {t})")
+        # the page's numbers have ten digits
+        assert moving_gif.value_at(found.bodies[0].angle, t) == pytest.approx(by_page, abs=1e-9)
+    file = tmp_path / "machine.gif"
+    animate(found, str(file))
+    with Image.open(file) as image:
+        assert image.n_frames == moving_gif.FRAMES and image.size[0] == moving_gif.WIDE
+        filled = []
+        for number in (0, 8, 40):  # the ring's share of the picture does not change
+            image.seek(number)
+            pixels = np.asarray(image.convert("RGB"), dtype=int)
+            filled.append(float((pixels[..., 2] - pixels[..., 0] > 15).mean()))
+    assert min(filled) > 0.2 and max(filled) - min(filled) < 0.02
+
+
+def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
+    assert text_of("turret") == "".join(page.chunks(scene(load(str(repo.DESIGNS / "turret.toml")))))
+    hostile = load(str(repo.DESIGNS / "three-slots.toml"), ['title="</script><b>x"'])
+    text = "".join(page.chunks(scene(hostile)))
+    assert "<b>x" not in text and "&lt;b&gt;x" in text
