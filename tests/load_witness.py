@@ -76,35 +76,40 @@ def crank(g):
     return Chain(None, shaft, -g)
 
 
-def coulisse(g, A, mid=0):
+def coulisse(g, A, mid=0, r=None):
     """The body is a coulisse on the crank's axis; a block on the input crank drives it.
 
-    ``mid`` is how far the input has turned at mid-motion from where the coulisse points ahead.
+    ``mid`` is how far the input has turned at mid-motion from where the coulisse points ahead;
+    ``r`` the input crank's length over L, without which the torque alone is known.
     """
 
     def on(v):  # from the crank's own axes, on which it points at the wheel at 0
-        return 1 - g * (mp.conj(v) if g > 0 else v) / 10
+        return 1 - g * (mp.conj(v) if g > 0 else v) * (r or mp.mpf(1) / 10)
 
     def shaft(x, contact, force):
         block, axis = on(A + mp.expj(mid + x)), on(A)
         way = (block - 1) / abs(block - 1)
-        push = balance((X, 1), (Y, 1), (1j * way, block), force=force, at=contact)[2]
+        p, q, push = balance((X, 1), (Y, 1), (1j * way, block), force=force, at=contact)
         back = -push * 1j * way  # on the input crank
-        # what the coulisse bears there depends on the input crank's length, which is not given
         torque = balance((X, axis), (Y, axis), (None, 1), force=back, at=block)[2]
-        return torque, abs(force), None
+        return (torque, mp.hypot(p, q), abs(push)) if r else (torque, abs(force), None)
 
     return Chain(None, shaft, -g)
 
 
-def behind(chain, ratio):
-    """Gears on parallel shafts before a chain: ``ratio(x, torque)`` is the torque on the input."""
+def behind(g, place, way, axis, known=True):
+    """A body on a parallel shaft at ``axis`` pushes the crank at a place along a way, by x.
+
+    It turns against the crank. Unless its size is ``known`` the torque alone is.
+    """
 
     def shaft(x, contact, force):
-        torque, axis, guide = chain.shaft(x, contact, force)
-        return ratio(x, torque), axis, guide
+        at, along = place(x), way(x)
+        p, q, push = balance((X, 1), (Y, 1), (along, at), force=force, at=contact)
+        torque = balance((X, axis), (Y, axis), (None, 1), force=-push * along, at=at)[2]
+        return (-torque, mp.hypot(p, q), abs(push)) if known else (-torque, abs(force), None)
 
-    return chain._replace(shaft=shaft)
+    return Chain(None, shaft, -g)
 
 
 def mesh(driver, driven, torque):
@@ -113,48 +118,71 @@ def mesh(driver, driven, torque):
     return push * driver
 
 
-def ellipses(front, mid):
+def geared(g, front, mid, distance, driver):
+    """Gears ``distance`` over L apart: ``driver(x)`` is the driver's share of it.
+
+    The driven gear's curve on its own axes is what its pitch point has drawn on it.
+    """
+
+    def radius(x):
+        return distance * (1 - driver(x))
+
+    def turn(x):
+        return -g * front.crank(mid + x)
+
+    def way(x):
+        drawn = rate(lambda y: radius(y) * mp.expj(-turn(y)), x) * mp.expj(turn(x))
+        return drawn / abs(drawn)
+
+    return behind(g, lambda x: 1 + radius(x), way, 1 + distance)
+
+
+def ellipses(g, front, mid, keys, L):
     """Two equal ellipses about their foci, 2 p apart: the driver's radius towards the other."""
-    e, p = front.e, mp.mpf(1) / 2
+    e = front.e
+    return geared(
+        g,
+        front,
+        mid,
+        keys.gear_distance_mm / L,
+        lambda x: (1 - e * e) / (1 + e * mp.cos(mid + x)) / 2,
+    )
 
-    def ratio(x, torque):
-        driver = p * (1 - e * e) / (1 + e * mp.cos(mid + x))
-        return mesh(driver, 2 * p - driver, torque)
 
-    return ratio
-
-
-def rolling(front, mid):
+def rolling(g, front, mid, keys, L):
     """Gears cut for a ratio: the pitch point divides the centre distance by the speeds."""
 
-    def ratio(x, torque):
+    def driver(x):
         speed = rate(front.crank, mid + x)
-        return mesh(speed / (1 + speed), 1 / (1 + speed), torque)
+        return speed / (1 + speed)
 
-    return ratio
+    return geared(g, front, mid, keys.gear_distance_mm / L, driver)
 
 
-def first_wheel(front, mid):
+def first_wheel(g, front, mid, keys, L):
     """A wheel with a crank of its own, without friction: its pin pushes across its slot."""
-    l = mp.sin(front.first)
+    l, given = mp.sin(front.first), keys.first_distance_mm
+    distance = (given or 1) / L
 
-    def ratio(x, torque):
-        arm = -l * mp.expj(-(mid + x))  # from the input's axis, the first wheel's at the origin
-        place = 1 + arm
-        push = torque / abs(place)
-        return push * abs(cross(arm, 1j * place / abs(place)))
+    def pin(x):
+        return 1 + distance * (1 - l * mp.expj(g * (mid + x)))
 
-    return ratio
+    def way(x):
+        return 1j * (pin(x) - 1) / abs(pin(x) - 1)
+
+    return behind(g, pin, way, 1 + distance, bool(given))
 
 
-def gears(spec, front, mid):
-    """What turns the crank besides a coulisse, and the torque that it passes on."""
+def gears(spec, g, front, mid):
+    """The chain behind what turns the crank besides a coulisse."""
     kinds = {
         "elliptical-gears": ellipses,
         "noncircular-gears": rolling,
         "geneva-pair": first_wheel,
     }
-    return kinds[spec.drive.NAME](front, mid) if spec.drive.NAME in kinds else None
+    if spec.drive.NAME not in kinds:
+        return None
+    return kinds[spec.drive.NAME](g, front, mid, spec.drive, mp.mpf(spec.given_distance_mm))
 
 
 def sector(spec):
@@ -305,11 +333,11 @@ def machine(spec, near=None, number=0):
         chain = groove(g, pin)
     else:
         front, mid = Front(spec.drive), motion.mid
-        before = gears(spec, front, mid)
-        if before:
-            chain = behind(crank(g), before)
-        else:
-            chain = coulisse(g, front.A, mid) if front.A else crank(g)
+        chain = gears(spec, g, front, mid)
+        if chain is None and front.A:
+            r = spec.drive.input_crank_mm
+            chain = coulisse(g, front.A, mid, r and r / mp.mpf(spec.given_distance_mm))
+        chain = chain or crank(g)
     if chain.body is None:
         chain = chain._replace(body=lambda x: mp.arg((pin(x) - 1) / (pin(mp.mpf(0)) - 1)))
     return chain, wheel, pin, mp.mpf(spec.given_distance_mm)

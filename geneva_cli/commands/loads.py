@@ -37,9 +37,10 @@ def run(
     back; the input's torque and power are negative where the wheel drives the input. In a dwell
     the lock holds the wheel and all is 0.
 
-    Bearings carry rigid links without mass or weight: what turns the crank (motor, gears, coulisse)
-    gives it a couple alone. The guide is what holds the roller's body besides the crank: rocker,
-    slider, groove or fixed gear. p v is the greatest Hertz pressure times the speed of sliding, and
+    Bearings carry rigid links without mass or weight; a motor gives a couple alone. The guide is
+    what holds the roller's body besides its shaft: rocker, slider, groove, fixed gear, or what
+    pushes the crank round: teeth, a coulisse's block, a first wheel's roller. The last two need a
+    length in [drive]: without it the crank's bearings are shown without that push. p v is the greatest Hertz pressure times the speed of sliding, and
     that is a roller's that is fast on its pin; one that turns (friction_at) rolls as fast instead.
     """
     from geneva_cli.design import load

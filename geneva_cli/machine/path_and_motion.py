@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, in_wheel
+from geneva_cli.machine.engagement import Anchor, Engagement, Joints, Motion, Path, Slot, in_wheel
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.numerics.jet import Coefficient, Jet
@@ -37,9 +37,10 @@ def engagement(
     motion_deg: float,
     half_step: float,
     law: Law,
-    middle: Anchor,
+    path: MiddlePath,
+    joints: Joints | None = None,
 ) -> Engagement:
     """The engagement of a curved slot whose motion lies evenly about the line of centres."""
     half = 0.5 * motion_deg
-    path, motion = MiddlePath(middle), LawMotion(-half, half, half_step, law)
-    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion)
+    motion = LawMotion(-half, half, half_step, law)
+    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, joints=joints)

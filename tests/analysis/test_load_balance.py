@@ -10,6 +10,7 @@ from words import Motion, Spec, Wheel, load
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -22,6 +23,11 @@ def curved(z, law, alpha0=0.0, ratio=None, gearing="external"):
     return Spec(Wheel(z, gearing), motion=Motion(law, alpha0_deg=alpha0, ratio=ratio), load=LOAD)
 
 
+def pushed(kind, gearing="external", z=6, **keys):
+    """Behind a drive whose lengths are known, and with them the forces in its joints."""
+    return Spec(Wheel(z, gearing), registry.drive(kind)(**keys), load=LOAD)
+
+
 MACHINES = {
     "external": Spec(Wheel(6), load=LARGE),
     "internal": Spec(Wheel(6, "internal"), load=LARGE),
@@ -30,6 +36,15 @@ MACHINES = {
     "curved": curved(5, "cycloidal", -17.42),
     "curved, matched": curved(6, "3-4-5", -30.0, "matched"),
     "curved, internal": curved(6, "cycloidal", 20.0, gearing="internal"),
+    "on a coulisse": pushed("side-crank", A=0.6, input_crank_mm=35.0),
+    "on a coulisse, internal": pushed("side-crank", "internal", A=-0.3, input_crank_mm=35.0),
+    "on ellipses": pushed("elliptical-gears", eccentricity=0.3, gear_distance_mm=70.0),
+    "on ellipses, internal": pushed("elliptical-gears", "internal", eccentricity=0.2),
+    "on gears": pushed("noncircular-gears", A=-0.4, gear_distance_mm=70.0),
+    "on a wheel": pushed("geneva-pair", z=4, first_z=4, first_distance_mm=60.0),
+    "curved, on ellipses": curved(6, "cycloidal", 20.0).but(
+        drive=registry.drive("elliptical-gears")(eccentricity=0.3)
+    ),
 }
 FILES = ["epicyclic-z4", "epicyclic-soft-z6", "side-crank-z6", "cam-geneva", "slider-crank"]
 # Places near which a linkage's wheel has its entry and exit, degrees of its crank.

@@ -35,7 +35,7 @@ class Contact(NamedTuple, Generic[V]):
     touches: V  # 0 while gears drive and no roller does, else 1
     held: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
     # what holds the roller's body (the crank's shaft, a guide) against a force of 1 along the
-    # normal i t, one along t, and a couple of 1; None where the body is the crank
+    # normal i t, one along t, and a couple of 1; None where only a shaft is known to
 
 
 def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
@@ -64,7 +64,7 @@ def contact(
         return _beside(engagement, input_deg, order, joints=joints)
 
     def beside(x: Coefficient) -> Jet:
-        *jets, _ = _beside(engagement, x, order)
+        *jets, _ = _beside(engagement, x, order, joints=False)
         return Jet([c for jet in jets for c in jet.c])
 
     def middle(x: Coefficient) -> Jet:
@@ -74,7 +74,8 @@ def contact(
     # one piece each side of mid-motion, and mid-motion itself
     every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
     jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
-    return Contact._make([*jets, None])
+    held = _held(engagement, input_deg, jets[2], jets[3]) if joints else None
+    return Contact._make([*jets, held])
 
 
 def is_straight(engagement: Engagement) -> bool:
@@ -147,7 +148,7 @@ def _held(
 def _middle(engagement: Engagement) -> list[float]:
     """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
     if not retraces(engagement):
-        *jets, _ = _beside(engagement, 0.0, 0)
+        *jets, _ = _beside(engagement, 0.0, 0, joints=False)
         values = [scalar(jet.c[0]) for jet in jets]
         values[Contact._fields.index("lever")] = 0.0
         return values

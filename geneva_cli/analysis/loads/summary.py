@@ -130,8 +130,9 @@ def _root(square: float) -> float:
 def _summary(name: str, ends: Extremes, means: Means | None) -> Summary:
     most, least = ends.max, ends.min
     if name in SQUARED:
-        most, least = (math.sqrt(max(x, 0.0)) for x in (most, least))
-        least = least if least > ZERO * most else 0.0
+        most, least = (_root(x) for x in (most, least))
+    size = max((abs(x) for x in (most, least) if math.isfinite(x)), default=0.0)
+    most, least = (x if abs(x) > ZERO * size else 0.0 for x in (most, least))
     mean, square = means or (None, None)
     return Summary(
         None if math.isinf(most) else most,
@@ -193,6 +194,10 @@ def missing(cycle: Cycle) -> list[str]:
         ]
     wide = cycle.given.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
+    spec, guide = cycle.mechanism.spec, "guide_force_N"
+    if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known(cycle):
+        needs = f"needs {spec.drive.LENGTH} in [drive]"
+        out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
     for name, (_, share, needs) in shares(cycle).items():
         if share is None:

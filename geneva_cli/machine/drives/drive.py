@@ -81,6 +81,8 @@ class Drive(Table):
     CRANKED: ClassVar[bool] = False
     # whether it is a pair of noncircular gears, which have pitch curves
     GEARED: ClassVar[bool] = False
+    # the key of [drive] without which its joints' forces are not known; empty where none is needed
+    LENGTH: ClassVar[str] = ""
     # whether its wheel is a flat outline that can be cut
     OUTLINED: ClassVar[bool] = True
     n_rpm: Annotated[float, SPEED, "speed of the input shaft, constant"] = 60.0

@@ -14,15 +14,17 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Example, Gears, Plan
+from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.engagement import Joints, Path
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
+from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
-from geneva_cli.spec.rules import OneOf, Range
+from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 MOST = 1.0 - 0.999e-12
-DISTANCE_MM = 100.0  # of the gears' axes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +49,7 @@ class EllipticalGears(Transmission):
     GEARED: ClassVar[bool] = True
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "which index is at mid-motion"] = "slow"
+    gear_distance_mm: Annotated[float, POSITIVE, "distance of the two gears' axes, C"] = 100.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -61,20 +64,24 @@ class EllipticalGears(Transmission):
 
     @property
     def gears(self) -> Gears:
-        """At the distance of axes at which their pitch curves are given."""
-        return Gears(DISTANCE_MM, self.about(0.0).advance)
+        """The pair."""
+        return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Both ellipses turn about a focus; the driven one is fast on the crank."""
-        a = 0.5 * DISTANCE_MM
-        far = plan.center_distance_mm + DISTANCE_MM
+        a = 0.5 * self.gear_distance_mm
+        far = plan.center_distance_mm + self.gear_distance_mm
         return (
             Pivot("driver gear axis", far, 0.0),
-            Dimension("gears' axes", DISTANCE_MM, "mm"),
+            Dimension("gears' axes", self.gear_distance_mm, "mm"),
             Dimension("gears' semi-major axis", a, "mm"),
             Dimension("gears' focus from centre", a * self.eccentricity, "mm"),
             Dimension("index in the gears' phase", self.phase),
         )
+
+    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+        """The driver's teeth push the driven gear, which is fast on the crank."""
+        return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> About:
         """About the driven gear's angle f in degrees."""

@@ -12,13 +12,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.engagement import Joints, Path, Vector
 from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels import poses
+from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sine_versine, sine_versine_of
-from geneva_cli.spec.rules import Z_MAX, Range
+from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos, sine_versine, sine_versine_of
+from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -44,7 +47,11 @@ class GenevaPair(Transmission):
         },
     )
     ONE_ROLLER: ClassVar[bool] = True
+    LENGTH: ClassVar[str] = "first_distance_mm"
     first_z: Annotated[int, Range(3, Z_MAX), "slots of the first wheel, external"]
+    first_distance_mm: Annotated[
+        float | None, POSITIVE, "first centre distance, for the forces in it (parts: as L)"
+    ] = None
 
     @property
     def turns(self) -> int:
@@ -59,21 +66,32 @@ class GenevaPair(Transmission):
     def layout(self, plan: Plan, sign: float) -> Layout:
         """The first wheel is fast on the second crank; its pair is drawn as large as the second."""
         L = plan.center_distance_mm
+        first = self._distance_mm(L)
         return (
-            Pivot("first crank axis", 2.0 * L, 0.0),
+            Pivot("first crank axis", L + first, 0.0),
             Dimension("first wheel's slots", self.first_z),
-            Dimension("first centre distance", L, "mm"),
-            Dimension("first crank radius", L * poses.Step(1, self.first_z).sin_cos[0], "mm"),
+            Dimension("first centre distance", first, "mm"),
+            Dimension("first crank radius", first * poses.Step(1, self.first_z).sin_cos[0], "mm"),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The first crank, and the first wheel's rim."""
         L, step = plan.center_distance_mm, poses.Step(1, self.first_z)
-        turn, still = radians(input_deg), 0.0 * input_deg
-        m, R = library(turn), L * step.sin_cos[0]
-        pin = 2.0 * L - R * m.cos(turn), -sign * R * m.sin(turn)
-        rim = Link("first wheel", ((still + L, still),), L * step.sin_cos[1])
-        return Link("first crank", ((still + 2.0 * L, still), pin)), rim
+        turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
+        m, R, far = library(turn), first * step.sin_cos[0], L + first
+        pin = far - R * m.cos(turn), -sign * R * m.sin(turn)
+        rim = Link("first wheel", ((still + L, still),), first * step.sin_cos[1])
+        return Link("first crank", ((still + far, still), pin)), rim
+
+    def _distance_mm(self, L: float) -> float:
+        return L if self.first_distance_mm is None else self.first_distance_mm
+
+    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+        """The first crank's roller pushes across the first wheel's slot."""
+        if self.first_distance_mm is None:
+            return None
+        l = poses.Step(1, self.first_z).sin_cos[0]
+        return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
 
     def about(self, crank_deg: float) -> About:
         """About an angle of the second crank within the first wheel's step, degrees."""
@@ -84,6 +102,22 @@ class GenevaPair(Transmission):
         ends = choose_record(crank_deg < 0.0, entry, exit_)
         pose = choose_record(abs(crank_deg) == reach, ends, running)
         return About(pose.crank_deg, FirstWheel(pose))
+
+
+class FirstRoller(Pushed):
+    """The first crank's roller in the first wheel's slot: radius l over ``distance``, that over L.
+
+    The first crank turns against the first wheel, and that with the second crank.
+    """
+
+    def __init__(self, l: float, distance: float, sign: float, mid: float) -> None:
+        self.l, self.distance, self.sign, self.mid = l, distance, sign, mid
+
+    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+        """The roller as seen from the first wheel's axis, and across its slot."""
+        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
+        x, y = (1.0 - c * self.l) * self.distance, s * (-self.sign * self.l * self.distance)
+        return (x, y), (y * -1.0, x)
 
 
 class FirstWheel(NamedTuple):

@@ -17,8 +17,9 @@ from typing import Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Example, Gears, Plan
+from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.engagement import Joints, Path, PeakKnown
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.arrays import library
@@ -94,6 +95,10 @@ class NoncircularGears(Transmission):
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
             law,
         )
+
+    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+        """The driver's teeth push the driven gear, which is fast on the crank."""
+        return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> About:
         """About a crank angle in degrees. Raises GenevaError for a ratio that no gears have."""

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Example, Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import PeakKnown
+from geneva_cli.machine.engagement import Joints, Path, PeakKnown
 from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
-from geneva_cli.spec.rules import Range
+from geneva_cli.spec.rules import POSITIVE, Range
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -43,9 +43,13 @@ class SideCrank(Transmission):
             "drive": {"A": 0.6},
         },
     )
+    LENGTH: ClassVar[str] = "input_crank_mm"
     A: Annotated[
         float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank length; > 0 is slower"
     ]
+    input_crank_mm: Annotated[
+        float | None, POSITIVE, "its input crank r, for the forces on it (parts: as the crank's)"
+    ] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -56,8 +60,8 @@ class SideCrank(Transmission):
         return whitworth.about(self.A, crank_deg)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Its input crank, made as long as the Geneva crank, which is the coulisse."""
-        r = plan.ratio * plan.center_distance_mm
+        """Its input crank; without a length as long as the Geneva crank, which is the coulisse."""
+        r = self._crank_mm(plan)
         return (
             Pivot("input crank axis", plan.center_distance_mm - sign * self.A * r, 0.0),
             Dimension("input crank r", r, "mm"),
@@ -66,12 +70,22 @@ class SideCrank(Transmission):
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The input crank, whose pin slides in the coulisse, which is the Geneva crank."""
-        L, r = plan.center_distance_mm, plan.ratio * plan.center_distance_mm
+        L, r = plan.center_distance_mm, self._crank_mm(plan)
         turn, still = radians(input_deg), 0.0 * input_deg
         m = library(turn)
         axis = still + (L - sign * self.A * r), still
         pin = axis[0] - sign * r * m.cos(turn), r * m.sin(turn)
         return Link("input crank", (axis, pin)), Link("coulisse", ((still + L, still), pin))
+
+    def _crank_mm(self, plan: Plan) -> float:
+        own = plan.ratio * plan.center_distance_mm
+        return own if self.input_crank_mm is None else self.input_crank_mm
+
+    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+        """The block on the input crank pushes across the coulisse."""
+        if self.input_crank_mm is None:
+            return None
+        return whitworth.Block(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
     def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
         """The peak acceleration of plain wheels."""

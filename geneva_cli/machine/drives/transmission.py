@@ -9,8 +9,17 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_motion
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
-from geneva_cli.machine.engagement import Anchor, Displacement, Engagement, PeakKnown, Turning
+from geneva_cli.machine.engagement import (
+    Anchor,
+    Displacement,
+    Engagement,
+    Joints,
+    Path,
+    PeakKnown,
+    Turning,
+)
 from geneva_cli.machine.law_motion import refuse_alpha0
+from geneva_cli.machine.path_and_motion import MiddlePath
 from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
@@ -86,13 +95,21 @@ class Transmission(Drive):
     def _straight(self, spec: Spec) -> Plan:
         found = places(spec)
         self._refuse_reach(spec.wheel, found[0].reach_deg)
-        engagements = tuple(self._follows(spec.wheel, place) for place in found)
+        L = spec.given_distance_mm
+        engagements = tuple(self._follows(spec.wheel, place, L) for place in found)
         turn = 360.0 * self.turns
         period = turn / self.rollers if len(found) == 1 else turn
         most = rollers_max(2.0 * found[0].half_motion_deg)
         return Plan(engagements, period, found[0].ratio, most, spec.given_distance_mm)
 
-    def _follows(self, wheel: Gearing, place: Place) -> Engagement:
+    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+        """What holds the crank besides its shaft; None where a length is not known.
+
+        Of the roller that crosses the line of centres at an input angle.
+        """
+        return None
+
+    def _follows(self, wheel: Gearing, place: Place, L: float) -> Engagement:
         """The engagement of a straight slot with the roller at a place on the crank."""
         here = self.about(place.crank_deg)
         first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
@@ -106,7 +123,10 @@ class Transmission(Drive):
         body = wheel.body(place, here.advance)
         if self.direct:
             body = body or Turning(-wheel.SIGN)
-        return Engagement(here.input_deg, path, slot, motion, body=body, hub=wheel.hub(place))
+        mid = here.input_deg
+        joints = self.joints(wheel, path, mid, L) if wheel.FLAT else None
+        hub = wheel.hub(place)
+        return Engagement(mid, path, slot, motion, body=body, hub=hub, joints=joints)
 
     @property
     def direct(self) -> bool:
@@ -131,7 +151,9 @@ class Transmission(Drive):
         ratio = self._ratio(wheel, motion, motion_deg)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         anchor = self._anchor(pose, 0.0)
-        engagement = path_and_motion.engagement(0.0, motion_deg, wheel.step.b, law, anchor)
+        L, path = spec.given_distance_mm, MiddlePath(anchor)
+        joints = self.joints(wheel, path, 0.0, L) if wheel.FLAT else None
+        engagement = path_and_motion.engagement(0.0, motion_deg, wheel.step.b, law, path, joints)
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)
         return Plan((engagement,), period, ratio, most, spec.given_distance_mm)

@@ -11,17 +11,18 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About
-from geneva_cli.machine.engagement import Known
+from geneva_cli.machine.engagement import Known, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.side_crank_peaks import (
     acceleration_peak,
     acceleration_peaks,
     velocity_peaks,
 )
-from geneva_cli.numerics.angles import sin_cos_deg
+from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
+from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
 A_SURE = 0.999  # up to it the quicker ways to the peaks miss none
@@ -101,6 +102,20 @@ class Coulisse(NamedTuple):
         square = Jet((W, *[2.0 * A * t for t in turns[1:]]))
         rate = 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
         return sine_versine_of(rate, y, x, order)
+
+
+class Block(Pushed):
+    """The block at the end of an input crank of length ``r`` over L, in the coulisse's slot."""
+
+    def __init__(self, A: float, r: float, sign: float, mid: float) -> None:
+        self.A, self.r, self.sign = A, r, sign
+        self.mid = mid  # input angle of the engagement's mid-motion, radians
+
+    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+        """Along the coulisse, which points at the wheel at input angle 0, and across it."""
+        s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
+        x, y = (c + self.A) * (-self.sign * self.r), s * self.r
+        return (x, y), (y * -1.0, x)
 
 
 def about(A: float, crank_deg: float) -> About:

@@ -1,0 +1,53 @@
+"""A crank cut free from what turns it: a block, a gear's tooth, or a pin, along a known line."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+
+from geneva_cli.machine.engagement import Path, Vector, cross
+from geneva_cli.numerics.jet import Coefficient, Jet, turning
+
+
+class Pushed(ABC):
+    """The crank's shaft holds it, and something pushes it round: without friction, or mass."""
+
+    @abstractmethod
+    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+        """Where it is pushed, over L from the crank's axis, and in what direction, of any size."""
+
+    def __call__(
+        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions of the crank's shaft, and of what turns the crank, to each load."""
+        x, y = (Jet(jet.c[:-1]) for jet in path)
+        at, way = self.line(input_deg, x.order)
+        lever, out = cross(at, way), []
+        for force, moment in loads:
+            push = (cross((x - 1.0, y), force) + moment) / lever * -1.0
+            third = way[0] * push, way[1] * push
+            out.append(((force[0] + third[0], force[1] + third[1]), third))
+        return out
+
+
+class Mesh(Pushed):
+    """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres.
+
+    They touch where the distance is divided as i : 1, i being the crank's speed over the input's,
+    and push along the common tangent of their pitch curves: the angle of real teeth is left out.
+    """
+
+    def __init__(self, path: Path, distance: float) -> None:
+        self.path, self.distance = path, distance  # the roller turns as the crank does
+
+    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+        """The radius of the driven gear, C/(1 + i), changes by -C i'/(1 + i)² a radian of input."""
+        x, y = self.path(input_deg, order + 2)
+        rate = turning(x - 1.0, y)
+        i, slope = Jet(rate.c[: order + 1]), rate.derivative()
+        sense = i.c[0] / abs(i.c[0])  # in which the crank turns: a ratio is a size
+        size, grows = i * sense, slope * sense
+        none = i * 0.0
+        # the tangent of the driven gear's curve, (dr, r df) as it turns by df
+        across = none - sense
+        return (self.distance / (size + 1.0), none), (grows / ((size + 1.0) * size) * -1.0, across)
