@@ -377,14 +377,29 @@ def fitted(path, b, entry, exit_):
     The two tangents meet equally far from both places, at the index angle.
     """
 
-    def off(first, last):
+    def tangents(first, last):
         (p, v), (q, w) = taylor(path, first, 1), taylor(path, last, 1)
-        t, u = v / abs(v), w / abs(w)
+        return p, v, q, w, v / abs(v), w / abs(w)
+
+    def off(first, last):
+        p, _, q, _, t, u = tangents(first, last)
         chord = ((q - p) * mp.conj(t + u)).imag
         # -t and u point from the wheel's centre to the pin
         return chord, abs(mp.arg(-u / t)) - 2 * b
 
+    def widest(first, last):
+        """Where the index angle is stationary among pairs of equally far places."""
+        (p, v, a), (q, w, c) = taylor(path, first, 2), taylor(path, last, 2)
+        t, u = v / abs(v), w / abs(w)
+        bend, turn = ((mp.conj(x) * 2 * y).imag / abs(x) ** 2 for x, y in ((v, a), (w, c)))
+        chord, both = q - p, mp.conj(t + u)
+        by_first = (chord * mp.conj(1j * bend * t) - v * both).imag
+        by_last = (chord * mp.conj(1j * turn * u) + w * both).imag
+        return (chord * both).imag, by_first * turn + by_last * bend
+
     first, last = mp.findroot(off, (entry, exit_), tol=mp.mpf(10) ** -80, verify=False)
+    if abs(off(first, last)[1]) > mp.mpf(10) ** -30:  # a double root, or what is nearest to one
+        first, last = mp.findroot(widest, (first, last), tol=mp.mpf(10) ** -80, verify=False)
     (p, v), (q, w) = taylor(path, first, 1), taylor(path, last, 1)
     rho = abs(q - p) / abs(v / abs(v) + w / abs(w))
     return first, last, p + rho * v / abs(v)

@@ -40,8 +40,9 @@ def run(
     Bearings carry rigid links without mass or weight; a motor gives a couple alone. The guide is
     what holds the roller's body besides its shaft: rocker, slider, groove, fixed gear, or what
     pushes the crank round: teeth, a coulisse's block, a first wheel's roller. The last two need a
-    length in [drive]: without it the crank's bearings are shown without that push. p v is the greatest Hertz pressure times the speed of sliding, and
-    that is a roller's that is fast on its pin; one that turns (friction_at) rolls as fast instead.
+    length in [drive]: without it the crank's bearings are shown without that push. p v is the
+    greatest Hertz pressure times the speed of sliding, and that is a roller's that is fast on its
+    pin; one that turns (friction_at) rolls as fast instead.
     """
     from geneva_cli.design import load
     from geneva_cli.output import format_of, show
