@@ -142,9 +142,10 @@ def own_keys(rng, kind):
     if kind in LINKAGES:
         return linkage(rng, kind)
     if kind == "side-crank":
-        return [f"A = {rng.choice([-1, 1]) * part!r}"]
+        return [f"A = {rng.choice([-1, 1]) * part!r}", *length(rng, "input_crank_mm")]
     if kind == "elliptical-gears":
-        return [f"eccentricity = {part!r}", f'phase = "{rng.choice(["slow", "quick"])}"']
+        phase = f'phase = "{rng.choice(["slow", "quick"])}"'
+        return [f"eccentricity = {part!r}", phase, *length(rng, "gear_distance_mm")]
     if kind == "epicyclic":
         ratio = rng.choice(['"shockless"', repr(rng.gauss(0.0, 0.04))])
         return [f"planet_ratio = {ratio}", f'fixed = "{rng.choice(["sun", "ring"])}"']
@@ -155,8 +156,13 @@ def own_keys(rng, kind):
         ratio = rng.choice(['"shockless"', repr(near(rng, 0.7))])
         return [f"sector_deg = {rng.uniform(1, 200)!r}", f"gear_ratio = {ratio}"]
     if kind == "geneva-pair":
-        return [f"first_z = {rng.choice([3, 3, 4, 5])}"]
+        return [f"first_z = {rng.choice([3, 3, 4, 5])}", *length(rng, "first_distance_mm")]
     return []
+
+
+def length(rng, key):
+    """A length that a drive may go without."""
+    return [f"{key} = {near(rng, 80.0)!r}"] if rng.random() < 0.5 else []
 
 
 def motion(rng, kind, gearing):
@@ -228,4 +234,6 @@ def machine_text(rng):
         given.setdefault("dynamic_capacity_N", near(rng, BEARS["dynamic_capacity_N"]))
     for table, about in (("load", LOADS), ("material.roller", BEARS), ("limits", LIMITS)):
         text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
+        if about is LOADS and rng.random() < 0.3:
+            text.append(f'friction_at = "{rng.choice(["pin", "pin", "slot"])}"')
     return "\n".join(text) + "\n"
