@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 from geneva_cli.machine.engagement import Path, Vector, cross
+from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Coefficient, Jet, turning
 
 
@@ -45,7 +46,8 @@ class Mesh(Pushed):
         x, y = self.path(input_deg, order + 2)
         rate = turning(x - 1.0, y)
         i, slope = Jet(rate.c[: order + 1]), rate.derivative()
-        sense = i.c[0] / abs(i.c[0])  # in which the crank turns: a ratio is a size
+        # in which the crank turns: a ratio is a size
+        sense = library(i.c[0]).copysign(1.0, i.c[0])
         size, grows = i * sense, slope * sense
         none = i * 0.0
         # the tangent of the driven gear's curve, (dr, r df) as it turns by df
