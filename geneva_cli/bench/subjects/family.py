@@ -18,12 +18,14 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.epicyclic import Epicyclic
 from geneva_cli.machine.drives.four_bar import FourBar
+from geneva_cli.machine.drives.geneva_pair import GenevaPair
 from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.laws.standard import ModifiedSine, SineGroup
 from geneva_cli.machine.many import many, taken
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
 from geneva_cli.spec.tables import Size
 
@@ -54,6 +56,7 @@ FOUR_BAR = FourBar(
 KINDS = (
     Kind("plain crank", Spec(External(6), Crank()), "wheel.z", 3.0, 24.0),
     Kind("side-crank", Spec(External(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
+    Kind("side-crank inside", Spec(Internal(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
     Kind(
         "offset slots",
         Spec(External(6), size=Size(center_distance_mm=100.0)),
@@ -82,6 +85,16 @@ KINDS = (
         "motion.alpha0_deg",
         -60.0,
         60.0,
+    ),
+    Kind(
+        "curved slots of a tilted law",
+        Spec(External(6), motion=Motion(SineGroup(0.01))),
+        "motion.lambda",
+        -0.12,
+        0.12,
+    ),
+    Kind(
+        "geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0
     ),
     Kind("four-bar", Spec(External(4), FOUR_BAR), "drive.point_deg", -50.0, -35.0, FEW),
 )
