@@ -26,6 +26,7 @@ SUBJECTS = (
     "slot",
     "tolerance",
     "vibration",
+    "turn",
     "start",
     "export",
 )

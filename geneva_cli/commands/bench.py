@@ -15,7 +15,9 @@ def run(
     subject: Annotated[
         str,
         typer.Argument(
-            metavar="[SUBJECT]", help="peaks, many, motion, slot, tolerance, start, export or all."
+            metavar="[SUBJECT]",
+            help="peaks, many, family, motion, loads, slot, tolerance, vibration, turn, start, "
+            "export or all.",
         ),
     ] = "all",
     plots: Annotated[

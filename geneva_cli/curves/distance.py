@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,24 @@ if TYPE_CHECKING:
 
 BLOCK = 1 << 15  # distances that are held at once: in the cache
 COARSE = 60  # points that stand for many, where pieces are picked
+MANY = 64  # pieces, of which only those nearby are looked at
+ROUNDING = 1e-9  # share of a distance that is surely more than its rounding
 FLAT = 1e-9  # a corner that turns by less is none
+
+
+class _Seen(NamedTuple):
+    """Pieces from points: the distance, and the side on which the point is of the whole line or
+    circle; whether the piece faces the point; the squares of the distances from its ends.
+    """
+
+    distance: Array
+    side: Array
+    facing: NDArray[np.bool_]
+    start: Array
+    end: Array
+
+    def at(self, which: Any) -> _Seen:
+        return _Seen(*(part[which] for part in self))
 
 
 class Polyarc:
@@ -89,11 +106,26 @@ class Polyarc:
 
     def _signed(self, points: Array) -> Array:
         ask()
-        px, py = points[:, :1], points[:, 1:]
-        ax, ay = px - self.x0, py - self.y0
+        x, y = points.T
+        if len(self) < MANY:
+            seen = self._seen(x[:, None], y[:, None])
+            piece = np.argmin(seen.distance, axis=1)
+            return self._signs(seen.at((np.arange(len(points)), piece)), piece)
+        row, pieces = self._nearby(points)
+        some = self.subset(pieces)
+        seen = some._seen(x[row], y[row])
+        # the first of the nearest pieces of each point
+        least = np.minimum.reduceat(seen.distance, np.flatnonzero(_changes(row)))
+        equal = np.flatnonzero(seen.distance == least[row])
+        first = equal[_changes(row[equal])]
+        return some._signs(seen.at(first), first)
+
+    def _seen(self, x: Array, y: Array) -> _Seen:
+        """The pieces from points; shapes as x, y and the pieces give together."""
+        ax, ay = x - self.x0, y - self.y0
         # Lines: the share of the way along them. Arcs: whether they are seen from the centre.
         share = (ax * self.dx + ay * self.dy) / self.square
-        vx, vy = px - self.cx, py - self.cy
+        vx, vy = x - self.cx, y - self.cy
         far = np.sqrt(vx * vx + vy * vy)  # in a tenth of hypot's time; nothing here overflows
         facing = np.where(
             self.arc,
@@ -105,17 +137,31 @@ class Polyarc:
             self.sense * (self.radius - far),
             (self.dx * ay - self.dy * ax) / np.sqrt(self.square),
         )
-        bx, by = px - self.x1, py - self.y1
-        start, end = ax * ax + ay * ay, bx * bx + by * by  # squares
+        bx, by = x - self.x1, y - self.y1
+        start, end = ax * ax + ay * ay, bx * bx + by * by
         distance = np.where(facing, np.abs(side), np.sqrt(np.minimum(start, end)))
-        nearest = np.argmin(distance, axis=1)
-        row = np.arange(len(points))
+        return _Seen(distance, side, facing, start, end)
+
+    def _signs(self, seen: _Seen, piece: NDArray[np.intp]) -> Array:
+        """The distances of points from their nearest pieces, signed."""
         # Outside a convex corner, inside a hollow one; on a smooth joint the piece's side decides.
-        turn = np.where(start < end, self.turn_start, self.turn_end)[row, nearest]
-        corner = ~facing[row, nearest] & (turn != 0.0)
-        inside = np.where(corner, turn < 0.0, side[row, nearest] > 0.0)
-        out: Array = np.where(inside, -1.0, 1.0) * distance[row, nearest]
+        turn = np.where(seen.start < seen.end, self.turn_start[piece], self.turn_end[piece])
+        corner = ~seen.facing & (turn != 0.0)
+        inside = np.where(corner, turn < 0.0, seen.side > 0.0)
+        out: Array = np.where(inside, -1.0, 1.0) * seen.distance
         return out
+
+    def _nearby(self, points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Each point with the pieces of which one is its nearest, both in order.
+
+        A piece's ends are half its chord from the middle of its circle, and no point of it is
+        farther from there than its size.
+        """
+        dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
+        away = np.sqrt(dx * dx + dy * dy)
+        most = (away + 0.5 * np.sqrt(self.square)).min(axis=1, keepdims=True)
+        row, piece = np.nonzero(away - self.size <= most * (1.0 + ROUNDING))
+        return row, piece
 
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and between them as close as asked."""
@@ -137,6 +183,13 @@ class Polyarc:
             points[0] = self.x0[i], self.y0[i]
             found.append(points)
         return np.concatenate(found)
+
+
+def _changes(numbers: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether each number is another than the one before; of the first it is so."""
+    out = np.ones(len(numbers), dtype=bool)
+    out[1:] = numbers[1:] != numbers[:-1]
+    return out
 
 
 def _row(piece: Line | Arc) -> tuple[float, ...]:

@@ -27,6 +27,7 @@ OURS = {
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error
     "tolerance": 1e-3,  # of 20 000 machines; of a million some 1e-6
     "vibration": 1e-13,
+    "turn": 2e-6,  # how nearly curved walls are known
     "start": 0.0,
     "export": 0.0,
 }

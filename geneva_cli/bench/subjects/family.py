@@ -93,9 +93,7 @@ KINDS = (
         -0.12,
         0.12,
     ),
-    Kind(
-        "geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0
-    ),
+    Kind("geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0),
     Kind("four-bar", Spec(External(4), FOUR_BAR), "drive.point_deg", -50.0, -35.0, FEW),
 )
 

@@ -1,0 +1,65 @@
+"""The outlines of a machine's parts, and the proof that they turn: walls, gaps and play.
+
+In units of one sine and cosine of a million numbers, which take some 15 ms.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.spec.tables import Size
+
+NUMBERS, QUICK = 1_000_000, 10_000
+
+
+class Kind(NamedTuple):
+    """A machine without clearance."""
+
+    name: str
+    spec: Spec
+
+
+SIZE = Size(center_distance_mm=100.0, roller_radius_mm=5.0)
+KINDS = (
+    Kind("6 straight slots", Spec(External(6), size=SIZE)),
+    Kind("6 curved slots", Spec(External(6), motion=Motion(ModifiedSine()), size=SIZE)),
+    Kind("24 straight slots", Spec(External(24), size=SIZE.but(roller_radius_mm=2.0))),
+    Kind("4 slots, 3 rollers", Spec(External(4), Crank(rollers=3), size=SIZE)),
+)
+
+
+def subject(quick: bool) -> Subject:
+    """A task a machine."""
+    return Subject(
+        "Outlines and full turn of a machine",
+        "gap between roller and slot, over the centre distance: without clearance it is 0",
+        [_task(kind, QUICK if quick else NUMBERS) for kind in KINDS],
+        floor=2e-6,  # how nearly curved walls are known
+    )
+
+
+def _task(kind: Kind, count: int) -> Task:
+    machine = build(kind.spec)
+    angles = np.linspace(0.0, 1.0, count)
+    return Task(
+        kind.name,
+        f"one np.sin + np.cos over {count} numbers",
+        lambda: (np.sin(angles), np.cos(angles)),
+        lambda gap: abs(gap) / machine.center_distance_mm,
+        [Method("outlines and full turn", None, partial(_turned, machine), True)],
+    )
+
+
+def _turned(machine: Mechanism) -> float:
+    return full_turn(outlines(machine)).driving.mm
