@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.jet import Array
+
+    Which: TypeAlias = NDArray[np.intp] | tuple[NDArray[np.intp], NDArray[np.intp]]
 
 BLOCK = 1 << 15  # distances that are held at once: in the cache
 COARSE = 60  # points that stand for many, where pieces are picked
@@ -38,8 +40,9 @@ class _Seen(NamedTuple):
     start: Array
     end: Array
 
-    def at(self, which: Any) -> _Seen:
-        return _Seen(*(part[which] for part in self))
+    def at(self, which: Which) -> _Seen:
+        distance, side, facing, start, end = self
+        return _Seen(distance[which], side[which], facing[which], start[which], end[which])
 
 
 class Polyarc:
