@@ -5,10 +5,10 @@ Written for jets of floats and of arrays alike. Lengths are in units of the cent
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.numerics.arrays import library, scalar, size
+from geneva_cli.numerics.arrays import library, size
 from geneva_cli.numerics.jet import Coefficient
 
 # the columns of a table of a pitch curve with a wall on either side
@@ -45,10 +45,10 @@ def retraces(engagement: Engagement) -> bool:
     """Whether the pin stops in the wheel at mid-motion and leaves on the way it came.
 
     True for straight slots and at the mid condition; otherwise the pin passes mid-motion across
-    the slot's radius, and the pressure angle is 90 degrees there.
+    the slot's radius, and the pressure angle is 90 degrees there. Of many designs an array.
     """
     x, y = engagement.slot(0.0, 1)
-    return abs(scalar(x.c[1])) + abs(scalar(y.c[1])) < RETRACE
+    return cast("bool", x.c[1] * x.c[1] + y.c[1] * y.c[1] < RETRACE * RETRACE)
 
 
 def pitch(engagement: Engagement, input_deg: Coefficient) -> Pitch:

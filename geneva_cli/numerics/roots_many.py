@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
 
     Which: TypeAlias = slice | Whole
+    Sample: TypeAlias = Array | tuple[Array, Array, Array]  # place, value, slope
 
 SCAN = 12  # intervals of the first scan, an even number
 BLOCK = 1024  # designs scanned at a time: 13 places of each are 110 kB a number of a formula
@@ -80,7 +81,7 @@ def roots_between(
     with np.errstate(all="ignore"):
         chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
         start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
-        return Roots(*_newton(f, a, b, start, ends[0] < 0.0, close))
+        return Roots(*newton_many(f, a, b, start, ends[0] < 0.0, close))
 
 
 def roots_many(
@@ -98,7 +99,7 @@ def roots_many(
     with np.errstate(all="ignore"):
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0
-        return _newton(slope, a, b, 0.5 * (a + b), rising, close)[0]
+        return newton_many(slope, a, b, 0.5 * (a + b), rising, close)[0]
 
 
 def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
@@ -233,7 +234,7 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     value[:], slope[:] = f(x, slice(start, start + len(a)), 1)
     low, high = value.min(axis=1), value.max(axis=1)
     left, middle, right = samples[:, :, :-1:2], samples[:, :, 1::2], samples[:, :, 2::2]
-    missed = _missed(left, middle, right, low[:, None], high[:, None])
+    missed = unpredicted(left, middle, right, low[:, None], high[:, None])
     turn = _turns(slope[:, :-1], slope[:, 1:])
     turn[:, ::2] &= ~missed
     turn[:, 1::2] &= ~missed
@@ -257,7 +258,7 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
         middle, here = np.stack((x, value, slope)), which - start
         np.minimum.at(low, here, value)
         np.maximum.at(high, here, value)
-        missed = _missed(left, middle, right, low[here], high[here])
+        missed = unpredicted(left, middle, right, low[here], high[here])
         halves = [_Pairs(which, left, middle), _Pairs(which, middle, right)]
         settled += [half.taken(~missed) for half in halves]
         open_ = _joined([half.taken(missed) for half in halves])
@@ -267,7 +268,7 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
     return pairs.taken(_turns(pairs.left[2], pairs.right[2]))
 
 
-def _missed(left: Array, middle: Array, right: Array, low: Array, high: Array) -> Mask:
+def unpredicted(left: Sample, middle: Sample, right: Sample, low: Array, high: Array) -> Mask:
     """Whether the cubic through both neighbours misses the sample midway between them.
 
     Or whether a cubic turns twice between samples whose slopes have the same sign.
@@ -276,14 +277,14 @@ def _missed(left: Array, middle: Array, right: Array, low: Array, high: Array) -
     predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
     rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
     missed: Mask = np.abs(middle[1] - predicted) > PREDICTED * (high - low) + rounding
+    half = 0.5 * width
     for one, two in ((left, middle), (middle, right)):
-        rise, s, e = two[1] - one[1], one[2], two[2]
-        half = 0.5 * width
-        # the slope is a parabola; its vertex lies between where it goes back beyond both ends
-        p, q = half * (s + e) - 2.0 * rise, 3.0 * rise - half * (2.0 * s + e)
-        vertex = half * s - q * q / (3.0 * p)
-        inside = (p * q < 0.0) & (np.abs(q) < 3.0 * np.abs(p))
-        missed |= inside & (s * e > 0.0) & (s * vertex < 0.0) & (np.abs(vertex) > rounding)
+        # the slope is a parabola, below zero within where its mean is less than a third of this
+        product = one[2] * two[2]
+        size = np.abs(one[2] + two[2])
+        rise = np.copysign(two[1] - one[1], (two[1] - one[1]) * one[2])
+        goes_back = 3.0 * rise < half * (size - np.sqrt(product))
+        missed |= goes_back & (product > 0.0) & (half * size > rounding)
     return missed
 
 
@@ -318,15 +319,15 @@ def _tops(f: Curves, pairs: _Pairs) -> Stationary:
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
         return slope, bend - slope * others, value
 
-    start = _turn_of_cubic(left, right)
-    x, step, (slope, _, value) = _newton(slope_of, a, b, start, before < 0.0, CLOSE)
+    start = turn_of_cubic(left, right)
+    x, step, (slope, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE)
     # on the parabola through the last place but one
     found = np.stack((x, value + 0.5 * slope * step))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
     return Stationary(which, x, value)
 
 
-def _turn_of_cubic(left: Array, right: Array) -> Array:
+def turn_of_cubic(left: Array, right: Array) -> Array:
     """Where the cubic through two neighbours' values and slopes is stationary between them."""
     width = right[0] - left[0]
     chord = (right[1] - left[1]) / width
@@ -340,7 +341,7 @@ def _turn_of_cubic(left: Array, right: Array) -> Array:
     return turn
 
 
-def _newton(
+def newton_many(
     f: Callable[[Array, Whole], tuple[Array, ...]],
     a: Array,
     b: Array,

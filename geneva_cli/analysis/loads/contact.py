@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
-from geneva_cli.numerics.arrays import all_true, library, scalar
+from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, V, piecewise, sqrt
 
 if TYPE_CHECKING:
@@ -145,24 +145,38 @@ def _held(
     return tuple(engagement.joints(x, path, loads))
 
 
-def _middle(engagement: Engagement) -> list[float]:
+def _middle(engagement: Engagement) -> list[Coefficient]:
     """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
-    if not retraces(engagement):
-        *jets, _ = _beside(engagement, 0.0, 0, joints=False)
-        values = [scalar(jet.c[0]) for jet in jets]
-        values[Contact._fields.index("lever")] = 0.0
-        return values
+    back = retraces(engagement)
+    if isinstance(back, bool):
+        return _cusp(engagement) if back else _crossing(engagement)
+    import numpy as np
+
+    with np.errstate(all="ignore"):  # each holds for its own designs
+        both = zip(_cusp(engagement), _crossing(engagement), strict=True)
+        return [choose(back, cusp, crossing) for cusp, crossing in both]
+
+
+def _crossing(engagement: Engagement) -> list[Coefficient]:
+    values = [jet.c[0] for jet in _beside(engagement, 0.0, 0, joints=False)[:-1]]
+    values[Contact._fields.index("lever")] = 0.0
+    return values
+
+
+def _cusp(engagement: Engagement) -> list[Coefficient]:
     at = pitch_at_retrace(engagement)
-    x, y, tangent_x, tangent_y, _, turning, _ = (scalar(c) for c in at)
-    lever = x * tangent_x + y * tangent_y
-    way = 1.0 if lever > 0.0 else -1.0
-    aside = way * (x * tangent_y - y * tangent_x)
-    _, v, a = engagement.motion(0.0, 2).scalars()
-    spin = scalar(engagement.carrier(0.0).c[0]) - v
-    if abs(turning) > BENT:
-        curvature = math.copysign(math.inf, way * turning)
-    else:  # the way in and the way out are one, and its curvature is that beside mid-motion
-        curvature = scalar(_beside(engagement, NEAR * engagement.entry_deg, 0).curvature.c[0])
+    m = library(at.x)
+    lever = at.x * at.tangent_x + at.y * at.tangent_y
+    way = m.copysign(1.0, lever)
+    aside = way * (at.x * at.tangent_y - at.y * at.tangent_x)
+    _, v, a = engagement.motion(0.0, 2).derivatives()
+    spin = engagement.carrier(0.0).c[0] - v
+    # Where it hardly turns the way in and the way out are one: its curvature is that beside it.
+    curvature = choose(
+        at.turning * at.turning > BENT * BENT,
+        m.copysign(math.inf, way * at.turning),
+        _beside(engagement, NEAR * engagement.entry_deg, 0, joints=False).curvature.c[0],
+    )
     return [v, a, way * lever, aside, 0.0, curvature, spin, 1.0, 1.0]
 
 

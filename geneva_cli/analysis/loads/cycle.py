@@ -21,6 +21,7 @@ from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Coefficient, Jet, V
 from geneva_cli.numerics.quadrature import integrals
 
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
 # Of a cubic's integral over the step before them: Adams and Bashforth, for the way to a cusp.
-_AHEAD, _SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
+AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
 
 
 class Quantity(Protocol):
@@ -70,7 +71,7 @@ class Cycle:
     @property
     def is_loaded(self) -> bool:
         """Whether anything is known that the wheel moves against."""
-        return bool(self.given.inertia_Nm or self.given.resists_Nm)
+        return not all_true((self.given.inertia_Nm == 0.0) & (self.given.resists_Nm == 0.0))
 
     @property
     def period(self) -> float:
@@ -164,8 +165,8 @@ class Cycle:
 
             found = integrals(rows, [(p.start, p.end) for p in pieces])
             for number, near in cusps(engagement, pieces):
-                beside = rows(near * _AHEAD, np.full(len(_AHEAD), number))
-                gap = [abs(near) * float(np.dot(_SHARES, row)) for row in beside]
+                beside = rows(near * AHEAD, np.full(len(AHEAD), number))
+                gap = [abs(near) * float(np.dot(SHARES, row)) for row in beside]
                 found = [a + b for a, b in zip(found, gap, strict=True)]
             total = [a + b * DEGREE for a, b in zip(total, found, strict=True)]
         return total

@@ -21,7 +21,7 @@ from geneva_cli.analysis.strength.pin import pin_diameter_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Coefficient, Jet, V
 
 
@@ -36,6 +36,11 @@ class Setting(NamedTuple):
     friction: float  # along the wall, over the force on it
     efficiency: float
     hertz: float | None  # square of the stress on a flat wall, MPa² per newton; None: no width
+
+    @property
+    def rubs(self) -> bool:
+        """Whether the roller, of any design, is held back along the wall."""
+        return not all_true(self.friction == 0.0)
 
 
 def setting(mechanism: Mechanism) -> Setting:
@@ -81,8 +86,11 @@ def rubbing(mechanism: Mechanism) -> float:
     if all_true(load.friction == 0.0) or load.rubs_in_slot:
         return load.friction
     share = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
-    sine = share * load.friction / math.hypot(1.0, load.friction)
-    return load.friction if share == 1.0 else sine / math.sqrt((1.0 - sine) * (1.0 + sine))
+    m = library(share, load.friction)
+    sine = share * load.friction / m.hypot(1.0, load.friction)
+    turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
+    coefficient: float = choose(share == 1.0, load.friction, turning)
+    return coefficient
 
 
 def contact_modulus_GPa(spec: Spec) -> float:
@@ -133,6 +141,11 @@ def sliding(at: Contact[V], drives: Coefficient, radius: float) -> V:
     return at.along - at.spin * (drives * radius)
 
 
+def needed(given: Setting, at: Contact[V]) -> V:
+    """Torque that the wheel needs: it drives the wheel on where it is positive."""
+    return at.acceleration * given.inertia_Nm + given.resists_Nm
+
+
 def gain(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> V:
     """Torque on the input shaft over the wheel's, times the grip: it has a value everywhere."""
     lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
@@ -140,7 +153,7 @@ def gain(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficien
 
 
 def _grip(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> V:
-    if not given.friction:
+    if not given.rubs:
         return at.lever
     rub = at.touches * (given.friction * slides)
     return at.lever + rub * (at.aside * drives - at.arm * given.radius)
@@ -148,10 +161,10 @@ def _grip(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficie
 
 def forces(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> Forces[V]:
     """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
-    torque = at.acceleration * given.inertia_Nm + given.resists_Nm
+    torque = needed(given, at)
     grip, shaft = _grip(given, at, drives, slides), torque * at.velocity
     force = torque * drives / (grip * given.L)
-    if given.friction:
+    if given.rubs:
         rub = at.touches * (given.friction * slides)
         shaft = shaft + force * rub * sliding(at, drives, given.radius) * given.L
     if given.hertz is None:

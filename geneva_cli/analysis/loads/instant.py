@@ -11,6 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding, value
+from geneva_cli.numerics.arrays import choose
 from geneva_cli.numerics.jet import Coefficient, Jet, V, sqrt
 
 if TYPE_CHECKING:
@@ -60,13 +61,20 @@ class Instant(NamedTuple, Generic[V]):
     def stress(self) -> Row[V]:
         """The square of the contact stress, likewise."""
         assert self.stress_squared is not None  # there is a face width
-        return Row(self.stress_squared, self.edge)
+        return Row(self.stress_squared, self._pressed)
 
     @property
     def pressure_speed(self) -> Row[V]:
         """The square of p v, the greatest Hertz pressure times the sliding, likewise; W²/m⁴."""
         pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
-        return Row(pv, self.edge)
+        return Row(pv, self._pressed)
+
+    @property
+    def _pressed(self) -> V | None:
+        """What the contact stress needs to have a bound: the lesser of ``grip`` and ``edge``."""
+        if self.held is None or self.edge is None:
+            return self.edge
+        return lesser(self.grip, self.edge)
 
     @property
     def guide(self) -> Row[V]:
@@ -83,6 +91,15 @@ class Instant(NamedTuple, Generic[V]):
     def shaft(self) -> Row[V]:
         """The input's torque, which friction may leave without a bound."""
         return Row(self.input_torque_Nm, self.held)
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
 
 
 def instant(
@@ -113,7 +130,7 @@ def instant(
         slides,
         pays,
         found.grip,
-        found.grip if given.friction else None,
+        found.grip if given.rubs else None,
         found.edge,
     )
 

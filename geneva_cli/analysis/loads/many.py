@@ -1,211 +1,211 @@
-"""Greatest and least loads of many designs at once: straight slots, without friction.
+"""Loads of many designs at once: what ``summary`` and ``loads.greatest`` give of one.
 
-There the pin force T / (lever L) and the input's torque T dpsi/dtheta are smooth wherever the
-motion is, so that one scan finds all their stationary points, as for the peaks of a motion. With
-friction they jump where the sliding turns round, and a curved slot has places without a bound:
-those designs are asked one by one (``Cycle``).
+Every machine is answered for: friction, curved slots, linkages, several rollers. The formulas are
+those of one design; all its stretches are found together, a block of designs after the other.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load, SideCrank
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
-    >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0))
+    >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> found = many(spec, {"drive.A": np.array([0.0, 0.6])})
-    >>> extremes_of_many(found.machine)["input_torque_Nm"].max.round(6)
-    array([78.193325, 18.780341])
+    >>> greatest_of_many(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
+    array([1956.0443,  680.6116])
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.loads.contact import NEAR
+from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import Setting, setting
+from geneva_cli.analysis.loads.loaded_many import (
+    Loaded,
+    at_mid_motion,
+    look,
+    spans_of,
+    stretches_of,
+)
+from geneva_cli.analysis.loads.means import NOUGHT, square_of
+from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
+from geneva_cli.analysis.loads.summary import ZERO, shares
 from geneva_cli.analysis.peaks_many import PeakOfMany
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.roots import TIE
-from geneva_cli.numerics.roots_many import GROUP, extrema_many
+from geneva_cli.numerics.signed_many import Found, search
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.roots_many import Which
+
+# Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
+JOINTS = ("crank_bearing_N", "guide_force_N")
+GROUP = 4096  # designs whose stretches are found together
 
 
-class ExtremesOfMany(NamedTuple):
-    """Greatest and least value in each of m designs, and the first input angles that have them."""
+class SummaryOfMany(NamedTuple):
+    """As ``Summary``, of m designs: (m,) each; infinite where nothing bounds a value."""
 
     max: Array
     max_at_deg: Array
     min: Array
     min_at_deg: Array
+    mean: Array | None = None  # None where not asked for
+    rms: Array | None = None
+
+    def times(self, share: Array) -> SummaryOfMany:
+        """The summary of so many times the quantity."""
+        mean, rms = (None if v is None else v * share for v in self[4:])
+        return SummaryOfMany(
+            self.max * share, self.max_at_deg, self.min * share, self.min_at_deg, mean, rms
+        )
 
 
-def are_smooth(mechanism: Mechanism) -> bool:
-    """Whether ``extremes_of_many`` answers for these designs."""
-    straight = not any(e.slot.curved for e in mechanism.engagements)
-    return straight and all_true(mechanism.spec.load.friction == 0.0)
+def greatest_of_many(mechanism: Mechanism, names: Sequence[str]) -> dict[str, PeakOfMany]:
+    """The greatest sizes of quantities, and the first input angles that have them: (m,).
 
-
-def extremes_of_many(
-    mechanism: Mechanism, names: Sequence[str] | None = None
-) -> dict[str, ExtremesOfMany]:
-    """The extremes of some of ``LOADS`` over the motions of m designs, at the machine's angles.
-
-    The wheel's torque in newton metres, positive where it drives the wheel on; the pin force in
-    newtons, positive on the wall that drives; the input's torque, positive where the input drives,
-    and there divided by the efficiency. Raises ValueError unless ``are_smooth``.
+    As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is ``wheel_torque_Nm``.
     """
-    if not are_smooth(mechanism):
-        raise ValueError("loads of curved slots, or with friction, are found one by one")
-    given = setting(mechanism)
-    best: dict[str, ExtremesOfMany] = {}
-    for engagement in mechanism.engagements:
-        for name, found in _extremes(engagement, given, names or LOADS).items():
-            places = [
-                np.ravel(mechanism.shown_deg(cast("float", engagement.mid_deg + at[:, None])))
-                for at in (found.max_at_deg, found.min_at_deg)
-            ]
-            here = ExtremesOfMany(found.max, places[0], found.min, places[1])
+    best: dict[str, PeakOfMany] = {}
+    for found, at_deg, _ in _over_all(mechanism, names, sized=True, means=False):
+        for name, most, at in zip(names, found, at_deg, strict=True):
+            here = PeakOfMany(most, at)
+            best[name] = _greater(best[name], here) if name in best else here
+    return {n: p._replace(max=np.sqrt(p.max)) if n in SQUARED else p for n, p in best.items()}
+
+
+def summaries_of_many(
+    mechanism: Mechanism, names: Sequence[str], means: bool = True
+) -> dict[str, SummaryOfMany]:
+    """The summaries of quantities over a period, by their names; signs kept.
+
+    Extremes are within some units in the last place of a quantity's greatest size of those of one
+    design; means, and roots of the mean square, within 1e-12 of that size: both are sums of what
+    quadrature leaves of 1e-13, over stretches that may cancel. Without ``means`` there are none,
+    nor are there means of ``JOINTS``.
+    """
+    known = shares(Cycle(mechanism))
+    lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
+    sources = list(dict.fromkeys(source for source, _ in lent.values()))
+    best: dict[str, SummaryOfMany] = {}
+    sums: Array | None = None
+    for found, at_deg, total in _over_all(mechanism, sources, sized=False, means=means):
+        for i, name in enumerate(sources):
+            here = SummaryOfMany(found[2 * i], at_deg[2 * i], -found[2 * i + 1], at_deg[2 * i + 1])
             best[name] = _outer(best[name], here) if name in best else here
-    if "input_torque_Nm" in best:
-        shaft, eta = best["input_torque_Nm"], np.ravel(given.efficiency)
-        most, least = (np.where(v > 0.0, v / eta, v) for v in (shaft.max, shaft.min))
-        best["input_torque_Nm"] = shaft._replace(max=most, min=least)
-    return best
+        if total is not None:
+            sums = total if sums is None else sums + total
+    joined = any(engagement.joints for engagement in mechanism.engagements)
+    period = np.ravel(mechanism.period_deg) * DEGREE
+    for i, name in enumerate(sources):
+        one = best[name]
+        bounded = np.isfinite(one.max) & np.isfinite(one.min)
+        if name in SQUARED:
+            most, least = (np.sqrt(np.maximum(v, 0.0)) for v in (one.max, one.min))
+            least = np.where(np.isinf(most) | (least > ZERO * most), least, 0.0)
+            one = one._replace(max=most, min=least)
+        if sums is not None:
+            mean, square = (np.where(bounded, v / period, np.inf) for v in sums[2 * i : 2 * i + 2])
+            mean = np.where(mean * mean <= NOUGHT * square, 0.0, mean)
+            none = joined and name in JOINTS
+            one = one._replace(mean=None if none else mean, rms=np.sqrt(square))
+        best[name] = one
+    return {
+        name: best[source].times(np.ravel(share))
+        for name, (source, share) in lent.items()
+        if share is not None
+    }
 
 
-Machine: TypeAlias = "tuple[Engagement, Setting]"
-Rates: TypeAlias = "tuple[Jet, Jet]"  # of the wheel, and the torque that it needs
-
-
-def _rates(machine: Machine, x: Array, order: int) -> Rates:
-    engagement, given = machine
-    rates = engagement.motion(x, order + 2).derivative()
-    torque = rates.derivative() * given.inertia_Nm + given.resists_Nm
-    return Jet(rates.c[: order + 1]), torque
-
-
-def _force(machine: Machine, x: Array, rates: Rates) -> Jet:
-    engagement, given = machine
-    axis = engagement.slot.axis(x, rates[1].order)
-    assert axis is not None  # the slot is straight
-    force: Jet = rates[1] / (axis.lever * given.L)
-    return force
-
-
-FORMULAS: dict[str, Callable[[Machine, Array, Rates], Jet]] = {
-    "wheel_torque_Nm": lambda machine, x, rates: rates[1],
-    "pin_force_N": _force,
-    "input_torque_Nm": lambda machine, x, rates: rates[1] * rates[0],
-}
-LOADS = tuple(FORMULAS)
-
-
-class _Curve(NamedTuple):
-    """One of the loads over the input angle in degrees, as ``roots_many`` asks for it.
-
-    All are scanned at the same places, a block of designs after the other: ``kept`` has what the
-    motion says there.
-    """
-
-    machine: Machine
-    load: str
-    kept: dict[int, tuple[Machine, Rates]]
-
-    def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        # Designs lie side by side in memory: each operation runs along all of them.
-        angles = np.asfortranarray(x)
-        if not isinstance(which, slice):
-            some = taken(self.machine, which)
-            rates = _rates(some, angles, order)
-        else:
-            if which.start not in self.kept:
-                some = taken(self.machine, which)
-                self.kept[which.start] = some, _rates(some, angles, order)
-            some, rates = self.kept[which.start]
-        values = FORMULAS[self.load](some, angles, rates).derivatives()
-        return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(values)]
-
-
-def greatest_of_many(mechanism: Mechanism, names: Sequence[str] = LOADS) -> dict[str, PeakOfMany]:
-    """The greatest sizes of some of ``LOADS``, and the first input angles that have them: (m,).
-
-    As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is the wheel's.
-    """
-    out = {}
-    for name, found in extremes_of_many(mechanism, names).items():
-        least = -found.min > found.max * (1.0 + TIE)
-        even = np.abs(found.min) >= found.max / (1.0 + TIE)
-        first = np.where(even, np.fmin(found.max_at_deg, found.min_at_deg), found.max_at_deg)
-        at_deg = np.where(least, found.min_at_deg, first)
-        out[name] = PeakOfMany(np.maximum(found.max, -found.min), at_deg)
+def _over_all(
+    mechanism: Mechanism, names: Sequence[str], *, sized: bool, means: bool
+) -> list[tuple[Array, Array, Array | None]]:
+    """Of each engagement the greatest values, their places as shown, and the sums."""
+    given = setting(mechanism)
+    out = []
+    for engagement in mechanism.engagements:
+        most, x, sums = _of(engagement, given, names, sized, means)
+        places: Any = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
+        shown = [mechanism.shown_deg(places[:, i : i + 1]) for i in range(len(x))]
+        out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, sums))
     return out
 
 
-def _extremes(
-    engagement: Engagement, given: Setting, names: Sequence[str]
-) -> dict[str, ExtremesOfMany]:
+def _of(
+    engagement: Engagement, given: Setting, names: Sequence[str], sized: bool, means: bool
+) -> tuple[Array, Array, Array | None]:
     """Of one engagement, at its own input angles."""
     motion = engagement.motion
     known = (motion(motion.entry_deg, 1).c[1], motion.entry_deg, *given)
     m = max(np.size(value) for value in known if value is not None)
-    places = np.hstack([np.broadcast_to(x, (m, 1)) for x in motion.breaks_deg])
-    starts = range(0, m, GROUP)
-    parts = [_part(engagement, given, places[i : i + GROUP], i, names) for i in starts]
-    return {
-        name: ExtremesOfMany(
-            *(np.concatenate(v) for v in zip(*[p[name] for p in parts], strict=True))
-        )
-        for name in names
-    }
+    parts = []
+    for i in range(0, m, GROUP):
+        some = taken((engagement, given), slice(i, i + GROUP))
+        parts.append(_group(Loaded(some, names), min(GROUP, m - i), sized, means))
+    most, x, sums = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
+    return most, x, sums if means else None
 
 
-def _part(
-    engagement: Engagement, given: Setting, places: Array, start: int, names: Sequence[str]
-) -> dict[str, ExtremesOfMany]:
-    """Of some of the designs, between their breaks one after the other."""
-    best: dict[str, ExtremesOfMany] = {}
-    some = taken((engagement, given), slice(start, start + GROUP))
-    for i in range(places.shape[1] - 1):
-        a, b = places[:, i : i + 1], places[:, i + 1 : i + 2]
-        if i:  # a break belongs to the piece before it; the piece after begins one double later
-            a = np.minimum(np.nextafter(a, np.inf), b)
-        kept: dict[int, tuple[Machine, Rates]] = {}
-        for name in names:
-            here = _between(_Curve(some, name, kept), a, b)
-            best[name] = _outer(best[name], here) if name in best else here
-    return best
+def _group(load: Loaded, n: int, sized: bool, means: bool) -> tuple[Array, Array, Array]:
+    spans = spans_of(load.machine[0], n)
+    known = at_mid_motion(load, n) if load.machine[0].slot.curved else []
+    found = search(load, spans, n, sized, known)
+    sums = _sums(load, found, spans, n) if means else found.most
+    return found.most, found.x, sums
 
 
-def _between(curve: _Curve, a: Array, b: Array) -> ExtremesOfMany:
-    tops = extrema_many(curve, a, b)
-    every = np.arange(len(a))
-    ends = [curve(x, every, 0)[0][:, 0] for x in (a, b)]
-    found = []
-    for sign in (1.0, -1.0):
-        first, last, value = sign * ends[0], sign * ends[1], sign * tops.value
-        most = np.maximum(first, last)
-        np.maximum.at(most, tops.which, value)
-        bar = most - TIE * np.abs(most)
-        at = np.where(last >= bar, b[:, 0], np.nan)
-        near = value >= bar[tops.which]
-        np.fmin.at(at, tops.which[near], tops.x[near])
-        found += [sign * most, np.where(first >= bar, a[:, 0], at)]
-    return ExtremesOfMany(*found)
+def _sums(load: Loaded, found: Found, spans: Sequence[tuple[Array, Array]], n: int) -> Array:
+    """The integral of each quantity and of its square by the angle in radians, in turn."""
+    design, _, (a, b), positive = stretches_of(load, spans, found.cuts)
+    signs = np.where(positive, 1.0, -1.0)
+
+    def rows(x: Array, which: Whole) -> Array:
+        return _pairs(load, x, design[which], signs[:, which, None])
+
+    rooted = any(name in SQUARED for name in load.names)
+    with np.errstate(all="ignore"):
+        # of what has no bound there is no mean
+        bounded = np.isfinite(found.most).reshape(len(load.names), 2, n).all(axis=1)
+        total = integrals_many(rows, a, b, design, np.repeat(bounded, 2, axis=0), rooted)
+        engagement = load.machine[0]
+        if engagement.slot.curved:  # the way to mid-motion, which no stretch reaches
+            for end in (engagement.entry_deg, engagement.exit_deg):
+                near = np.broadcast_to(np.reshape(NEAR * end, (-1, 1)), (n, 1))
+                beside = _pairs(load, near * AHEAD, np.arange(n), None)
+                total += (beside @ SHARES) * np.abs(near[:, 0])
+    return total * DEGREE
 
 
-def _outer(one: ExtremesOfMany, other: ExtremesOfMany) -> ExtremesOfMany:
+def _pairs(load: Loaded, x: Array, which: Whole, signs: Array | None) -> Array:
+    given, at, shape = load.at(x, which, 0)
+    here = look(load.kinds, given, at, signs).instant
+    out = np.empty((2 * len(load.names), *shape[::-1])).swapaxes(1, 2)
+    for i, name in enumerate(load.names):
+        value = QUANTITIES[name](here).value.c[0]
+        out[2 * i] = np.sqrt(abs(value)) if name in SQUARED else value
+        out[2 * i + 1] = square_of(value, name)
+    return out
+
+
+def _greater(one: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
+    """The greater of two peaks; of two that are one the first."""
+    more = other.max > one.max * (1.0 + TIE)
+    return PeakOfMany(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))
+
+
+def _outer(one: SummaryOfMany, other: SummaryOfMany) -> SummaryOfMany:
     """The greater maximum and the lesser minimum; of two that are one the first."""
-    more = other.max > one.max + TIE * np.abs(one.max)
-    less = other.min < one.min - TIE * np.abs(one.min)
-    return ExtremesOfMany(
+    more = other.max > one.max + np.where(np.isfinite(one.max), TIE * np.abs(one.max), 0.0)
+    less = other.min < one.min - np.where(np.isfinite(one.min), TIE * np.abs(one.min), 0.0)
+    return SummaryOfMany(
         np.where(more, other.max, one.max),
         np.where(more, other.max_at_deg, one.max_at_deg),
         np.where(less, other.min, one.min),

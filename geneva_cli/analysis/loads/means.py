@@ -43,7 +43,7 @@ def means_of(cycle: Cycle) -> Mapping[str, Means]:
         return lambda i: plain_of(i, name)
 
     def square(name: str) -> Integrand:
-        return lambda i: _square(QUANTITIES[name](i).value, name)
+        return lambda i: square_of(QUANTITIES[name](i).value, name)
 
     def driven(power: int) -> Integrand:
         return lambda i: (0.5 * (1.0 - i.pays) * i.input_torque_Nm) ** power
@@ -64,7 +64,8 @@ def plain_of(i: Instant[Array], name: str) -> Array:
     return np.sqrt(np.abs(value)) if name in SQUARED else value
 
 
-def _square(values: Array, name: str) -> Array:
+def square_of(values: Array, name: str) -> Array:
+    """The square of a quantity's values, or what is one already."""
     return values if name in SQUARED else values * values
 
 

@@ -276,7 +276,8 @@ def maxima(
             first = _first_with_room(engagement, pieces[0], rows, i)
             if first not in brinks:
                 brinks[first] = _brink(found, lost, pieces, at)
-            out.append(Greatest(math.inf, brinks[first]))
+            brink = brinks[first]
+            out.append(Greatest(math.inf, min(brink, 0.0) if ends[i] == math.inf else brink))
         else:
             places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
             out.append(_greatest(places, engagement, least))
@@ -401,11 +402,11 @@ def _brink(
     pieces: tuple[Stretch, ...],
     at: Callable[[Coefficient, Stretch, int], Row[Jet]],
 ) -> float:
-    """Where a quantity ceases to have a value: at the first place where what it needs is 0."""
-    turns = np.flatnonzero((lost[1:] != lost[:-1]) & found.joined)
-    if not len(turns):
-        return float(found.x[np.argmax(lost)])
-    i = int(turns[0])
+    """Where a quantity first has no value: where what it needs is 0, or its stretch begins."""
+    first = int(np.argmax(lost))
+    if not first or not found.joined[first - 1]:
+        return float(found.x[first])
+    i = first - 1
     start, width = float(found.x[i]), np.array([found.x[i + 1] - found.x[i]])
     piece = pieces[found.span[i]]
 

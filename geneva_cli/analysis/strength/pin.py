@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, cast
 
+from geneva_cli.numerics.arrays import choose
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -65,7 +67,10 @@ PLATES = {"cantilever": 1.0, "supported": 2.0, "fixed": 2.0}  # that share the f
 def pin_diameter_mm(mechanism: Mechanism) -> float:
     """Of the roller's pin; with ``pin_mm = 0`` a roller is its own pin."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
-    return r if size.pin_mm is None else size.pin_mm or 2.0 * r
+    if size.pin_mm is None:
+        return r
+    diameter: float = choose(size.pin_mm == 0.0, 2.0 * r, size.pin_mm)
+    return diameter
 
 
 def pin(mechanism: Mechanism) -> Pin | None:

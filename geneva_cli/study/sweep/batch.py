@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import Many, many, may_vary
 from geneva_cli.machine.spec import Spec
+from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.sweep.values import Value
 
@@ -62,12 +64,12 @@ def table(
     keys: Sequence[str],
     names: Sequence[str],
     read: Callable[[Sequence[Value]], Spec],
-) -> Mapping[int, list[float]]:
+) -> Mapping[int, list[Cell]]:
     """The quantities of the designs that can be had together, by their numbers among ``rows``.
 
     ``read`` gives the spec of a row. What is missing is had by itself, or cannot be built.
     """
-    out: dict[int, list[float]] = {}
+    out: dict[int, list[Cell]] = {}
     words = [k for k in range(len(keys)) if any(isinstance(row[k], str) for row in rows)]
     for rough in groups(rows, [k for k in range(len(keys)) if k not in words]):
         spec = rough.spec(read)
@@ -88,7 +90,7 @@ def table(
 
 
 def _fill(
-    out: dict[int, list[float]], members: Sequence[int], found: Many, names: Sequence[str]
+    out: dict[int, list[Cell]], members: Sequence[int], found: Many, names: Sequence[str]
 ) -> None:
     if found.machine is None:
         return
@@ -97,5 +99,5 @@ def _fill(
     if values is None:
         return
     for i, row in zip(built, np.column_stack(values).tolist(), strict=True):
-        if all(np.isfinite(row)):
-            out[members[i]] = row
+        if not any(map(math.isnan, row)):
+            out[members[i]] = [None if math.isinf(value) else value for value in row]

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.many import LOADS, are_smooth, greatest_of_many
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.loads import kinetic_power_W
+from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
+from geneva_cli.analysis.loads.quantities import known as known_loads
+from geneva_cli.analysis.loads.summary import SHOWN, shares
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.mechanism import Mechanism
@@ -26,8 +29,15 @@ RATES = {
     "jerk": (3, "rad_s3"),
     "power": (3, "rad2_s3"),
 }
-# what the report calls the loads whose greatest size it tells
-SIZED = {name.removeprefix("wheel_"): name for name in LOADS}
+# what the report tells the greatest size of, and what the cycle calls it
+SIZED = {
+    "torque_Nm": "wheel_torque_Nm",
+    "pin_force_N": "pin_force_N",
+    "input_torque_Nm": "input_torque_Nm",
+    "contact_stress_MPa": "contact_stress_MPa",
+}
+SUMMED = ("min", "min_at_deg", "mean", "rms")  # of each quantity of the cycle
+KINETIC = "loads.kinetic_power_W"
 ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
@@ -37,14 +47,14 @@ def known(names: Sequence[str]) -> bool:
     >>> known(["timing.dwell_s", "jerk.max"]), known(["sizes.ratio"])
     (True, False)
     """
-    return all(_group(name) in ("timing", *QUANTITIES) or _load(name) for name in names)
+    return all(_group(name) in ("timing", *QUANTITIES) or _is_load(name) for name in names)
 
 
-def _load(name: str) -> str | None:
-    """The load whose greatest size, or its place, is meant."""
-    words = name.split(".")
-    told = len(words) == 3 and words[0] == "loads" and words[2] in ("max", "at_deg")
-    return SIZED.get(words[1]) if told else None
+def _is_load(name: str) -> bool:
+    table, _, rest = name.partition(".")
+    quantity, _, told = rest.rpartition(".")
+    sized = quantity in SIZED and told in ("max", "at_deg")
+    return table == "loads" and (sized or (quantity in SHOWN and told in SUMMED) or name == KINETIC)
 
 
 def _group(name: str) -> str:
@@ -52,7 +62,10 @@ def _group(name: str) -> str:
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
-    """The quantities of a machine of so many designs, (count,) each; None where one has none."""
+    """The quantities of a machine of so many designs, (count,) each; None where one has none.
+
+    Infinite is what nothing bounds, and NaN what must be asked of the design alone.
+    """
     groups = dict.fromkeys(_group(name) for name in names)
     found: Columns = {}
     if "timing" in groups:
@@ -60,9 +73,8 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     sought = [name for name in QUANTITIES if name in groups]
     if sought:
         found |= _peaks(machine, sought)
-    carried = list(dict.fromkeys(load for name in names if (load := _load(name))))
-    if carried:
-        found |= _loads(machine, carried)
+    if "loads" in groups:
+        found |= _loads(machine, [name.split(".") for name in names if _group(name) == "loads"])
     out = []
     for name in names:
         value = found.get(name)
@@ -72,18 +84,32 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     return out
 
 
-def _loads(machine: Mechanism, carried: Sequence[str]) -> Columns:
-    """Of straight slots without friction, and designs that all have a load."""
-    given = setting(machine)
-    if not (are_smooth(machine) and np.all(given.inertia_Nm + given.resists_Nm > 0.0)):
-        return {}
-    found = greatest_of_many(machine, carried)
+def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
+    """Of the quantities that all these designs have."""
+    cycle = Cycle(machine)
+    given = cycle.given
+    loaded = np.ravel(given.inertia_Nm + given.resists_Nm > 0.0)
+    lent = {n: source for n, (source, share, _) in shares(cycle).items() if share is not None}
+    there = known_loads(cycle)
+    sized = dict.fromkeys(a[1] for a in asked if a[-1] in ("max", "at_deg"))
+    sized = dict.fromkeys(q for q in sized if SIZED[q] in there)
+    summed = dict.fromkeys(a[1] for a in asked if a[-1] in SUMMED)
+    summed = dict.fromkeys(q for q in summed if lent.get(q, q) in there)
     values: Columns = {}
-    for short, name in SIZED.items():
-        if name in found:
-            values[f"loads.{short}.max"] = found[name].max
-            values[f"loads.{short}.at_deg"] = found[name].at_deg
-    return values
+    if sized:
+        greatest = greatest_of_many(machine, [SIZED[q] for q in sized])
+        for q in sized:
+            values[f"loads.{q}.max"], values[f"loads.{q}.at_deg"] = greatest[SIZED[q]]
+    if summed:
+        means = any(a[-1] in ("mean", "rms") for a in asked)
+        found = summaries_of_many(machine, list(summed), means)
+        for q, one in found.items():
+            values |= {f"loads.{q}.{name}": one._asdict()[name] for name in SUMMED}
+    if ["loads", "kinetic_power_W"] in asked:
+        power = worst_of_many(machine, ["power"])["power"].max
+        kinetic: Any = kinetic_power_W(machine, cast("float", power[:, None]))
+        values[KINETIC] = np.where(np.ravel(given.inertia_Nm) > 0.0, np.ravel(kinetic), np.nan)
+    return {name: np.where(loaded, v, np.nan) for name, v in values.items() if v is not None}
 
 
 def _timing(machine: Mechanism) -> Columns:

@@ -59,7 +59,7 @@ class Sweep(NamedTuple):
         """The rows of the designs from ``start`` up to ``stop``, left out."""
         every = self.plan.rows(start, stop)
         keys = [a.key for a in self.plan.axes]
-        known: Mapping[int, list[float]] = {}
+        known: Mapping[int, list[Cell]] = {}
         if self.together:
             known = batch.table(every, keys, self.pick.names, self._spec)
         return [

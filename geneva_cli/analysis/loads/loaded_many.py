@@ -1,0 +1,217 @@
+"""Loads of many designs of one engagement, as searches and sums ask for them.
+
+The formulas are those of one design (``contact``, ``forces``, ``instant``); here is what differs:
+which signs count, and the moments that no smooth stretch reaches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import NEAR, Contact, contact
+from geneva_cli.analysis.loads.forces import Setting, gain, needed, sliding, value
+from geneva_cli.analysis.loads.instant import Instant, instant
+from geneva_cli.analysis.loads.peaks import ZERO
+from geneva_cli.analysis.loads.quantities import QUANTITIES
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.many import taken
+from geneva_cli.machine.pitch_curve import retraces
+from geneva_cli.numerics.arrays import all_true
+from geneva_cli.numerics.cells import Cuts
+from geneva_cli.numerics.jet import Jet
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.roots_many import Which
+
+At: TypeAlias = tuple[Setting, Contact[Any], tuple[int, ...]]  # and the shape of the places
+
+
+class Loaded:
+    """Some designs of one engagement under their load, as ``search`` asks for their functions."""
+
+    def __init__(self, machine: tuple[Engagement, Setting], names: Sequence[str]) -> None:
+        self.machine = engagement, given = machine
+        self.names = names
+        self.kinds = kinds(engagement, given)
+        self.signs, self.wanted = len(self.kinds), len(names)
+        self.kept: tuple[int, Any] = (-1, None)
+
+    def at(
+        self, x: Array, which: Which, order: int
+    ) -> tuple[Setting, Contact[Any], tuple[int, ...]]:
+        """Setting, contact and shape of some designs."""
+        if not isinstance(which, slice):
+            engagement, given = taken(self.machine, which)
+        else:
+            if which.start != self.kept[0]:
+                self.kept = which.start, taken(self.machine, which)
+            engagement, given = self.kept[1]
+        return given, contact(engagement, x, order), x.shape
+
+    def look(self, at: At, forced: Array | None = None) -> tuple[Mask, list[Array]]:
+        """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
+        found = look(self.kinds, *at[:2], forced)
+        shape = at[2]
+        orders = range(at[1].velocity.order + 1)
+        shape_in = (self.signs + self.wanted, *shape[::-1])
+        values = [np.empty(shape_in).swapaxes(1, 2) for _ in orders]
+        for i, jet in enumerate(found.jets):
+            for k in orders:
+                values[k][i] = jet.c[k]
+        positive = np.empty((self.signs, *shape[::-1]), dtype=bool).swapaxes(1, 2)
+        for i, sign in enumerate(found.signs):
+            positive[i] = sign > 0.0
+        for i, name in enumerate(self.names, self.signs):
+            row = QUANTITIES[name](found.instant)
+            for k in orders:
+                values[k][i] = row.value.c[k]
+            if row.room is not None:
+                lost = np.broadcast_to(row.room.c[0] <= ZERO, shape)
+                if lost.any():
+                    values[0][i] = np.where(lost, np.inf * row.way, values[0][i])
+                    for k in orders[1:]:
+                        values[k][i][lost] = 0.0
+        return positive, values
+
+
+class Look(NamedTuple):
+    """Signs that count, the functions that have them, and all that happens."""
+
+    signs: list[Array]
+    jets: list[Jet]
+    instant: Instant[Any]
+
+
+def kinds(engagement: Engagement, given: Setting) -> list[str]:
+    """Whose signs count: of what changes nothing, none."""
+    out = []
+    if not all_true(given.inertia_Nm == 0.0):
+        out.append("drives")
+    if given.rubs:
+        out.append("slides")
+    if not all_true(given.efficiency == 1.0):
+        out.append("pays")
+    if given.rubs:
+        out.append("grip")
+    if engagement.slot.curved and given.hertz is not None:
+        out.append("edge")
+    return out
+
+
+def look(kinds: Sequence[str], given: Setting, at: Contact[Any], forced: Array | None) -> Look:
+    """What happens at a contact; ``forced`` are the signs of ``kinds`` that are known, else NaN."""
+    signs: list[Array] = []
+    jets: list[Jet] = []
+
+    def sign(kind: str, jet: Jet) -> Any:
+        here = np.copysign(1.0, jet.c[0])
+        if kind in kinds:
+            if forced is not None:
+                own = forced[len(signs)]
+                here = np.where(np.isnan(own), here, own)
+            signs.append(here)
+            jets.append(jet)
+        return here
+
+    drives = sign("drives", needed(given, at))
+    slides = sign("slides", sliding(at, drives, given.radius)) if given.rubs else 1.0
+    pays = 1.0
+    if "pays" in kinds:
+        pays = sign("pays", gain(given, at, drives, slides) * drives)
+    found = instant(given, at, drives, slides, pays)
+    if "grip" in kinds:
+        sign("grip", found.grip)
+    if "edge" in kinds and found.edge is not None:
+        sign("edge", found.edge)
+    return Look(signs, jets, found)
+
+
+def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
+    """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
+    places = [
+        np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
+    ]
+    out = []
+    for i, (a, b) in enumerate(zip(places, places[1:], strict=False)):
+        start = np.nextafter(a, np.inf) if i else a
+        end = np.nextafter(b, -np.inf) if i + 2 < len(places) else b
+        if engagement.slot.curved:
+            start = np.where(a == 0.0, NEAR * engagement.exit_deg, start)
+            end = np.where(b == 0.0, NEAR * engagement.entry_deg, end)
+        out.append((start, end))
+    return out
+
+
+def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
+    """The quantities at mid-motion of curved slots, which no span reaches; infinite, or a limit."""
+    engagement, given = load.machine
+    place, near = np.zeros(n), NEAR * np.reshape(engagement.entry_deg, (-1, 1))
+    out = []
+    with np.errstate(all="ignore"):
+        at = contact(engagement, np.zeros((n, 1)))
+        torque = value(needed(given, at))
+        common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
+        loaded = np.abs(torque) > ZERO * (common + given.resists_Nm)
+        limits = [_towards(load, np.broadcast_to(x, (n, 1))) for x in (near, -near)]
+        # The tangent points away from the axis on the way in and out; at a cusp they are one.
+        crosses = np.broadcast_to(~np.asarray(retraces(engagement)), (n, 1))
+        for way in (1.0, -1.0):
+            here = at._replace(
+                along=at.along * way, aside=at.aside * way, curvature=at.curvature * way
+            )
+            found = look(load.kinds, given, here, None).instant
+            for k, name in enumerate(load.names):
+                row = QUANTITIES[name](found)
+                known = np.broadcast_to(value(row.value), (n, 1))
+                room = np.inf if row.room is None else value(row.room)
+                there = (room > ZERO) & np.isfinite(known)
+                for limit in limits:
+                    none = np.where(loaded, np.inf * row.way, limit[k])
+                    here_ = np.where(there, known, none)
+                    if way < 0.0:
+                        here_ = np.where(crosses, here_, np.nan)
+                    out.append((k, place, here_[:, 0]))
+    return out
+
+
+def _towards(load: Loaded, x: Array) -> list[Array]:
+    """The limits of 0/0 at mid-motion, from beside it."""
+    given, at, _ = load.at(x, slice(0, len(x)), 2)
+    h = np.radians(x)
+    rows = [QUANTITIES[name](look(load.kinds, given, at, None).instant) for name in load.names]
+    return [c[0] - h * (c[1] - h * c[2]) for c in (row.value.c for row in rows)]
+
+
+def stretches_of(load: Loaded, spans: Sequence[tuple[Array, Array]], cuts: Cuts) -> Cuts:
+    """The spans between cuts: ``x`` their two ends, ``positive`` their signs."""
+    at = [(np.flatnonzero((b > a)[:, 0]), a[:, 0], b[:, 0]) for a, b in spans]
+    firsts, lasts = [], []
+    with np.errstate(all="ignore"):
+        for number, (which, a, b) in enumerate(at):
+            span = np.full(len(which), number)
+            middle = 0.5 * (a + b)[which, None]
+            signs = load.look(load.at(middle, which, 0))[0][..., 0]
+            firsts.append((which, span, a[which], signs))
+            lasts.append((which, span, b[which], signs))
+    firsts.append((cuts.design, cuts.span, cuts.x, cuts.positive[1]))
+    lasts.append((cuts.design, cuts.span, cuts.x, cuts.positive[0]))
+    starts, stops = (
+        [np.concatenate(part, axis=-1) for part in zip(*ends, strict=True)]
+        for ends in (firsts, lasts)
+    )
+    by = [np.lexsort((x, span, design)) for design, span, x, _ in (starts, stops)]
+    (design, span, a, positive), (_, _, b, before) = (
+        [part[..., order] for part in parts]
+        for parts, order in zip((starts, stops), by, strict=True)
+    )
+    # of a span's first stretch the signs are known at its end, of the others at their start too
+    first = np.ones(len(design), dtype=bool)
+    first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
+    signs = np.where(first, before, positive)
+    there = b > a
+    return Cuts(design[there], span[there], np.stack((a, b))[:, there], signs[:, there])

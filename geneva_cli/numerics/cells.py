@@ -1,0 +1,223 @@
+"""Parts of many designs' spans between neighbouring samples, and the turns that may be in them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from geneva_cli.numerics.roots import PREDICTED, TIE
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.jet import Array
+
+LEVEL = 1e-9  # share of a function's range: a rise over a cell that a slope of 0 may feign
+
+
+class Cells(NamedTuple):
+    """Of k cells the numbers of design and span, and at both ends place, signs and functions."""
+
+    design: Whole  # (k,)
+    span: Whole
+    x: Array  # (2, k)
+    positive: Mask  # (2, signs, k)
+    value: Array  # (2, functions, k)
+    slope: Array  # by degrees
+
+    def at(self, end: int) -> tuple[Array, Array, Array]:
+        """Place, values and slopes at one end."""
+        return self.x[end], self.value[end], self.slope[end]
+
+    def parted(self, x: Array, looks: Sequence[Look]) -> tuple[Cells, Cells]:
+        """In two at a place in each, with what is known on both sides of it."""
+        olds = (self.x, self.positive, self.value, self.slope)
+        news = [(x, *look) for look in looks]
+        first = [np.stack((old[0], new)) for old, new in zip(olds, news[0], strict=True)]
+        last = [np.stack((new, old[1])) for old, new in zip(olds, news[1], strict=True)]
+        return Cells(self.design, self.span, *first), Cells(self.design, self.span, *last)
+
+
+class Look(NamedTuple):
+    """What is known at a place of each design."""
+
+    positive: Mask  # (signs, k)
+    value: Array  # (functions, k)
+    slope: Array
+
+
+class Turns(NamedTuple):
+    """Cells in which a wanted function may be stationary at an extreme."""
+
+    row: Whole  # the function's number
+    rises: Array  # 1.0 before a maximum, -1.0 before a minimum
+    design: Whole
+    positive: Mask  # (signs, k)
+    left: Array  # place, value, slope: (3, k)
+    right: Array
+
+
+class Cuts(NamedTuple):
+    """Where signs change: numbers of design and span, the place, and the signs on both sides."""
+
+    design: Whole
+    span: Whole
+    x: Array
+    positive: Mask  # (2, signs, k)
+
+
+Parts = TypeVar("Parts", Cells, Turns, Cuts)
+
+
+def taken(parts: Parts, where: Any) -> Parts:
+    """Some of them, by a mask or their numbers."""
+    return type(parts)._make([one[..., where] for one in parts])
+
+
+def joined(parts: Sequence[Parts]) -> Parts:
+    """All of them."""
+    columns = zip(*parts, strict=True)
+    return type(parts[0])._make([np.concatenate(one, axis=-1) for one in columns])
+
+
+class Range(NamedTuple):
+    """The least and the greatest finite sample of each function of each design: (functions, n)."""
+
+    low: Array
+    high: Array
+
+    def widen(self, design: Whole, value: Array) -> None:
+        """Take in samples (functions, m, k) of some designs."""
+        finite = np.isfinite(value)
+        if finite.all():
+            low, high = value.min(axis=2), value.max(axis=2)
+        else:
+            low = np.where(finite, value, np.inf).min(axis=2)
+            high = np.where(finite, value, -np.inf).max(axis=2)
+        self.low[:, design] = np.fmin(self.low[:, design], low)
+        self.high[:, design] = np.fmax(self.high[:, design], high)
+
+    def size(self, design: Whole) -> Array:
+        """The greatest size of each function of some designs."""
+        return np.maximum(-self.low[:, design], self.high[:, design])
+
+    def level(self, row: int, design: Whole) -> Array:
+        """The rise over a cell that is rounding, of one function of some designs."""
+        level: Array = LEVEL * (self.high[row, design] - self.low[row, design])
+        return level
+
+
+class Tops:
+    """The greatest values of so many functions of n designs as they come to light.
+
+    Where ``sized`` their greatest sizes; else the greatest value of the first, the greatest of
+    minus the first, of the second, and so on.
+    """
+
+    def __init__(self, count: int, n: int, sized: bool) -> None:
+        self.sized = sized
+        self.most = np.full((count if sized else 2 * count, n), -np.inf)
+        self.known: list[tuple[Any, Whole, Array, Array]] = []
+
+    def number(self, k: Any, sign: Any) -> Any:
+        """Which of those looked for a function's maximum is (1.0), or its minimum (-1.0)."""
+        return k if self.sized else 2 * k + (sign < 0.0)
+
+    def sides(self, value: Array) -> list[tuple[float, Array]]:
+        """A function as each of what is looked for of it."""
+        return [(1.0, np.abs(value))] if self.sized else [(1.0, value), (-1.0, -value)]
+
+    def add(self, number: Any, design: Whole, x: Array, value: Array) -> None:
+        """Some values, and where: (k,) each, ``number`` one or (k,)."""
+        np.maximum.at(self.most, (number, design), value)
+        self.known.append((number, design, x, value))
+
+    def add_all(self, design: Whole, x: Array, value: Array) -> None:
+        """All functions (functions, k) at one place of each of some designs."""
+        for k, one in enumerate(value):
+            for sign, side in self.sides(one):
+                self.add(self.number(k, sign), design, x, side)
+
+    def add_samples(self, design: Whole, x: Array, value: Array) -> None:
+        """The first greatest of samples (functions, m, k) at places (m, k)."""
+        every = np.arange(len(x))
+        for k, one in enumerate(value):
+            for sign, side in self.sides(one):
+                most = side.max(axis=1)
+                first = np.argmax(side >= bar(most)[:, None], axis=1)
+                self.add(self.number(k, sign), design, x[every, first], most)
+
+    def bounded(self) -> Mask:
+        """Whether each function of each design is bounded, as far as is known."""
+        finite: Mask = self.most < np.inf
+        return finite if self.sized else finite[::2] & finite[1::2]
+
+    def places(self) -> Array:
+        """The first places of the greatest values."""
+        least, first = bar(self.most), np.full(self.most.shape, np.nan)
+        for number, design, x, value in self.known:
+            near = value >= least[number, design]
+            which = number if isinstance(number, int) else number[near]
+            np.fmin.at(first, (which, design[near]), x[near])
+        return first
+
+    def hopeful(self, turns: Turns) -> Turns:
+        """Those that may pass what is known; of a slope of 0 the other one tells the side."""
+        _, v, d = turns.left
+        _, w, e = turns.right
+        rises = np.where(d == 0.0, -np.sign(e), np.sign(d))
+        # a cubic rises above its ends by 4/27 of this at most; and a cubic may miss
+        rise = (turns.right[0] - turns.left[0]) * np.abs(d - e) * (4.0 / 27.0)
+        reach = np.maximum(rises * v, rises * w) + rise * (1.0 + 4.0 * PREDICTED)
+        hopes = (d * e <= 0.0) & (reach >= self.most[self.number(turns.row, rises), turns.design])
+        return taken(turns._replace(rises=rises), hopes)
+
+
+def bar(most: Array) -> Array:
+    """What is no less is as good as the greatest."""
+    return np.where(np.isfinite(most), most - TIE * np.abs(most), most)
+
+
+def may_turn(before: Array, after: Array, level: Array) -> Mask:
+    """Whether a function may be stationary between two slopes: they differ in sign, or one is 0.
+
+    A motion starts, ends and passes its middle with slopes that are 0 but for rounding: there only
+    the bend tells what is beside them.
+    """
+    one, two = np.abs(before), np.abs(after)
+    flat = (np.minimum(one, two) <= level) & (np.maximum(one, two) > level)
+    turns: Mask = (before * after < 0.0) | flat
+    return turns
+
+
+def turns_in(row: int, k: int, cells: Cells, range_: Range) -> Turns:
+    """The cells in which the function ``row``, the k-th that is wanted, may turn."""
+    (a, b), (v, w), (d, e) = cells.x, cells.value[:, row], cells.slope[:, row]
+    level = range_.level(row, cells.design) / (b - a)
+    here = np.flatnonzero(may_turn(d, e, level))
+    left, right = np.stack((a, v, d))[:, here], np.stack((b, w, e))[:, here]
+    for end in (left, right):  # slopes that are 0 but for rounding
+        end[2, np.abs(end[2]) <= level[here]] = 0.0
+    positive = cells.positive[0][:, here]
+    return Turns(np.full(len(here), k), left[0], cells.design[here], positive, left, right)
+
+
+def touches(cells_width: Array, v: Array, d: Array, w: Array, e: Array) -> Mask:
+    """Whether functions of one sign at both ends may cross zero twice between them.
+
+    The tangents there meet beyond zero: what is bent one way lies between them and its chord.
+    """
+    up = np.sign(v)
+    way = (w - v - e * cells_width) / (d - e)
+    meet: Mask = (v * w > 0.0) & (d * up < 0.0) & (e * up > 0.0) & ((v + d * way) * up < 0.0)
+    return meet
+
+
+def zero_of_cubic(v: Array, w: Array, d: Array, e: Array) -> Array:
+    """Where between 0 and 1 the cubic of two values and slopes is zero, nearly."""
+    t = np.where(v * w < 0.0, v / (v - w), 0.5)
+    p, q = d + e - 2.0 * (w - v), 3.0 * (w - v) - 2.0 * d - e
+    for _ in range(3):
+        t = t - (v + t * (d + t * (q + t * p))) / (d + t * (2.0 * q + t * 3.0 * p))
+    return np.where((t > 0.0) & (t < 1.0), t, 0.5)

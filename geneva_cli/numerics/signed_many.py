@@ -1,0 +1,309 @@
+"""Extremes of functions of many designs that are smooth only while some others keep their signs.
+
+A load jumps where the roller's sliding turns round, and has a kink where its torque does. Each
+design's span is sampled; where a sign changes between two samples its zero is found and the span
+is cut there, and where a cubic does not predict a sample midway, or a pair of zeros may hide, it is
+halved. What is left are cells: between their ends every function is smooth, and as good as a cubic.
+Newton then works on those alone in which a function may pass what is known of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.cells import (
+    Cells,
+    Cuts,
+    Look,
+    Range,
+    Tops,
+    Turns,
+    joined,
+    may_turn,
+    taken,
+    touches,
+    turns_in,
+    zero_of_cubic,
+)
+from geneva_cli.numerics.roots import DEEPEST
+from geneva_cli.numerics.roots_many import newton_many, turn_of_cubic, unpredicted
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.roots_many import Which
+
+BLOCK = 512  # designs sampled at a time: so many lie in the processor's cache
+CELLS = 8  # of a span, to begin with
+ENDED = 1e-9  # share of a cell: after so short a Newton step, what is left of a zero is rounding
+TURNED = 1e-6  # and of a turn's value, which goes with the square
+BESIDE = 0.01  # share of a cell: Newton begins no nearer to its ends
+BENT = 1e-7  # share of a function's range: a smaller bend over a cell may be rounding
+NARROW = 1e-9  # share of a place: a cell no wider is not halved
+NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
+_UNIT = np.arange(CELLS + 1) / CELLS
+
+
+class Signed(Protocol):
+    """The functions of designs. The first are those whose signs count, each of them smooth while
+    those before it keep theirs; the others are wanted, and are smooth while all do.
+    """
+
+    signs: int  # how many of the functions have a sign that counts
+    wanted: int  # how many others are looked for
+
+    def at(self, x: Array, which: Which, order: int) -> Any:
+        """What the functions of some designs are made of, at places (m, k) in degrees."""
+
+    def look(self, at: Any, forced: Array | None = None) -> tuple[Mask, list[Array]]:
+        """Which signs are positive, (signs, m, k), and Taylor coefficients (functions, m, k).
+
+        ``forced`` are signs that are known, 1.0 or -1.0; where it is NaN they are looked up. A
+        function without a bound is infinite, and its slope 0.
+        """
+
+
+class Found(NamedTuple):
+    """Greatest values of n designs and where, a row a quantity, as of ``Tops``; and the cuts."""
+
+    most: Array
+    x: Array
+    cuts: Cuts
+
+
+def search(
+    f: Signed,
+    spans: Sequence[tuple[Array, Array]],
+    n: int,
+    sized: bool,
+    known: Sequence[tuple[int, Array, Array]] = (),
+) -> Found:
+    """Of n designs over their spans, one after the other: (n, 1) the ends of each.
+
+    A span that ends before it begins is none. ``known`` are values that no span reaches: a wanted
+    function's number, and of each design the place and the value, NaN where there is none.
+    ``sized`` is as of ``Tops``.
+    """
+    with np.errstate(all="ignore"):
+        return _Search(f, n, sized, known).found(spans)
+
+
+class _Search:
+    def __init__(
+        self, f: Signed, n: int, sized: bool, known: Sequence[tuple[int, Array, Array]]
+    ) -> None:
+        self.f, self.n = f, n
+        self.tops = Tops(f.wanted, n, sized)
+        self.range = Range(*np.full((2, f.signs + f.wanted, n), np.inf) * [[[1.0]], [[-1.0]]])
+        self.cells: list[Cells] = []  # to be looked at again
+        self.turns: list[Turns] = []
+        self.cuts: list[Cuts] = []
+        for k, place, value in known:
+            there = np.flatnonzero(~np.isnan(value))
+            for sign, side in self.tops.sides(value[there]):
+                self.tops.add(self.tops.number(k, sign), there, place[there], side)
+
+    def found(self, spans: Sequence[tuple[Array, Array]]) -> Found:
+        for number, (a, b) in enumerate(spans):
+            there = (b > a)[:, 0]
+            for i in range(0, self.n, BLOCK):
+                part = slice(i, i + BLOCK)
+                self._sample(a[part], np.maximum(a, b)[part], there[part], part, number)
+        cells = joined(self.cells)
+        self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
+        self._settle(cells)
+        self._turn(joined(self.turns))
+        return Found(self.tops.most, self.tops.places(), joined(self.cuts))
+
+    def _sample(self, a: Array, b: Array, there: Mask, part: slice, number: int) -> None:
+        """One span of some designs: what is to be looked at again, and where functions turn."""
+        f = self.f
+        # Designs lie side by side in memory: each operation runs along all of them.
+        x = np.asfortranarray(a + (b - a) * _UNIT)
+        x[:, -1:] = b
+        positive, (value, slope) = f.look(f.at(x, part, 1))
+        slope *= DEGREE
+        design = np.arange(part.start, part.start + len(x))
+        self.range.widen(design[there], value[:, there])
+        self.tops.add_samples(design[there], x[there], value[f.signs :, there])
+        open_ = self._open(x, positive, value, slope, design) & there[:, None]
+        closed = ~open_ & there[:, None]
+
+        def cells(where: Mask) -> Cells:
+            row, column = np.nonzero(where)
+            ends = [
+                np.stack((v[..., row, column], v[..., row, column + 1])) for v in (x, value, slope)
+            ]
+            signs = np.stack((positive[:, row, column], positive[:, row, column + 1]))
+            return Cells(design[row], np.full(len(row), number), ends[0], signs, ends[1], ends[2])
+
+        self.cells.append(cells(open_))
+        for k in range(f.wanted):
+            row = f.signs + k
+            level = self.range.level(row, design)[:, None] / (x[:, 1:] - x[:, :-1])
+            turning = may_turn(slope[row, :, :-1], slope[row, :, 1:], level) & closed
+            if turning.any():
+                some = turns_in(row, k, cells(turning), self.range)
+                self.turns.append(self.tops.hopeful(some))
+
+    def _open(self, x: Array, positive: Mask, value: Array, slope: Array, design: Whole) -> Mask:
+        """Of samples (m, k) the cells that must be looked at again: (m, k - 1)."""
+        left, middle, right = (
+            (x[:, part], value[:, :, part], slope[:, :, part])
+            for part in (slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2))
+        )
+        low, high = (side[:, design, None] for side in self.range)
+        missed = unpredicted(left, middle, right, low, high)
+        lost = (missed & self._bounded(design)[:, :, None]).any(axis=0)
+        differ = (positive[:, :, :-1] != positive[:, :, 1:]).any(axis=0)
+        v, d, width = value[: self.f.signs], slope[: self.f.signs], x[:, 1:] - x[:, :-1]
+        open_: Mask = np.asarray(differ)
+        open_ = open_ | touches(width, v[..., :-1], d[..., :-1], v[..., 1:], d[..., 1:]).any(axis=0)
+        for side in (slice(0, None, 2), slice(1, None, 2)):
+            open_[:, side] |= lost | differ[:, ::2] | differ[:, 1::2]
+        return open_
+
+    def _bounded(self, design: Whole) -> Mask:
+        """Whether functions are bounded as far as is known: what is not is looked at no nearer."""
+        wanted = self.tops.bounded()[:, design]
+        return np.concatenate((np.full((self.f.signs, len(design)), True), wanted))
+
+    def _look(self, at: Any, forced: Array | None = None) -> Look:
+        """At places (m, 1): without their last axis, and slopes by degrees."""
+        positive, c = self.f.look(at, None if forced is None else forced[..., None])
+        return Look(positive[..., 0], c[0][..., 0], c[1][..., 0] * DEGREE)
+
+    def _settle(self, cells: Cells) -> None:
+        """Cut at zeros, and halve until a cubic predicts."""
+        for _ in range(2 * DEEPEST):
+            ask()
+            differ = (cells.positive[0] != cells.positive[1]).any(axis=0)
+            rest = [*self._cut(taken(cells, differ)), *self._halved(taken(cells, ~differ))]
+            cells = joined(rest)
+            if not len(cells.design):
+                break
+
+    def _cut(self, cells: Cells) -> tuple[Cells, Cells]:
+        """In two at the zero of the first function whose sign differs."""
+        f, design, (a, b), (left, right) = self.f, cells.design, cells.x, cells.positive
+        if not len(design):
+            return cells, cells
+        kind, number = np.argmax(left != right, axis=0), np.arange(f.signs)[:, None]
+        sides = [np.where(side, 1.0, -1.0) for side in (left, right)]
+        before = np.where(number < kind, sides[0], np.nan)
+
+        def zero(x: Array, live: Whole) -> tuple[Array, Array]:
+            _, value, slope = self._look(f.at(x[:, None], design[live], 1), before[:, live])
+            own = kind[live], np.arange(len(live))
+            return value[own], slope[own]
+
+        every = np.arange(len(a))
+        (v, w), (d, e) = cells.value[:, kind, every], cells.slope[:, kind, every]
+        start = a + (b - a) * zero_of_cubic(v, w, d * (b - a), e * (b - a))
+        x = newton_many(zero, a, b, start, ~left[kind, every], ENDED)[0]
+        at = f.at(x[:, None], design, 1)
+        looks = [self._look(at, np.where(number <= kind, side, np.nan)) for side in sides]
+        for look in looks:
+            self.tops.add_all(design, x, look.value[f.signs :])
+        one, two = cells.parted(x, looks)
+        self.cuts.append(_cuts(one, two, every))
+        return one, two
+
+    def _halved(self, cells: Cells) -> tuple[Cells, Cells]:
+        """The halves of cells of one sign that must be looked at again."""
+        f, (a, b) = self.f, cells.x
+        x = 0.5 * (a + b)
+        inside = (x > a) & (x < b)
+        cells, x = taken(cells, inside), x[inside]
+        if not len(x):
+            return cells, cells
+        design = cells.design
+        at = f.at(x[:, None], design, 1)
+        look = self._look(at)
+        # what is as small as rounding has the sign of its cell
+        noise = np.abs(look.value[: f.signs]) <= NOISE * self.range.size(design)[: f.signs]
+        if noise.any():
+            own = np.where(cells.positive[0], 1.0, -1.0)
+            look = self._look(at, np.where(noise, own, np.nan))
+        self.tops.add_all(design, x, look.value[f.signs :])
+        low, high = (side[:, design] for side in self.range)
+        missed = unpredicted(cells.at(0), (x, *look[1:]), cells.at(1), low, high)
+        wide = cells.x[1] - cells.x[0] > NARROW * (np.abs(cells.x[0]) + np.abs(cells.x[1]))
+        open_ = (missed & self._bounded(design)).any(axis=0) & wide
+        open_ |= (look.positive != cells.positive[0]).any(axis=0)
+        halves = cells.parted(x, (look, look))
+        for half in halves:
+            (v, w), (d, e) = half.value[:, : f.signs], half.slope[:, : f.signs]
+            open_ |= touches(half.x[1] - half.x[0], v, d, w, e).any(axis=0) & wide
+        closed = joined([taken(half, ~open_) for half in halves])
+        for k in range(f.wanted):
+            some = turns_in(f.signs + k, k, closed, self.range)
+            self.turns.append(self.tops.hopeful(some))
+        return taken(halves[0], open_), taken(halves[1], open_)
+
+    def _turn(self, turns: Turns) -> None:
+        """Newton on every turn that may still be the greatest."""
+        tops = self.tops
+        turns = tops.hopeful(self._bent(tops.hopeful(turns)))
+        if not len(turns.row):
+            return
+
+        a, b = turns.left[0], turns.right[0]
+        tiny = np.finfo(float).tiny
+        at_a, at_b = (np.abs(end[2]) <= tiny for end in (turns.left, turns.right))
+
+        def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array]:
+            value, slope, bend = self._jet(x, turns, live)
+            slope, bend = slope * DEGREE, 2.0 * bend * DEGREE * DEGREE
+            # an end that is stationary itself is divided out of the slope that Newton sees
+            others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
+            return slope, bend - slope * np.nan_to_num(others), value
+
+        start = turn_of_cubic(turns.left, turns.right)
+        width = b - a
+        start = np.clip(start, a + BESIDE * width, b - BESIDE * width)
+        x, step, (slope, _, value) = newton_many(slope_of, a, b, start, turns.rises < 0.0, TURNED)
+        # on the parabola through the last place but one; a size that is zero has no slope
+        ahead = 0.5 * slope * step
+        value = value + np.where(np.isnan(ahead), 0.0, ahead)
+        top = np.abs(value) if tops.sized else turns.rises * value
+        x = np.where(np.isnan(x), start, x)
+        tops.add(tops.number(turns.row, turns.rises), turns.design, x, top)
+
+    def _bent(self, turns: Turns) -> Turns:
+        """Slopes of 0 replaced by the sign that they have within the cell.
+
+        The bend tells it; where that is 0 too, the cell is taken to have a turn. If it has none
+        Newton ends at the stationary end, whose value is known.
+        """
+        row, design = self.f.signs + turns.row, turns.design
+        span = (self.range.high - self.range.low)[row, design]
+        width = (turns.right[0] - turns.left[0]) * DEGREE
+        for end, other, way in (
+            (turns.left, turns.right, 1.0),
+            (turns.right, turns.left, -1.0),
+        ):
+            here = np.flatnonzero(end[2] == 0.0)
+            if len(here):
+                bend = self._jet(end[0, here], turns, here)[2]
+                clear = np.abs(bend) * width[here] ** 2 > BENT * span[here]
+                sign = np.where(clear, way * np.sign(bend), -np.sign(other[2, here]))
+                end[2, here] = sign * np.finfo(float).tiny
+        return turns
+
+    def _jet(self, x: Array, turns: Turns, live: Whole) -> list[Array]:
+        """Taylor coefficients of the functions of some turns, each at its place."""
+        forced = np.where(turns.positive[:, live], 1.0, -1.0)[..., None]
+        _, c = self.f.look(self.f.at(x[:, None], turns.design[live], 2), forced)
+        own = self.f.signs + turns.row[live], np.arange(len(live)), 0
+        return [one[own] for one in c]
+
+
+def _cuts(before: Cells, after: Cells, where: Whole) -> Cuts:
+    positive = np.stack((before.positive[1], after.positive[0]))
+    return taken(Cuts(before.design, before.span, before.x[1], positive), where)
