@@ -114,7 +114,7 @@ def summaries_of_many(
             one = one._replace(max=most, min=least)
         if sums is not None:
             mean, square = (np.where(bounded, v / period, np.inf) for v in sums[2 * i : 2 * i + 2])
-            mean = np.where(mean * mean <= NOUGHT * square, 0.0, mean)
+            mean = np.where(bounded & (mean * mean <= NOUGHT * square), 0.0, mean)
             none = joined and name in JOINTS
             one = one._replace(mean=None if none else mean, rms=np.sqrt(square))
         best[name] = one
