@@ -174,6 +174,11 @@ CORE = {"numerics", "machine", "curves", "analysis", "parts"}
 # Where `Any` stands in the core's annotations, for what is no number of a formula: the cells of a
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
+    # jets and values alike; what the searches of numerics hand back to whom they ask, unread
+    "analysis.loads.loaded_many": {"At", "at", "look", "sign", "instant", "self.kept"},
+    "numerics.signed_many": {"at", "look", "_look"},
+    # one number, or as many as there are values
+    "numerics.cells": {"number", "taken", "add", "self.known"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "machine.registry": {"_found"},

@@ -16,7 +16,7 @@ those of one design; all its stretches are found together, a block of designs af
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -133,8 +133,8 @@ def _over_all(
     out = []
     for engagement in mechanism.engagements:
         most, x, sums = _of(engagement, given, names, sized, means)
-        places: Any = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
-        shown = [mechanism.shown_deg(places[:, i : i + 1]) for i in range(len(x))]
+        places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
+        shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, sums))
     return out
 
