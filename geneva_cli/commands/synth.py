@@ -66,6 +66,14 @@ def run(
         typer.Option("--from", metavar="SPEC", help="Its z, speed, sizes, loads, limits for all."),
     ] = "",
     given: Given = None,
+    space: Annotated[
+        str,
+        typer.Option(
+            metavar="X",
+            help="Four-bars: joints at most X centre distances from the crank.",
+            show_default="3",
+        ),
+    ] = "",
     sort: Annotated[
         str,
         typer.Option(
@@ -94,9 +102,14 @@ def run(
 
     Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
     tenth of the centre distance aside; a side-crank; equal elliptical gears; a planet gear (z 3, 4,
-    6); curved slots and a cam, with an extra dwell. Side-crank, gears and planet carry one roller,
-    straight slots as many as leave a dwell, curved slots also more while their parts can be built.
+    6); a four-bar's coupler; curved slots and a cam, with an extra dwell. Side-crank, gears, planet
+    and four-bar carry one roller, straight slots as many as leave a dwell, curved slots also more
+    while their parts can be built.
     Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the motion.
+
+    The four-bar has the lowest peak found among proportions whose crank turns all round and whose
+    joints keep to --space; a machine is named by its crank, ground, coupler, rocker and the
+    roller's distance on the coupler, in mm. Something else must hold its wheel at rest: "detent".
 
     Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
     they do; no, with the reason; maybe for those below the first twenty (--checked); nothing for
@@ -127,6 +140,7 @@ def run(
         frame=_frame(from_, given or ()) if from_ else None,
         sort=sort,
         subject_to=subject_to or (),
+        space=space,
     )
     if write is None:
         _show(wish, checked, buildable, output, format)

@@ -322,6 +322,16 @@ def residual(ends: Pairs, b: Array) -> Residual:
     return Residual((chord * both).imag, by_entry, by_exit, excess, det, sense)
 
 
+def newton(ends: Pairs, rest: Residual) -> Array:
+    """The step of Newton from places, in two columns."""
+    turn, turn_out = ends.at.turn.T
+    excess = rest.sense * rest.excess
+    by_entry = excess * rest.by_exit - rest.away * turn_out
+    by_exit = -excess * rest.by_entry - rest.away * turn
+    step: Array = np.stack((by_entry, by_exit), axis=1) / rest.det[:, None]
+    return step
+
+
 def _solved(path: Path, boxes: _Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
     """Newton from places in boxes: where it ends, and whether that is a pair in the box."""
     low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
@@ -335,16 +345,7 @@ def _solved(path: Path, boxes: _Boxes, phi: Array, b: Array) -> tuple[Pairs, Mas
             break
         ends = ends_at(path, boxes.which[live], phi[live])
         rest = residual(ends, b)
-        turn, turn_out = ends.at.turn.T
-        excess = rest.sense * rest.excess
-        move = np.stack(
-            (
-                excess * rest.by_exit - rest.away * turn_out,
-                -excess * rest.by_entry - rest.away * turn,
-            ),
-            axis=1,
-        )
-        move /= rest.det[:, None]
+        move = newton(ends, rest)
         move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
         phi[live] += move
         off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]

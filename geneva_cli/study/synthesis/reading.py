@@ -12,11 +12,12 @@ from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import constraint, refuse_contradictions
 from geneva_cli.study.synthesis.spans import Span
-from geneva_cli.study.synthesis.wish import GEARINGS, Wish
+from geneva_cli.study.synthesis.wish import GEARINGS, SPACE, Wish
 
 WHEELS_MAX = 200  # numbers of slots in one call: each costs some hundredths of a second
 CYCLE = Range(1e-6, 1e6)
 STEP = Range(360.0 / Z_MAX, 120.0)
+SPACES = Range(0.1, 100.0)
 
 # The wishes for a number or a range of it, each with what it may be, its name and unit in words.
 SPANS = {
@@ -50,6 +51,7 @@ def read_wish(
     frame: Spec | None = None,
     sort: str = "",
     subject_to: Sequence[str] = (),
+    space: str = "",
 ) -> Wish:
     """The wish that the command's options state, as text; an empty text is an option not given.
 
@@ -109,6 +111,7 @@ def read_wish(
         frame,
         sort,
         bounds,
+        number("--space", space, SPACES) if space else SPACE,
     )
     wish.refuse_contradictions(rollers or 1)
     return wish

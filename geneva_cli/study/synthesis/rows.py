@@ -55,6 +55,13 @@ class Way(NamedTuple):
     fixed: str | None
     motion_s: float | None  # with a cycle time
     dwell_s: float | None
+    crank_mm: float | None  # a four-bar's keys
+    ground_mm: float | None
+    coupler_mm: float | None
+    rocker_mm: float | None
+    point_mm: float | None
+    point_deg: float | None
+    entry_deg: float | None
 
 
 class Row(NamedTuple):
@@ -154,6 +161,13 @@ def _way(machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | No
         fixed=own.get("fixed"),
         motion_s=time.motion_s if n else None,
         dwell_s=time.dwell_s if n else None,
+        crank_mm=own.get("crank_mm"),
+        ground_mm=own.get("ground_mm"),
+        coupler_mm=own.get("coupler_mm"),
+        rocker_mm=own.get("rocker_mm"),
+        point_mm=own.get("point_mm"),
+        point_deg=own.get("point_deg"),
+        entry_deg=own.get("entry_deg"),
     )
 
 

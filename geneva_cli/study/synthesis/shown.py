@@ -47,6 +47,7 @@ CONSTANT = ("rollers", "motion_deg", "dwell_deg", "motion_s", "dwell_s", "tau", 
 DESCRIBED = (  # columns that the machine's description stands for
     *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
     *("offset_mm", "planet_ratio", "fixed"),
+    *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
 )
 
 
@@ -112,8 +113,15 @@ def _machine(row: dict[str, Any], several: bool) -> str:
         f"{row['fixed']} rp {_number(row['planet_ratio'])}" if row["fixed"] else "",
         f"axes {_number(row['axes_deg'])}" if row["axes_deg"] not in (None, 90.0) else "",
         f"offset {_number(row['offset_mm'])} mm" if row["offset_mm"] else "",
+        _links(row) if row["ground_mm"] else "",
     ]
     return " ".join([row["drive"], *filter(None, own)])
+
+
+def _links(row: dict[str, Any]) -> str:
+    """Crank, ground, coupler, rocker and the roller's place, in mm."""
+    lengths = (row[key] for key in ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm"))
+    return " ".join(f"{x:.3g}" for x in lengths)
 
 
 def _fitting(columns: list[Column]) -> list[Column]:

@@ -24,6 +24,7 @@ GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Span(0.0, math.inf)
+SPACE = 3.0  # centre distances that a linkage may take where nothing is said
 
 
 class Wish(NamedTuple):
@@ -42,6 +43,7 @@ class Wish(NamedTuple):
     frame: Spec | None = None
     sort: str = ""  # a quantity of a design; with a minus sign the greatest first
     bounds: tuple[Constraint, ...] = ()
+    space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
 
     @property
     def timed(self) -> bool:

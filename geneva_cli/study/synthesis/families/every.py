@@ -12,6 +12,7 @@ from geneva_cli.machine import registry
 from geneva_cli.study.synthesis.families.below import below
 from geneva_cli.study.synthesis.families.curved import with_laws
 from geneva_cli.study.synthesis.families.family import Family
+from geneva_cli.study.synthesis.families.four_bars import four_bars
 from geneva_cli.study.synthesis.families.straight import straight
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -30,3 +31,4 @@ def families(wish: Wish, reached: list[float]) -> Iterator[Family]:
             else:
                 yield from straight(wish, wheel)
                 yield from with_laws(wish, wheel)
+                yield from four_bars(wish, wheel)

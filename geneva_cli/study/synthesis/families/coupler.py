@@ -1,0 +1,132 @@
+"""The point of a coupler that drives a wheel for a given motion, in closed form.
+
+A four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b are given; sought
+is the roller's place w on the coupler, a complex number along it and aside. With the crank's pin A
+and the coupler's unit vector e the roller is at P = A + w e, and moves with V = A' + w e'. It
+enters and leaves slots of a wheel of sense s where the tangent has turned by pi - 2b against the
+wheel, and the chord stands half-way between both tangents:
+
+    Im(V2 V1* exp(i s (pi - 2b))) = 0 ,    Im((P2 - P1) V1* exp(i s (pi - 2b)/2)) = 0 .
+
+In the plane of w both are circles. They meet where the roller rests at entry, V1 = 0, which is no
+answer, and in one more point.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Complex, Mask
+
+
+class Links(NamedTuple):
+    """Crank, ground, coupler and rocker; the coupler on the positive side. Shapes (n, 1)."""
+
+    a: Array
+    g: Array
+    b: Array
+    c: Array
+
+    def taken(self, which: Any) -> Links:
+        """Some of the linkages."""
+        return Links(*(x[which] for x in self))
+
+
+class Linked(NamedTuple):
+    """The crank's pin and the coupler's unit vector as complex numbers, with their derivatives
+    over the factorials (Taylor coefficients).
+    """
+
+    pin: list[Complex]
+    along: list[Complex]
+
+
+class Drive(NamedTuple):
+    """What drives the wheel: entry and motion in radians, the wheel's sense, the roller's place."""
+
+    entry: Array
+    motion: Array
+    sense: Array
+    w: Complex
+
+
+class Judged(NamedTuple):
+    """Whether the wheel is driven, its peak acceleration, the centre distance, and how far from the
+    crank's axis a joint or the roller comes. Shapes (n,).
+    """
+
+    drives: Mask
+    peak: Array
+    distance: Array
+    reach: Array
+
+
+def linked(links: Links, phi: Array, order: int) -> Linked:
+    """The linkage for crank angles in radians: as ``CouplerPath`` says it."""
+    a, g, b, c = links
+    sine, cosine = sin_cos(Jet.variable(phi, order))
+    dx, dy = g - cosine * a, sine * -a
+    D = dx * dx + dy * dy
+    along = (D + (b - c) * (b + c)) / (D * (2.0 * b))
+    across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2.0 * b))
+    ex, ey = dx * along - dy * across, dy * along + dx * across
+    return Linked(_complex(cosine * a, sine * a), _complex(ex, ey))
+
+
+def _complex(x: Jet, y: Jet) -> list[Complex]:
+    return [np.asarray(p + 1j * q) for p, q in zip(x.c, y.c, strict=True)]
+
+
+def driving(links: Links, entry: Array, motion: Array, b: float, sense: Array) -> Drive:
+    """The roller's place that makes the motion, (n, 1); not a number where there is none."""
+    one, two = (linked(links, phi, 1) for phi in (entry, entry + motion))
+    turn = np.exp(1j * sense * (0.5 * math.pi - b))
+    v, u = one.pin[1], one.along[1]
+    circles = []
+    for p, e, k in (
+        (two.pin[1], two.along[1], turn * turn),
+        (two.pin[0] - one.pin[0], two.along[0] - one.along[0], turn),
+    ):
+        # Im((p + w e)(v + w u)* k) = A |w|² + Im(d w) + C
+        d = e * v.conj() * k - (p * u.conj() * k).conj()
+        circles.append(((e * u.conj() * k).imag, d, (p * v.conj() * k).imag))
+    (A, d, C), (A2, d2, C2) = circles
+    # The line through both points: Im(D w) + E = 0
+    D, E = A2 * d - A * d2, A2 * C - A * C2
+    way, foot = D.conj() / np.abs(D), -1j * E / D
+    at_rest = ((-v / u - foot) * way.conj()).real
+    total = -(2.0 * A * (foot * way.conj()).real + (d * way).imag) / A
+    return Drive(entry, motion, sense, foot + (total - at_rest) * way)
+
+
+def judged(links: Links, drive: Drive, b: float, inside: int, outside: int) -> Judged:
+    """What becomes of the wheel, looked at in so many places of the motion and of the way back."""
+    entry, motion, sense, w = drive
+    way = linked(links, entry + motion * (np.arange(inside + 1) / inside), 2)
+    pins = [p + w * e for p, e in zip(way.pin, way.along, strict=True)]
+    p, q, v = pins[0][:, :1], pins[0][:, -1:], pins[1][:, :1]
+    t = v / np.abs(v)
+    rho = np.abs(q - p) / (2.0 * math.sin(b))
+    centre = p + rho * t
+    rays = [pins[0] - centre, *pins[1:]]
+    x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])
+    _, velocity, acceleration = (np.asarray(d) for d in atan2(y, x).derivatives())
+    back = entry + motion + (math.tau - motion) * (np.arange(1, outside) / outside)
+    rest = linked(links, back, 0)
+    pin = rest.pin[0] + w * rest.along[0]
+    # the chord runs from entry to exit, and the tangents meet there
+    ahead = ((q - p) * t.conj() * np.exp(1j * sense * (0.5 * math.pi - b))).real > 0.0
+    drives = ahead[:, 0] & (velocity[:, 1:-1] * sense > 0.0).all(axis=1)
+    drives &= (np.abs(rays[0][:, 1:-1]) < rho).all(axis=1)
+    drives &= (np.abs(pin - centre) > rho).all(axis=1)
+    joints = [way.pin[0] + links.b * way.along[0], rest.pin[0] + links.b * rest.along[0]]
+    reach = np.maximum.reduce(
+        [np.abs(z).max(axis=1) for z in (*joints, pins[0], pin)] + [links.g[:, 0]]
+    )
+    return Judged(drives, np.abs(acceleration).max(axis=1), np.abs(centre[:, 0]), reach)

@@ -1,0 +1,136 @@
+"""Four-bars that synth finds: each against the machine as built, and against brute force."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli.analysis.peaks import acceleration_peak
+from geneva_cli.analysis.peaks_many import worst_of_many
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.four_bar import FourBar
+from geneva_cli.machine.many import many
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.spec.tables import Size
+from geneva_cli.study.synthesis.families import four_bars as families
+from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.search import search
+from geneva_cli.verdict.checks import checks
+
+KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")
+
+
+@functools.cache
+def four_bars(**options):
+    """The four-bars of a wish, with their rows, searched for once."""
+    found = search(read_wish(**options)).rows
+    return [row for row in found if row.way.drive == "four-bar"]
+
+
+def reach(drive):
+    """How far a joint or the roller comes from the crank's axis, by the linkage's own geometry."""
+    phi = np.linspace(0.0, math.tau, 2001)
+    A = drive.crank_mm * np.exp(1j * phi)
+    d = drive.ground_mm - A
+    # law of cosines: the angle at A between the rocker's pivot and B
+    b, c, D = drive.coupler_mm, drive.rocker_mm, abs(d)
+    e = d / D * np.exp(1j * np.arccos((b * b + D * D - c * c) / (2.0 * b * D)))
+    C = A + drive.point_mm * np.exp(1j * math.radians(drive.point_deg)) * e
+    return max(drive.ground_mm, abs(A + b * e).max(), abs(C).max())
+
+
+@pytest.mark.parametrize(("z", "motion"), [(3, 75.0), (4, 100.0), (6, 120.0), (12, 200.0)])
+def test_a_four_bar_makes_the_motion(z, motion):
+    """Found in closed form; the machine is solved for in 50 digits, from its path alone.
+
+    A closed form in doubles moves the point by some 1e-15 of its distance, and the motion by that
+    over the slope with which the index angle passes the wanted one: 1e-12 leaves it to be 1/1000.
+    """
+    (row,) = four_bars(motion_deg=repr(motion), z=str(z), external=True)
+    machine = build(row.spec)
+    assert machine.engagements[0].motion_deg == pytest.approx(motion, rel=1e-12)
+    assert machine.center_distance_mm == pytest.approx(100.0, rel=1e-12)
+    assert row.way.motion_deg == machine.engagements[0].motion_deg
+    assert [getattr(row.way, key) for key in KEYS] == [getattr(row.spec.drive, key) for key in KEYS]
+    # the search looks at 192 places: a joint goes no farther between them than 1/1000
+    assert reach(row.spec.drive) <= 300.0 * (1.0 + 1e-3)
+
+
+@pytest.mark.parametrize("space", ["0.9", "3"])
+def test_it_is_as_large_as_the_frame_and_no_larger_than_the_space(space):
+    frame = Spec(External(6), Crank(n_rpm=30.0), size=Size(center_distance_mm=80.0))
+    (row,) = four_bars(motion_deg="110", frame=frame, space=space)
+    assert build(row.spec).center_distance_mm == pytest.approx(80.0, rel=1e-12)
+    assert row.spec.drive.n_rpm == 30.0
+    # the search looks at 192 places: a joint goes no farther between them than 1/1000
+    assert reach(row.spec.drive) <= float(space) * 80.0 * (1.0 + 1e-3)
+
+
+def test_where_there_is_no_room_there_is_none():
+    assert four_bars(motion_deg="110", z="6")
+    assert not four_bars(motion_deg="110", z="6", space="0.2")
+
+
+def test_it_takes_one_roller_on_an_external_wheel():
+    assert not four_bars(motion_deg="120", z="6", rollers=2)
+    assert not four_bars(motion_deg="220", z="6", internal=True)
+    assert not four_bars(motion_deg="120", z="6", spherical=True)
+
+
+def test_the_same_in_every_run():
+    one = four_bars(motion_deg="120", z="6")
+    other = [
+        r for r in search(read_wish(motion_deg="120", z="6")).rows if r.way.drive == "four-bar"
+    ]
+    assert [r.spec.drive for r in one] == [r.spec.drive for r in other]
+
+
+def test_its_written_spec_passes():
+    (row,) = four_bars(motion_deg="120", z="6")
+    assert row.way.parts == "maybe"
+    assert all(check.passes is not False for check in checks(build(row.spec)))
+
+
+@functools.cache
+def brute(z, n=400):
+    """Random four-bars: motion, peak acceleration and reach of those that drive a wheel."""
+    random = np.random.default_rng(z)
+    links = {
+        key: random.uniform(30.0, 300.0, n) for key in ("ground_mm", "coupler_mm", "rocker_mm")
+    }
+    sides = np.array(list(links.values()))
+    longest = np.minimum(sides.min(axis=0), sides.sum(axis=0) - 2.0 * sides.max(axis=0))
+    turns = longest > 10.0
+    varied = {f"drive.{key}": side[turns] for key, side in links.items()}
+    count = int(turns.sum())
+    varied["drive.crank_mm"] = longest[turns] * random.uniform(0.05, 0.97, count)
+    varied["drive.point_mm"] = random.uniform(10.0, 400.0, count)
+    varied["drive.point_deg"] = random.uniform(-180.0, 180.0, count)
+    first = {key.removeprefix("drive."): value[0] for key, value in varied.items()}
+    found = many(Spec(External(z), FourBar(**first)), varied)
+    machine = found.machine
+    drives = [
+        FourBar(**{k.removeprefix("drive."): float(v[i]) for k, v in varied.items()})
+        for i in found.which
+    ]
+    peak = worst_of_many(machine, ["acceleration"])["acceleration"].max
+    motion = np.broadcast_to(machine.engagements[0].motion_deg, (len(peak), 1))[:, 0]
+    return drives, motion, peak, machine.center_distance_mm[:, 0]
+
+
+@pytest.mark.parametrize("z", [4, 6, 9])
+def test_what_brute_force_finds_is_there_or_better(z):
+    """Of hundreds of random four-bars with room the gentlest, for the motion of each."""
+    drives, motion, peak, L = brute(z)
+    fits = [i for i in range(len(peak)) if reach(drives[i]) <= 3.0 * L[i]]
+    # by how gentle they are for their motion
+    gentlest = sorted(fits, key=lambda i: peak[i] * motion[i] ** 2)[:3]
+    assert len(fits) > 20
+    for i in gentlest:
+        wish = read_wish(motion_deg=repr(float(motion[i])), z=str(z))
+        (family,) = families.four_bars(wish, External(z))
+        found = build(family.make(0.0)).engagements[0]
+        assert acceleration_peak(found).max <= peak[i]
