@@ -119,7 +119,9 @@ def pairs(path: Path, samples: Iterable[Samples], b: Array) -> Found:
         boxes = _halved(path, boxes.taken(rest))
         boxes = boxes.taken(_may_turn(boxes, wanted))
         boxes = boxes.taken(_may_meet(boxes))
-    return Found(joined(found), ends.taken(~close))
+    ends = ends.taken(np.flatnonzero(~close))
+    near = np.flatnonzero(np.abs(residual(ends, b).excess) < DOUBTFUL)
+    return Found(joined(found), ends.taken(near))
 
 
 def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, Array]:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 THIRD = 1.0 / 3.0
 SAME = 1e-6  # radians: entries nearer to each other are one
+BESIDE = 1e-4  # radians: places in doubt that are nearer to each other lead to one wheel
 ROUNDING = 1e-9  # share of its greatest by which a quantity may be below zero where it is zero
 CLOSER = 8  # parts into which an interval is cut that is looked at more closely
 LOOKS = 4  # times that it is
@@ -93,6 +94,7 @@ def wheels(path: Path, b: Array) -> Search:
         doubtful = joined([doubtful, ends.taken(~steep)])
         # A path that stops has no direction there; boxes about it are of no place at all.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
+        doubtful = doubtful.taken(_firsts(doubtful, BESIDE))
         ends, sense = ends.taken(steep), rest.sense[steep]
         block = np.zeros(len(b), dtype=int)
         for i, samples in enumerate(every):
@@ -110,12 +112,12 @@ def followed(path: Path, phi: Array, sense: Array) -> Wheels:
         return _followed(path, next(sampled(path, 1)), ends, sense)
 
 
-def _firsts(ends: Pairs) -> Whole:
+def _firsts(ends: Pairs, same: float = SAME) -> Whole:
     """Of pairs that are one, the first."""
     place = ends.at.phi[:, 0] % math.tau
     order = np.lexsort((place, ends.which))
     new = np.ones(len(order), dtype=bool)
-    new[1:] = (np.diff(ends.which[order]) != 0) | (np.diff(place[order]) > SAME)
+    new[1:] = (np.diff(ends.which[order]) != 0) | (np.diff(place[order]) > same)
     return order[new]
 
 
