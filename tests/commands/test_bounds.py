@@ -173,6 +173,27 @@ def test_a_million_rows_in_flat_memory(spec):
         assert sum(1 for _ in file) == 1_000_001
 
 
+# 36,000 rows of three numbers and a text are 9 MB as Python's objects; pyarrow reads and writes
+# ahead in blocks of 4 MB, and keeps what it has had
+@pytest.mark.parametrize(
+    ("file", "how", "more"), [("a.csv", "--random", 6.0), ("a.parquet", "grid", 40.0)]
+)
+def test_a_sweep_holds_no_rows(file, how, more):
+    """Its file grows block by block."""
+    used = []
+    for rows in (4_000, 40_000):
+        points = f"drive.A=0:0.9:{0.9 / (rows - 1)!r}" if how == "grid" else "drive.A=0:0.9"
+        vary = ["--vary", points, *(() if how == "grid" else ("--random", str(rows)))]
+        picked = ["--pick", "velocity.max,acceleration.max", "--jobs", "1", "-o", file]
+        status, said, megabytes, _ = run(
+            "sweep", "spec.toml", "--set", "drive.kind=side-crank", *vary, *picked, timeout=120
+        )
+        assert status == 0, said
+        used.append(megabytes)
+        os.remove(file)
+    assert used[1] < used[0] + more
+
+
 def test_many_specs_at_once():
     for i in range(200):
         put(f"{i}.toml", WHEEL + 'gearing = "spherical"\n')  # no parts to turn: many, and quick

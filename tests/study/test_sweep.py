@@ -19,6 +19,7 @@ from geneva_cli import GenevaError, load
 from geneva_cli.app import app
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.plan import Shard, plan
+from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import blocks, sweep
 from geneva_cli.study.sweep.values import axis
 
@@ -203,3 +204,15 @@ def test_errors_come_at_once(arguments, said, tmp_path):
     found = geneva("sweep", SPEC, *arguments)
     assert (found.exit_code, found.stdout) == (2, "")
     assert said in found.stderr and len(found.stderr.splitlines()) == 1
+
+
+def test_a_key_that_the_spec_lacks_may_be_the_one_that_is_varied(tmp_path):
+    """A side-crank needs an A; what else is wrong is said as ever."""
+    file = tmp_path / "spec.toml"
+    file.write_text('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n')
+    found = request(str(file), ["drive.A=0,0.3"], pick="velocity.max")
+    assert [row[1] for row in found.sweep.rows(0, 2)] == [1.0, 1.0 / 1.3]
+    with pytest.raises(GenevaError, match=r"needs A for kind"):
+        request(str(file), ["wheel.z=4,6"], pick="velocity.max")
+    with pytest.raises(GenevaError, match=r"needs A for kind"):
+        request(str(file), ["drive.A=5"], pick="velocity.max")

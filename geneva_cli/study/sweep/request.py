@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.specfile.reader import read
+from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
 from geneva_cli.study.sweep.front import Objective, objective
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
-from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep
+from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
 from geneva_cli.study.sweep.values import axis
 
 DRAWN = 4096  # designs that --best looks at where nothing else is said
@@ -87,8 +87,12 @@ def request(
     if jobs is not None and jobs < 1:
         raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
     text = read(path, given)
-    files = text.spec().files  # what is wrong with the file is said before what is asked of it
-    axes = [axis(text, random is not None or bool(best)) for text in vary]
+    many = random is not None or bool(best)
+    try:  # what is wrong with the file is said before what is asked of it
+        files = text.spec().files
+    except GenevaError as error:
+        files = _files(text, vary, many, error)
+    axes = [axis(words, many) for words in vary]
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
     bounds = [constraint(text) for text in subject_to]
@@ -108,6 +112,15 @@ def request(
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
     return Request(found, constraints, objectives, jobs, files)
+
+
+def _files(text: Text, vary: Sequence[str], many: bool, error: GenevaError) -> tuple[str, ...]:
+    """The files of a spec that is wrong by itself: what it lacks may be a key that is varied."""
+    try:
+        axes = [axis(words, many) for words in vary]
+        return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files
+    except GenevaError:
+        raise error from None
 
 
 def _objectives(pareto: str, best: str) -> list[Objective]:

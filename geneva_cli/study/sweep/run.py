@@ -17,7 +17,7 @@ from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep import batch, columns
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Plan, Shard
-from geneva_cli.study.sweep.values import Value
+from geneva_cli.study.sweep.values import Axis, Value
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 CHECKED = ("checks.passes", "checks.failed")
@@ -73,7 +73,7 @@ class Sweep(NamedTuple):
         return columns.known(self.pick.names)
 
     def _spec(self, some: Sequence[Value]) -> Spec:
-        return _text(self.text, self.plan, some).spec()
+        return with_values(self.text, self.plan.axes, some).spec()
 
     def row(self, some: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys."""
@@ -116,14 +116,14 @@ def _first(text: Text, plan: Plan) -> Mechanism:
     raise GenevaError(f"none of the first {min(TRIED, len(plan))} designs can be built: {said}")
 
 
-def _text(text: Text, plan: Plan, some: Sequence[Value]) -> Text:
+def with_values(text: Text, axes: Sequence[Axis], some: Sequence[Value]) -> Text:
     """The spec with the values of the keys set over its own."""
-    changes = tuple(_changed(a.key, v) for a, v in zip(plan.axes, some, strict=True))
+    changes = tuple(_changed(a.key, v) for a, v in zip(axes, some, strict=True))
     return text._replace(given=(*text.given, *changes))
 
 
 def _machine(text: Text, plan: Plan, some: Sequence[Value]) -> Mechanism:
-    text = _text(text, plan, some)
+    text = with_values(text, plan.axes, some)
     spec = text.spec()
     with text.located():
         return build(spec)
