@@ -518,6 +518,18 @@ class Design:
         found = (of or self.drawn(tolerance_mm)).found
         return self._located(lambda: part_sheet(found, part, tolerance_mm, CURVES[curves]))
 
+    def _repr_html_(self) -> str:
+        """How a notebook shows it: words and verdict, the machine, its curves, the report."""
+        from contextlib import suppress
+
+        from geneva_cli.output.notebook import shown
+
+        drawing = None
+        with suppress(GenevaError):  # spherical wheels are no flat parts
+            drawing = self.drawing("assembly")
+        report = self.report
+        return shown(report.table, report.passes, drawing, self.figure())
+
     @answer
     def checks(self) -> list[Check]:
         """Every check: its value, its limit, and where it fails the nearest change that passes.

@@ -1,0 +1,38 @@
+"""A design as a notebook shows it: pictures, and the report under a fold."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable
+from html import escape
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import clean
+from geneva_cli.output import plot_svg, svg
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.figure import Figure
+    from geneva_cli.table import Table
+
+
+def shown(report: Table, passes: bool, drawing: Drawing | None, figure: Figure) -> str:
+    """HTML of a design: its words and verdict, the machine if it is flat, curves, the report."""
+    pictures = [plot_svg.chunks(figure)]
+    if drawing is not None:
+        pictures.insert(0, svg.chunks(drawing, "mm"))
+    verdict = "passes every check" if passes else "fails a check: see the report"
+    return (
+        f"<h3>{escape(clean(report.title))}</h3><p>{escape(report.prose)} It {verdict}.</p>"
+        + "".join(_picture(chunks) for chunks in pictures)
+        + f"<details><summary>Report</summary>{report._repr_html_()}</details>"
+    )
+
+
+def _picture(chunks: Iterable[str]) -> str:
+    """As data: within the page its styles would be everybody's."""
+    data = base64.b64encode("".join(chunks).encode()).decode()
+    return (
+        f'<img src="data:image/svg+xml;base64,{data}" alt=""'
+        ' style="max-width: 48%; max-height: 480px; vertical-align: top">'
+    )
