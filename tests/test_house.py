@@ -39,7 +39,7 @@ MEMBERS = {
 SHARED = {
     "commands": {"options", "completion"},
     "bench.subjects": set(),
-    "verdict.checks": {"check", "of_machine", "of_parts"},
+    "verdict.checks": {"check", "registry"},
     "verdict.report": {"values", "sections"},
 }
 STREAMS = {"app", "streams", "__main__", "specfile", "output", "manual", "commands"}

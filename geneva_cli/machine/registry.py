@@ -5,13 +5,13 @@ A new kind is one file and one line here.
 
 from __future__ import annotations
 
-import importlib
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.spec.named import named
 
 GEARINGS = {
     "external": "wheels.external:External",
@@ -71,5 +71,4 @@ def _found(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
         known = ", ".join(f'"{kind}"' for kind in kinds)
         hint = nearest(name, kinds) if isinstance(name, str) else ""
         raise GenevaError(f"{key[1]} must be one of {known}, not {said}{hint}", key)
-    module, _, cls = kinds[name].partition(":")
-    return vars(importlib.import_module(f"geneva_cli.machine.{module}"))[cls]
+    return named(f"machine.{kinds[name]}")

@@ -5,10 +5,10 @@ A new part is one function and one line here.
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.spec.named import named
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -125,5 +125,4 @@ def _require_known(part: str) -> None:
 
 def _made(by: str | None) -> Any:
     assert by is not None  # is_table says which parts are tables, and which are drawn
-    module, _, function = by.partition(":")
-    return vars(importlib.import_module(f"geneva_cli.parts.{module}"))[function]
+    return named(f"parts.{by}")

@@ -99,7 +99,7 @@ class Table:
         """The same with some of its fields changed, checked like any other.
 
         >>> SideCrank(A=0.6).but(n_rpm=30.0)
-        SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6)
+        SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
         """
         return dataclasses.replace(self, **changes)
 

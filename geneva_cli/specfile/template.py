@@ -7,24 +7,15 @@ from typing import Any
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.drive import Example
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE
 from geneva_cli.specfile.writer import keys_of, quoted
 
-# what people ask for, beside the example that each kind of drive brings
+# what people ask for, beside the example that each kind of wheel and drive brings
 EXAMPLES = {
-    "external": Example("an external wheel, straight slots", {"wheel": {"z": 6}}),
-    "internal": Example(
-        "an internal wheel: more motion than dwell",
-        {"wheel": {"z": 6, "gearing": "internal"}},
-    ),
-    "spherical": Example(
-        "a spherical wheel: shafts that meet, motion and dwell equal",
-        {"wheel": {"z": 6, "gearing": "spherical"}},
-    ),
     "rollers": Example(
         "several rollers: more indexes in a turn of the crank",
         {"wheel": {"z": 4}, "drive": {"rollers": 3}},
@@ -68,7 +59,9 @@ EXAMPLES = {
         },
     ),
 }
-KINDS = (*EXAMPLES, *(name for name in registry.DRIVES if name != Crank.NAME))
+# the plain crank is in all of them
+DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
+KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
 
 
 def template(kind: str) -> str:
@@ -104,8 +97,11 @@ def example(kind: str) -> Example:
     """What a kind's spec is about, and the keys that it sets."""
     if kind in EXAMPLES:
         return EXAMPLES[kind]
-    about, tables = registry.drive(kind).EXAMPLE
-    return Example(about, {**tables, "drive": {"kind": kind, **tables.get("drive", {})}})
+    is_wheel = kind in registry.GEARINGS
+    about, tables = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
+    table, key, usual = ("wheel", "gearing", External.NAME) if is_wheel else ("drive", "kind", "")
+    named = {} if kind == usual else {key: kind}  # the default is left to be seen as such
+    return Example(about, {**tables, table: {**named, **tables.get(table, {})}})
 
 
 def _line(field: Field, values: dict[str, Any]) -> str:

@@ -50,11 +50,11 @@ def cycle(proof: Proof) -> Values:
 
 # The report's, and others of which it says nothing. What makes parts comes last.
 ALL = (
-    Section(machine),
+    Section("study.fields:machine"),
     *(s for s in SECTIONS if not s.makes_parts),
-    Section(cycle),
+    Section("study.fields:cycle"),
     *(s for s in SECTIONS if s.makes_parts),
-    Section(judged, makes_parts=True),
+    Section("study.fields:judged", makes_parts=True),
 )
 SHOWN = (ALL[0], *(s for s in SECTIONS if not s.makes_parts))  # where nothing is picked
 

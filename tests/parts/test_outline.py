@@ -33,7 +33,7 @@ from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.walls.ways import _free
 from geneva_cli.parts.wheel import HELD, wheel_contour
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.of_parts import turning
+from geneva_cli.verdict.checks.registry import turning
 
 L = 100.0
 FLAT = 1e-5 * L  # how far the witnesses' polygons stray from the arcs

@@ -16,7 +16,7 @@ from words import load
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Clash, NotProved
-from geneva_cli.verdict.checks.of_parts import turning
+from geneva_cli.verdict.checks.registry import turning
 
 DESIGNS = repo.DESIGNS
 

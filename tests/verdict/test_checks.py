@@ -11,18 +11,15 @@ from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
-from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.cautions import cautions
-from geneva_cli.verdict.checks import Check, checks, one
-from geneva_cli.verdict.checks.check import held
-from geneva_cli.verdict.checks.of_machine import MOTION
-from geneva_cli.verdict.checks.of_parts import standing
+from geneva_cli.verdict.checks import Check, checks
+from geneva_cli.verdict.checks.registry import standing
 from geneva_cli.verdict.turn_cautions import turn_cautions
 
 DESIGNS = repo.DESIGNS
@@ -41,20 +38,6 @@ def test_a_sound_design_passes() -> None:
     assert not failing(CURVED)
     assert not cautions(build(LOADED))
     assert not cautions(build(CURVED))
-
-
-def test_a_check_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It is shown in its place, asked for by name, and advised on, for being in the list."""
-
-    def slots(name: str, mechanism: Mechanism) -> Check:
-        return held(name, float(mechanism.spec.wheel.z), "at most", 5.0)
-
-    machine = build(Spec(Wheel(6)))
-    before = [c.name for c in checks(machine, parts=False)]
-    monkeypatch.setitem(MOTION, "slots", slots)
-    assert [c.name for c in checks(machine, parts=False)] == [*before, "slots"]
-    assert one(machine, "slots") == held("slots", 6.0, "at most", 5.0)
-    assert [c.nearest for c in judged(machine, parts=False) if c.name == "slots"] == ["none found"]
 
 
 @pytest.mark.parametrize(

@@ -11,9 +11,6 @@ from typer.testing import CliRunner
 from words import load
 
 from geneva_cli.app import app
-from geneva_cli.parts.proof import Proof
-from geneva_cli.verdict.report import sections
-from geneva_cli.verdict.report.values import Values
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = repo.DESIGNS
@@ -32,18 +29,6 @@ def written(folder: Path, text: str) -> str:
     file = folder / "spec.toml"
     file.write_text(text)
     return str(file)
-
-
-def test_a_section_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def slots(proof: Proof) -> Values:
-        return {"slots.count": proof.mechanism.spec.wheel.z}
-
-    monkeypatch.setattr(
-        "geneva_cli.verdict.report.SECTIONS", (sections.Section(slots), *sections.SECTIONS)
-    )
-    shown = json.loads(run("report", written(tmp_path, LIMITED), "--format", "json").stdout)
-    assert shown["slots"] == {"count": 6}
-    assert list(shown).index("slots") < list(shown).index("inputs")
 
 
 def names(tree: Any, path: str = "") -> set[str]:

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Example, Needs, Plan
+from geneva_cli.machine.drives.drive import Needs, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Engagement, Turning, Vector, cross
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath

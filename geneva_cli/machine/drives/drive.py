@@ -9,6 +9,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.engagement import Displacement, Engagement
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout, Link
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Table
@@ -44,13 +45,6 @@ class Gears(NamedTuple):
 
     distance_mm: float
     advance: Displacement
-
-
-class Example(NamedTuple):
-    """A machine to start from: what it is, and the keys that it sets, table by table."""
-
-    about: str
-    tables: dict[str, dict[str, object]]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_slot
-from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap

@@ -12,8 +12,9 @@ from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.linkage import Joint, Linkage, RodPath, refuse_proportions
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.roller_path import Way, rounded
 from geneva_cli.numerics.arrays import larger, smaller

@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import Carried, same
 from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Link
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses

@@ -11,10 +11,11 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import Joints, Path, Vector
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.machine.wheels.gearing import Gearing

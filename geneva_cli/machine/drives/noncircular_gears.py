@@ -16,10 +16,11 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Example, Gears, Plan
+from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import Joints, Path, PeakKnown
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.arrays import library

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Example, Plan
+from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import Joints, Path, PeakKnown
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.angles import radians

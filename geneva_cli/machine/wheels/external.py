@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels import classic, poses
@@ -35,6 +36,7 @@ class External(Gearing):
     """
 
     NAME: ClassVar[str] = "external"
+    EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots", {"wheel": {"z": 6}})
     offset_mm: Annotated[
         float, LENGTH, "how far the slots' axes miss the wheel's centre; > 0 enters gently"
     ] = 0.0

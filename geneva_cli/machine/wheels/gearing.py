@@ -7,6 +7,7 @@ from abc import abstractmethod
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels.poses import Pose, Step
@@ -50,6 +51,8 @@ class Gearing(Table):
 
     TABLE: ClassVar[str] = "wheel"
     NAME: ClassVar[str]
+    # a spec to start from, its gearing left out
+    EXAMPLE: ClassVar[Example]
     # +1 where the crank's axis is outside the wheel's reach, -1 inside
     SIGN: ClassVar[float] = 1.0
     # whether wheel and crank are flat parts, on parallel shafts

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Step
@@ -23,6 +24,9 @@ class Internal(Gearing):
     """
 
     NAME: ClassVar[str] = "internal"
+    EXAMPLE: ClassVar[Example] = Example(
+        "an internal wheel: more motion than dwell", {"wheel": {"z": 6}}
+    )
     SIGN: ClassVar[float] = -1.0
 
     def half_motion_deg(self, step: Step) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
@@ -34,6 +35,9 @@ class Spherical(Gearing):
     """
 
     NAME: ClassVar[str] = "spherical"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a spherical wheel: shafts that meet, motion and dwell equal", {"wheel": {"z": 6}}
+    )
     FLAT: ClassVar[bool] = False
     axes_deg: Annotated[
         float, Range(0.0, 180.0, "()"), "spherical: angle between the two shafts"

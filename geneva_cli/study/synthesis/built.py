@@ -11,7 +11,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.synthesis.parts import USUAL, exact, with_roller
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.of_machine import LIMITS, MOTION
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
 UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # what no other roller helps

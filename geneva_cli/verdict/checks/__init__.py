@@ -1,7 +1,6 @@
 """Does the design work? Each check with its value and its limit.
 
-A check is one file, or a function in a file of like ones, and one line in ``of_machine`` or
-``of_parts``, where they stand in the order in which they are shown.
+A check is one file, or a function in a file of like ones, and one line in ``registry``.
 """
 
 from __future__ import annotations
@@ -13,9 +12,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.checks.check import Check as Check
-from geneva_cli.verdict.checks.check import OfMachine
 from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.of_machine import LIMITS, MOTION
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, ask, of_machine, standing, turning
 
 if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
@@ -23,15 +21,15 @@ if TYPE_CHECKING:
 
 def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
-    motion = list(_asked(MOTION, mechanism))
+    motion = list(of_machine(MOTION, mechanism))
     shown = list(_parts(mechanism, proof)) if parts else []
-    return [*motion, *shown, *_asked(LIMITS, mechanism)]
+    return [*motion, *shown, *of_machine(LIMITS, mechanism)]
 
 
 def each(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
     """The same checks one by one as they are made, the dearest last."""
-    yield from _asked(MOTION, mechanism)
-    yield from _asked(LIMITS, mechanism)
+    yield from of_machine(MOTION, mechanism)
+    yield from of_machine(LIMITS, mechanism)
     if parts:
         yield from _parts(mechanism)
 
@@ -39,14 +37,10 @@ def each(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
 def one(mechanism: Mechanism, name: str) -> Check | None:
     """A single check, for no more work than it takes; None if the design has none of this name."""
     for among in (MOTION, LIMITS):
-        found = among[name](name, mechanism) if name in among else None
+        found = ask(among, name, mechanism)
         if found:
             return found
     return next((c for c in _parts(mechanism) if c.name == name), None)
-
-
-def _asked(among: dict[str, OfMachine], mechanism: Mechanism) -> Iterator[Check]:
-    yield from (check for name, ask in among.items() if (check := ask(name, mechanism)))
 
 
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
@@ -59,7 +53,6 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
         return
     from geneva_cli.parts.proof import Proof
     from geneva_cli.parts.turn.gaps import NotProved
-    from geneva_cli.verdict.checks.of_parts import standing, turning
 
     proof = proof or Proof(mechanism)
     try:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import NamedTuple, TypeAlias
+from collections.abc import Iterable
+from typing import NamedTuple
 
-from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.keeps import keeps
 
 
@@ -24,10 +23,6 @@ class Check(NamedTuple):
     passes: bool | None
     nearest: str = ""
     at_deg: float | None = None
-
-
-# A check by its name, of a machine; None where there is nothing to check.
-OfMachine: TypeAlias = Callable[[str, Mechanism], Check | None]
 
 
 def held(

@@ -21,7 +21,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
-from geneva_cli.verdict.checks.of_parts import turning
+from geneva_cli.verdict.checks.registry import turning
 
 WORDS = "largest roller and locking disc, narrowest slot and recess"
 LOOSE = "smallest roller and locking disc, widest slot and recess"

@@ -1,0 +1,309 @@
+"""What may be added costs one class or function and one line in a registry: each is added here, as
+its own file would, and every command that should know it then does.
+
+Only a drive, a wheel or a law that a program imports from ``geneva_cli`` takes one line more, for
+type checkers.
+"""
+
+import json
+import math
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+import pytest
+from typer.testing import CliRunner
+from words import Spec, Wheel
+
+from geneva_cli.app import app
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.engagement import Displacement, Slot
+from geneva_cli.machine.example import Example
+from geneva_cli.machine.laws.law import Law, from_velocity
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.poses import Pose, Step
+from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+from geneva_cli.numerics.roots import boundary
+from geneva_cli.output import FORMATS
+from geneva_cli.parts.catalogue import PARTS, Part
+from geneva_cli.parts.proof import Proof
+from geneva_cli.spec.rules import Range
+from geneva_cli.specfile import template
+from geneva_cli.table import Table, rows_table
+from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.checks import one
+from geneva_cli.verdict.checks import registry as checks
+from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.report import sections
+from geneva_cli.verdict.report.values import Values
+
+Add = Callable[..., None]
+
+
+@pytest.fixture
+def add(monkeypatch: pytest.MonkeyPatch) -> Add:
+    """A function that adds a line to a registry; the line's module is this file."""
+
+    def line(to: dict[str, Any], name: str, line: Any, room: str) -> None:
+        monkeypatch.setitem(sys.modules, f"geneva_cli.{room}.added", sys.modules[__name__])
+        monkeypatch.setitem(to, name, line)
+        if to in (registry.DRIVES, registry.GEARINGS):  # as it is where the line was read first
+            monkeypatch.setattr(template, "KINDS", (*template.KINDS, name))
+
+    return line
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Callable[..., Any]:
+    """A function that runs a command on the text of a spec, and gives what it prints, from json."""
+
+    def ask(command: str, spec: str, *options: str) -> Any:
+        file = tmp_path / "spec.toml"
+        file.write_text(spec)
+        format = () if "--format" in options else ("--format", "json")
+        shown = CliRunner().invoke(app, [command, str(file), *options, *format])
+        assert shown.exit_code == 0, shown.stderr
+        return shown.stdout if options else json.loads(shown.stdout)
+
+    return ask
+
+
+def new(kind: str) -> str:
+    """What ``geneva new`` prints."""
+    shown = CliRunner().invoke(app, ["new", kind])
+    assert shown.exit_code == 0, shown.stderr
+    return shown.stdout
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reduced(Transmission):
+    """A reduction gear before the crank."""
+
+    NAME: ClassVar[str] = "reduced"
+    WORDS: ClassVar[str] = "a crank behind a reduction"
+    EXAMPLE: ClassVar[Example] = Example(
+        "a crank behind a reduction", {"wheel": {"z": 6}, "drive": {"teeth": 3}}
+    )
+    ALIKE: ClassVar[bool] = True
+    teeth: Annotated[int, Range(1, 9), "input turns in a turn of the crank"]
+
+    @property
+    def turns(self) -> int:
+        """The reduction."""
+        return self.teeth
+
+    def about(self, crank_deg: float) -> About:
+        """The input's angle, and the crank's since then."""
+        return About(self.teeth * crank_deg, self.advance)
+
+    def advance(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+        """A share of the input's."""
+        return sine_versine(Jet.variable(tau, order) * (1.0 / self.teeth))
+
+
+def test_a_drive(add: Add, run: Callable[..., Any]) -> None:
+    add(registry.DRIVES, "reduced", "drives.added:Reduced", "machine.drives")
+    text = new("reduced")
+    assert 'kind = "reduced"' in text and "teeth = 3" in text
+    found, plain = run("peaks", text), run("peaks", "[wheel]\nz = 6\n")
+    assert found["motion_deg"] == pytest.approx(3 * 120.0, rel=1e-15)
+    # a third of the speed, so a third of each derivative a step further
+    for power, quantity in ((1, "velocity"), (2, "acceleration"), (3, "jerk")):
+        expected = plain[quantity]["max"] / 3**power
+        assert found[quantity]["max"] == pytest.approx(expected, rel=1e-13)
+    assert run("check", text)["rows"]  # and exit status 0
+
+
+@dataclass(frozen=True)
+class Leaning(Gearing):
+    """A wheel with grooves, whose crank's shaft leans about the line of centres, above it.
+
+    The pin's circle, seen along the wheel's axis, is (1 - l cos a, d + k l sin a), with k the
+    cosine of the lean and d the crank's height over the centre distance.
+    """
+
+    NAME: ClassVar[str] = "leaning"
+    FLAT: ClassVar[bool] = False
+    EXAMPLE: ClassVar[Example] = Example(
+        "a crank at an angle and offset", {"wheel": {"z": 6, "lean_deg": 20.0, "height_mm": 3.0}}
+    )
+    lean_deg: Annotated[float, Range(-80.0, 80.0), "angle between the shafts"] = 0.0
+    height_mm: Annotated[float, Range(-50.0, 50.0), "crank's axis above the line of centres"] = 0.0
+
+    @property
+    def skewed(self) -> bool:
+        """Its motion is not symmetric."""
+        return self.height_mm != 0.0
+
+    def half_motion_deg(self, step: Step) -> float:
+        """Of the level crank."""
+        return 90.0 - math.degrees(step.b)
+
+    def ends(self, l: float, d: float) -> tuple[float, float]:
+        """Where the pin moves towards the wheel's axis: k cos a - d sin a = k l."""
+        k = math.cos(math.radians(self.lean_deg))
+        ahead, half = math.atan2(d, k), math.acos(k * l / math.hypot(k, d))
+        return -ahead - half, -ahead + half
+
+    def at(self, a: float, l: float, d: float) -> tuple[float, float]:
+        """The pin's place."""
+        k = math.cos(math.radians(self.lean_deg))
+        return 1.0 - l * math.cos(a), d + k * l * math.sin(a)
+
+    def place(self, step: Step, center_distance_mm: float) -> Place:
+        """The arm with which the wheel turns by its step between the two ends."""
+        d = self.height_mm / center_distance_mm
+        k = math.cos(math.radians(self.lean_deg))
+
+        def turn(l: float) -> tuple[float, float]:
+            first, last = (math.atan2(*self.at(a, l, d)[::-1]) for a in self.ends(l, d))
+            return first, last
+
+        def short(l: float) -> bool:
+            first, last = turn(l)
+            return last - first <= 2.0 * step.b
+
+        l = boundary(short, abs(d) / k + 1e-9, 1.0)
+        first, last = turn(l)
+        crossing = -math.asin(d / (k * l))
+
+        def pose(a: float, wheel: float) -> Pose:
+            x, y = self.at(a, l, d)
+            r = math.hypot(x, y)
+            c, s = x / r, y / r
+            u, v = l * math.sin(a), k * l * math.cos(a)
+            p, q = l * math.cos(a), -k * l * math.sin(a)
+            across = c * v - s * u if a == crossing else 0.0
+            slope, bend = (c * u + s * v, across), (c * p + s * q, c * q - s * p)
+            return Pose(math.degrees(a - crossing), wheel, r, slope, bend)
+
+        entry, leave = self.ends(l, d)
+        middle = pose(crossing, -0.5 * (first + last))
+        poses = (pose(entry, -step.b), middle, pose(leave, step.b))
+        return Place(step, math.degrees(0.5 * (leave - entry)), poses, l)
+
+    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+        """A groove towards the axis; the two halves of the motion differ."""
+        return RadialSlot(path), Followed(path, place.step.b, mirrored=not self.skewed)
+
+
+def test_a_wheel_whose_crank_is_at_an_angle_and_offset(add: Add, run: Callable[..., Any]) -> None:
+    add(registry.GEARINGS, "leaning", "wheels.added:Leaning", "machine.wheels")
+    text = new("leaning")
+    assert 'gearing = "leaning"' in text and "lean_deg = 20.0" in text
+    rows = run("motion", text)["rows"]
+    wheel = Leaning(6, lean_deg=20.0, height_mm=3.0)
+    place = wheel.place(wheel.step, 100.0)
+    crossing = -math.asin(0.03 / (math.cos(math.radians(20.0)) * place.ratio))
+    for row in rows:  # the angle of the pin about the wheel's axis, from half-way
+        a = math.radians(row["input_deg"]) + crossing
+        x, y = wheel.at(a, place.ratio, 0.03)
+        if row["velocity"]:
+            angle = math.degrees(math.atan2(y, x) + place.poses[1].wheel)
+            assert row["wheel_deg"] == pytest.approx(angle, abs=1e-12)
+    moved = [row for row in rows if row["velocity"]]
+    assert 100 < len(moved) < len(rows)
+    # level, and on the line of centres, it is an external wheel
+    level = 'z = 6\ngearing = "leaning"\n'
+    flat = [run("peaks", f"[wheel]\n{keys}")["velocity"]["max"] for keys in (level, "z = 6")]
+    assert flat[0] == pytest.approx(flat[1], rel=1e-9)
+    assert run("check", text)["rows"]  # and exit status 0
+    assert run("report", text)["timing"]["index_deg"] == 60.0
+
+
+@dataclass(frozen=True)
+class Flattened(Law):
+    """ds/du as (u (1 - u))^n, n a number of the user's."""
+
+    NAME: ClassVar[str] = "flattened"
+    ABOUT: ClassVar[str] = "a bell, as flat at its ends as is asked for"
+    n: Annotated[int, Range(2, 3), "flattened: the power"]
+
+    def first(self, u: Coefficient, order: int) -> Jet:
+        """The share: of n = 2 the polynomial 3-4-5, of 3 the polynomial 4-5-6-7."""
+        n = self.n
+        scale = 30.0 if n == 2 else 140.0
+
+        def share(u: Coefficient) -> Coefficient:
+            if n == 2:
+                return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+            return u**4 * (35.0 - 84.0 * u + 70.0 * u * u - 20.0 * u**3)
+
+        def velocity(x: Jet) -> Jet:
+            bell = x * (1.0 - x)
+            return (bell * bell if n == 2 else bell * bell * bell) * scale
+
+        return from_velocity(u, order, share, velocity)
+
+
+def test_a_law_with_a_parameter(add: Add, run: Callable[..., Any]) -> None:
+    add(registry.LAWS, "flattened", "laws.added:Flattened", "machine.laws")
+    wheel = "[wheel]\nz = 6\n[motion]\n"
+    for n, same in ((2, "3-4-5"), (3, "4-5-6-7")):
+        found = run("peaks", f'{wheel}law = "flattened"\nn = {n}\n')
+        known = run("peaks", f'{wheel}law = "{same}"\n')
+        for quantity in ("velocity", "acceleration"):
+            assert found[quantity]["max"] == pytest.approx(known[quantity]["max"], rel=1e-12)
+    assert "# n = ...  # flattened: the power" in new("curved")
+    laws = json.loads(CliRunner().invoke(app, ["laws", "--format", "json"]).stdout)["rows"]
+    assert "flattened" in {row["law"] for row in laws}
+
+
+def slots(name: str, mechanism: Mechanism) -> Check:
+    """A check."""
+    return held(name, float(mechanism.spec.wheel.z), "at least", 5.0)
+
+
+def test_a_check(add: Add, run: Callable[..., Any]) -> None:
+    """It is shown in its place, asked for by name, and advised on, for being in the list."""
+    add(checks.MOTION, "slots", "added:slots", "verdict.checks")
+    rows = run("check", "[wheel]\nz = 6\n")["rows"]
+    names = [row["check"] for row in rows]
+    assert [row["limit"] for row in rows if row["check"] == "slots"] == [5.0]
+    assert names.index("dwell_deg") < names.index("slots") < names.index("horn_mm")
+    machine = build(Spec(Wheel(4)))
+    assert one(machine, "slots") == held("slots", 4.0, "at least", 5.0)
+    assert [c.nearest for c in judged(machine, parts=False) if c.name == "slots"] == ["none found"]
+
+
+def counted(proof: Proof) -> Values:
+    """A section of the report."""
+    return {"slots.count": proof.mechanism.spec.wheel.z}
+
+
+def test_a_section_of_the_report(
+    add: Add, run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add({}, "", "", "verdict.report")
+    line = sections.Section("verdict.report.added:counted")
+    monkeypatch.setattr("geneva_cli.verdict.report.SECTIONS", (line, *sections.SECTIONS))
+    shown = run("report", "[wheel]\nz = 6\n")
+    assert shown["slots"] == {"count": 6}
+    assert list(shown).index("slots") < list(shown).index("inputs")
+
+
+def chunks(table: Table, terminal: bool) -> Iterator[str]:
+    """A format: the names and how many rows."""
+    yield f"{'|'.join(table.names)}: {len(table)}"
+
+
+def test_a_format(add: Add, run: Callable[..., Any]) -> None:
+    add(FORMATS, "brief", "added", "output")
+    shown = run("motion", "[wheel]\nz = 6\n", "--samples", "7", "--format", "brief")
+    assert shown.startswith("time_s|input_deg|") and shown.endswith(": 7")
+
+
+def pins(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """A part: how many pins."""
+    return rows_table(("pins",), [(mechanism.spec.drive.rollers,)])
+
+
+def test_a_part(add: Add, run: Callable[..., Any]) -> None:
+    add(PARTS, "pins", Part("added:pins"), "parts")
+    shown = run("profile", "[wheel]\nz = 6\n[drive]\nrollers = 2\n", "--part", "pins")
+    assert json.loads(shown)["rows"] == [{"pins": 2}]
