@@ -13,6 +13,7 @@ from geneva_cli.errors import GenevaError, cut
 EXAMPLES = (
     "geneva plot spec.toml --show velocity",
     "geneva plot spec.toml -o motion.svg",
+    "geneva plot spec.toml --vary wheel.z=6,8,10 --show acceleration -o several.svg",
 )
 
 
@@ -31,6 +32,14 @@ def run(
     ] = "",
     x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Of a csv: along.")] = "",
     y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Of a csv: up.")] = "",
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KEY=VALUES",
+            help="One spec through values: wheel.z=4,6,8.",
+            autocompletion=completion.keys,
+        ),
+    ] = None,
     given: Given = None,
     output: Output = "-",
     format: Annotated[
@@ -43,9 +52,9 @@ def run(
     """Curves over a cycle: the wheel's angle, velocity, acceleration, jerk, force, torque, power.
 
     Dwells are shaded, jumps drawn as jumps, and peaks exact: their values and places stand beside
-    the curves. With several specs, where all of them rest is shaded. Quantities are those of
-    `geneva motion` and `geneva loads`, by their names there. Without -o a chart in text. png and
-    pdf need the extra geneva-cli[plot].
+    the curves. With several specs, or one with a key varied, where all of them rest is shaded.
+    Quantities are those of `geneva motion` and `geneva loads`, by their names there. Without -o a
+    chart in text. png and pdf need the extra geneva-cli[plot].
 
     Of a csv, --y by --x: over a varied key of `geneva sweep` a curve for each combination of the
     others; the rows of a --pareto as points, joined; the spectrum of `geneva vibration`.
@@ -56,12 +65,12 @@ def run(
     plotted_as(output, format)  # what cannot be written is not worked out
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
-        _refuse_beside(tables[0], specs, {"--show": show, "--set": given})
+        _refuse_beside(tables[0], specs, {"--show": show, "--set": given, "--vary": vary})
         plot(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --show")
-    found, designs, left_out = of_specs(specs, given or (), _names(show))
+    found, designs, left_out = of_specs(specs, given or (), _names(show), vary or ())
     plot(found, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 
-from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.parts.proof import Proof
-from geneva_cli.specfile.reader import Text, read
-from geneva_cli.specfile.settings import setting
+from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
-from geneva_cli.study.names import short_name
-from geneva_cli.study.sweep.values import axis
 from geneva_cli.table import Table, rows_table
 
-COLUMNS_MAX = 100
 OWN = ("quantity", "differs")  # columns that no design may be called after
 LEFT_OUT = "inputs."  # what a spec says is in the spec; what differs of it is in the columns' names
 
@@ -67,36 +61,10 @@ def _columns(
     paths: Sequence[str], given: Sequence[str], vary: Sequence[str]
 ) -> tuple[list[str], list[Mechanism]]:
     """The names of the columns, and their machines."""
-    texts: dict[str, Text]
-    if vary:
-        if len(paths) > 1:
-            raise GenevaError("--vary is for one SPEC; set several side by side without it")
-        texts = _varied(read(paths[0], given), vary)
-    else:
-        twice = next((p for p in paths if list(paths).count(p) > 1), None)
-        if twice:
-            raise GenevaError(f"{cut(twice)}: given twice; --vary shows changes of one spec")
-        texts = {short_name(p, paths, OWN): read(p, given) for p in paths}
-    if len(texts) > COLUMNS_MAX:
-        raise GenevaError(
-            f"{len(texts)} designs side by side; at most {COLUMNS_MAX}: `geneva sweep` has a row "
-            "for each"
-        )
+    texts = beside(paths, given, vary, OWN)
     machines = []
     for text in texts.values():
         spec = text.spec()
         with text.located():
             machines.append(build(spec))
     return list(texts), machines
-
-
-def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
-    axes = [axis(v) for v in vary]
-    out = {}
-    for some in itertools.product(*[a.values for a in axes]):
-        said = [f"{a.key}={v}" for a, v in zip(axes, some, strict=True)]
-        changes = tuple(setting(s, "--vary") for s in said)
-        out[" ".join(said)] = text._replace(given=(*text.given, *changes))
-        if len(out) > COLUMNS_MAX:
-            break
-    return out

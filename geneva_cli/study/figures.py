@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from geneva_cli.analysis.figures import OF_NAME, LeftOut, figure
-from geneva_cli.design import Design, load
+from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
-from geneva_cli.study.names import short_name
+from geneva_cli.study.beside import beside
 
 QUANTITIES = tuple(OF_NAME)  # what may be drawn of a design
 FAMILY = 12  # curves of a panel that are told apart
@@ -23,9 +23,14 @@ TABLES = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
 
 
 def of_specs(
-    paths: Sequence[str], given: Iterable[str] = (), show: Sequence[str] = ()
+    paths: Sequence[str],
+    given: Iterable[str] = (),
+    show: Sequence[str] = (),
+    vary: Sequence[str] = (),
 ) -> tuple[Figure, list[Design], list[LeftOut]]:
     """The cycles of some specs over one axis; the designs, and what it lacks of which path.
+
+    ``vary`` are ``KEY=VALUES`` that the one spec there is then is drawn for.
 
     Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
 
@@ -33,16 +38,10 @@ def of_specs(
     >>> [curve.name for curve in found.panels[0].curves]
     ['internal-z6', 'turret']
     """
-    twice = next((p for p in paths if list(paths).count(p) > 1), None)
-    if twice:
-        raise GenevaError(f"{cut(twice)}: given twice")
-    settings = tuple(given)
-    designs = [load(path, settings) for path in paths]
-    names = [short_name(path, paths) for path in paths]
-    cycles = {name: design.cycle for name, design in zip(names, designs, strict=True)}
-    made, left_out = figure(cycles, show)
-    of_name = dict(zip(names, paths, strict=True))
-    return made, designs, [(of_name[name], text) for name, text in left_out]
+    texts = beside(paths, tuple(given), vary)
+    designs = {name: Design.of(text.spec(), text) for name, text in texts.items()}
+    made, left_out = figure({name: design.cycle for name, design in designs.items()}, show)
+    return made, list(designs.values()), [(texts[name].name, text) for name, text in left_out]
 
 
 def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:

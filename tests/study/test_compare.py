@@ -90,7 +90,7 @@ def test_two_keys_vary_as_a_grid():
         ({"picks": ["max"]}, "it may be velocity.max or"),
         ({"vary": ["drive.A=0,2"]}, "--vary drive.A=2: A = 2 must be above -1, below 1"),
         ({"vary": ["drive.B=1"]}, "--vary drive.B=1: unknown key B in [drive]"),
-        ({"vary": ["drive.A=0:1:0.001"]}, "at most 100: `geneva sweep`"),
+        ({"vary": ["drive.A=0:1:0.001"]}, "more than 100 designs side by side: `geneva sweep`"),
     ],
 )
 def test_what_cannot_be_compared(arguments, said):

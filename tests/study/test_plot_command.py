@@ -1,5 +1,6 @@
 """Figures of sweeps, fronts and spectra from their CSV files, and what `geneva plot` refuses."""
 
+import json
 import os
 import subprocess
 import sys
@@ -187,3 +188,17 @@ def test_starts_quickly():
         best = min(best, sum(after[2:4]) - sum(before[2:4]))
         time.sleep(0.01)
     assert best < 0.6  # 0.2 s on an idle machine; the rest is for one that is not
+
+
+def test_one_spec_through_values_is_a_curve_for_each():
+    """The same curves as of the key set over the file; several files have none to vary."""
+    found = run("plot", SPEC, "--vary", "drive.A=0,0.6", "--show", "velocity", "--format", "json")
+    assert found.exit_code == 0, found.output
+    alone = run("plot", SPEC, "--set", "drive.A=0", "--show", "velocity", "--format", "json")
+    rows, own = (json.loads(one.stdout)["rows"] for one in (found, alone))
+    assert {row["curve"] for row in rows} == {"drive.A=0", "drive.A=0.6"}
+    first = {(row["input_deg"], row["value"]) for row in rows if row["curve"] == "drive.A=0"}
+    moving = {(row["input_deg"], row["value"]) for row in own if abs(row["input_deg"]) <= 60.0}
+    assert len(moving) > 20 and moving <= first  # it begins to rest elsewhere in the window
+    refused = run("plot", SPEC, SPEC, "--vary", "drive.A=0,0.6")
+    assert refused.exit_code == 2 and "--vary is for one SPEC" in refused.output

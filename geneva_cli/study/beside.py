@@ -1,0 +1,52 @@
+"""Designs side by side: several specs, or one with keys varied through values."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Sequence
+
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.settings import setting
+from geneva_cli.study.names import short_name
+from geneva_cli.study.sweep.values import axis
+
+MOST = 100  # designs; more are no longer seen side by side
+
+
+def beside(
+    paths: Sequence[str],
+    given: Sequence[str] = (),
+    vary: Sequence[str] = (),
+    taken: Collection[str] = (),
+) -> dict[str, Text]:
+    """The texts of the specs by what each is called; ``taken`` are names that none may have.
+
+    ``vary`` are ``KEY=VALUES`` of the one spec there is then: a text for each combination. Raises
+    GenevaError for a spec that cannot be read, or is given twice.
+    """
+    if vary:
+        if len(paths) > 1:
+            raise GenevaError("--vary is for one SPEC; set several side by side without it")
+        return _varied(read(paths[0], given), vary)
+    twice = next((p for p in paths if list(paths).count(p) > 1), None)
+    if twice:
+        raise GenevaError(f"{cut(twice)}: given twice; --vary shows changes of one spec")
+    if len(paths) > MOST:
+        raise GenevaError(f"{len(paths)} designs side by side; at most {MOST}")
+    return {short_name(p, paths, taken): read(p, given) for p in paths}
+
+
+def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
+    """One spec with each combination of the values."""
+    axes = [axis(v) for v in vary]
+    out: dict[str, Text] = {}
+    for some in itertools.product(*[a.values for a in axes]):
+        said = [f"{a.key}={v}" for a, v in zip(axes, some, strict=True)]
+        changes = tuple(setting(s, "--vary") for s in said)
+        out[" ".join(said)] = text._replace(given=(*text.given, *changes))
+        if len(out) > MOST:
+            raise GenevaError(
+                f"more than {MOST} designs side by side: `geneva sweep` has a row for each"
+            )
+    return out
