@@ -27,7 +27,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, Step
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output import FORMATS
 from geneva_cli.parts.catalogue import PARTS, Part
@@ -101,7 +101,7 @@ class Reduced(Transmission):
         """The input's angle, and the crank's since then."""
         return About(self.teeth * crank_deg, self.advance)
 
-    def advance(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def advance(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """A share of the input's."""
         return sine_versine(Jet.variable(tau, order) * (1.0 / self.teeth))
 
@@ -224,12 +224,12 @@ class Flattened(Law):
     ABOUT: ClassVar[str] = "a bell, as flat at its ends as is asked for"
     n: Annotated[int, Range(2, 3), "flattened: the power"]
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share: of n = 2 the polynomial 3-4-5, of 3 the polynomial 4-5-6-7."""
         n = self.n
         scale = 30.0 if n == 2 else 140.0
 
-        def share(u: Coefficient) -> Coefficient:
+        def share(u: Number) -> Number:
             if n == 2:
                 return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
             return u**4 * (35.0 - 84.0 * u + 70.0 * u * u - 20.0 * u**3)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, array
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, turning
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 class Path(Protocol):
     """Where the roller's centre is, in the fixed frame, as the input turns."""
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin (x, y) with its derivatives by the input angle in radians."""
 
 
@@ -40,7 +40,7 @@ class Axis(NamedTuple):
 class Body(Protocol):
     """The body that carries the roller, where that is not the crank's arm."""
 
-    def __call__(self, tau: Coefficient, order: int) -> Jet:
+    def __call__(self, tau: Number, order: int) -> Jet:
         """How fast it turns, positive with the wheel, ``tau`` input radians after mid-motion."""
 
 
@@ -51,7 +51,7 @@ class Joints(Protocol):
     """What holds the roller's body where that is not the crank: links without mass or friction."""
 
     def __call__(
-        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions to each of some loads: a force at the pin's centre and a couple, both on the
         roller's body. ``path`` is the pin's, one order higher than the loads.
@@ -73,7 +73,7 @@ class Turning(NamedTuple):
 
     rate: float
 
-    def __call__(self, tau: Coefficient, order: int) -> Jet:
+    def __call__(self, tau: Number, order: int) -> Jet:
         """The rate."""
         return Jet((tau * 0.0 + self.rate, *[0.0] * order))
 
@@ -87,18 +87,18 @@ class Slot(ABC):
     offset: float = 0.0
 
     @abstractmethod
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin in the wheel's frame; on a sphere its polar angle in the flat development."""
 
-    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis | None:
+    def axis(self, input_deg: Number, order: int = 0) -> Axis | None:
         """Of a straight slot; None for a curved one."""
         return None
 
-    def upright(self, input_deg: Coefficient, order: int = 0) -> Jet | float:
+    def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
         """Cosine of the angle between the roller's axis and the wheel's."""
         return 1.0
 
-    def touches(self, input_deg: Coefficient) -> Coefficient:
+    def touches(self, input_deg: Number) -> Number:
         """1 where the roller drives the wheel, 0 where something else does."""
         return 1.0
 
@@ -131,7 +131,7 @@ class Motion(ABC):
         self.half_step = half_step  # b: the wheel goes from -b to b
 
     @abstractmethod
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives by the input angle in radians."""
 
     @property
@@ -228,7 +228,7 @@ class Engagement:
         """Input angle of the motion."""
         return self.exit_deg - self.entry_deg
 
-    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+    def carrier(self, input_deg: Number, order: int = 0) -> Jet:
         """Rate at which the body that carries the roller turns, positive with the wheel.
 
         About the roller's own axis, in radians per input radian.
@@ -253,11 +253,11 @@ class Anchor(NamedTuple):
     displacement: Displacement
     # input angle since then, radians, and order -> the pin's way (along the ray, across it)
 
-    def way(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def way(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """The pin's way since the anchor (along its ray, across it), at an angle in degrees."""
         return self.displacement(radians(input_deg - self.input_deg), order)
 
-    def place(self, input_deg: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def place(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """The pin (along the anchor's ray, across it) at an input angle in degrees."""
         along, across = self.way(input_deg, order)
         return along + self.along, across
@@ -266,7 +266,7 @@ class Anchor(NamedTuple):
 class Displacement(Protocol):
     """The pin's way since an anchor."""
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """(along the anchor's ray, across it), ``tau`` radians of the input later."""
 
 

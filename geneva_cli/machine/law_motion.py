@@ -7,7 +7,7 @@ from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.laws.law import Law, remaining
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import ascending
-from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
+from geneva_cli.numerics.jet import Jet, Number, piecewise
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
@@ -36,15 +36,15 @@ class LawMotion(Motion):
             inner = [0.0, *[(u - 0.5) * whole for u in self.law.breaks]]
         return (self.entry_deg, *ascending(inner), self.exit_deg)
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Each half of the law from its own end."""
         whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
         middle = 0.5 * (self.entry_deg + self.exit_deg)
 
-        def first(x: Coefficient) -> Jet:
+        def first(x: Number) -> Jet:
             return self.law.first((x - self.entry_deg) / whole, order) * step - self.half_step
 
-        def second(x: Coefficient) -> Jet:
+        def second(x: Number) -> Jet:
             rest = self.law.second((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 

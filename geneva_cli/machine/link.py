@@ -8,7 +8,7 @@ from typing import NamedTuple
 from geneva_cli.machine.engagement import Vector, cross
 from geneva_cli.machine.roller_path import Path
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos
 
 
 class Link(NamedTuple):
@@ -18,7 +18,7 @@ class Link(NamedTuple):
     middle: float  # the crank's angle there
     sense: float
 
-    def __call__(self, tau: Coefficient, order: int) -> Jet:
+    def __call__(self, tau: Number, order: int) -> Jet:
         """How fast it turns, positive with the wheel."""
         x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
         return atan2(y, x).derivative() * self.sense
@@ -35,7 +35,7 @@ class LinkJoints(NamedTuple):
     y: float
 
     def __call__(
-        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, which are those at A, and of the third body."""
         tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)

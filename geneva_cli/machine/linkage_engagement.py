@@ -18,7 +18,7 @@ from geneva_cli.machine.wheels.poses import Step
 from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.arrays import library, parameter
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 ANCHORS = 4  # on either side of the middle: near the wheel a path is all bends
 
@@ -140,7 +140,7 @@ class AlongRay(NamedTuple):
     scale: float
     sense: float
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """``tau`` radians of the crank later."""
         x, y = self.way(*sine_versine(Jet.variable(tau, order)))
         along = (x * self.x + y * self.y) * self.scale

@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.machine.engagement import Anchor, Engagement, Joints, Motion, Path, Slot, in_wheel
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 
 
 class MiddlePath:
@@ -14,7 +14,7 @@ class MiddlePath:
     def __init__(self, middle: Anchor) -> None:
         self.middle = middle
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its circle."""
         return self.middle.place(input_deg, order)
 
@@ -27,7 +27,7 @@ class SolvedSlot(Slot):
     def __init__(self, path: Path, motion: Motion) -> None:
         self.path, self.motion = path, motion
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin in the wheel's frame."""
         return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
 

@@ -22,7 +22,7 @@ from geneva_cli.machine.engagement import (
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import are_alike, are_designs, chosen, library, parameter, picked
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, piecewise, sin_cos, sqrt
+from geneva_cli.numerics.jet import Jet, Number, atan2, piecewise, sin_cos, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -53,7 +53,7 @@ class AnchoredPath:
         """Whether the anchors differ in numbers alone."""
         return are_alike(self.anchors)
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
         along, across = self.middle.place(input_deg, order)
         return turned(along, across, self.ahead)
@@ -65,17 +65,17 @@ class RadialSlot(Slot):
     def __init__(self, path: AnchoredPath) -> None:
         self.path = path
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
-    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> Axis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
         return Axis(Jet(depth.c[:-1]), depth.derivative())
 
-    def _depth(self, input_deg: Coefficient, order: int) -> Jet:
+    def _depth(self, input_deg: Number, order: int) -> Jet:
         x, y = self.path.middle.place(input_deg, order)
         return sqrt(x * x + y * y)
 
@@ -83,7 +83,7 @@ class RadialSlot(Slot):
 class Level(Protocol):
     """A place along the wheel's axis, as the input turns."""
 
-    def __call__(self, tau: Coefficient, order: int) -> Jet:
+    def __call__(self, tau: Number, order: int) -> Jet:
         """``tau`` input radians after mid-motion."""
 
 
@@ -98,18 +98,18 @@ class MeridianSlot(Slot):
         self.path = path
         self.height = height  # input angle, radians -> the pin's place along the wheel's axis
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin's polar angle on the wheel, in radians: arc length over the sphere's radius."""
         x, y = self.path(input_deg, order)
         polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
         return polar, polar * 0.0
 
-    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> Axis:
         """The lever is the pin's distance from the wheel's axis."""
         polar = self(input_deg, order + 1)[0]
         return Axis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
 
-    def upright(self, input_deg: Coefficient, order: int = 0) -> Jet:
+    def upright(self, input_deg: Number, order: int = 0) -> Jet:
         """The roller's axis passes the sphere's centre, at the polar angle of the pin."""
         return sin_cos(self(input_deg, order)[0])[1]
 
@@ -137,11 +137,11 @@ class Followed(Motion):
         """Whether path and slot have a mirror image about mid-motion."""
         return self.mirrored and super().symmetric
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""
 
-        def about(anchor: Anchor) -> Callable[[Coefficient], Jet]:
-            def solve(x: Coefficient) -> Jet:
+        def about(anchor: Anchor) -> Callable[[Number], Jet]:
+            def solve(x: Number) -> Jet:
                 along, across = anchor.place(x, order)
                 return atan2(across, along) + anchor.wheel
 

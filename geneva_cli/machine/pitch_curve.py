@@ -9,7 +9,7 @@ from typing import NamedTuple, cast
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import library, size
-from geneva_cli.numerics.jet import Coefficient
+from geneva_cli.numerics.jet import Number
 
 # the columns of a table of a pitch curve with a wall on either side
 WALLED = (
@@ -32,13 +32,13 @@ class Pitch(NamedTuple):
     it turns left, radians per input radian; ``speed`` is |M'|. The curvature is turning / speed.
     """
 
-    x: Coefficient
-    y: Coefficient
-    tangent_x: Coefficient
-    tangent_y: Coefficient
-    speed: Coefficient
-    turning: Coefficient
-    pressure: Coefficient  # radians, 0 to pi/2
+    x: Number
+    y: Number
+    tangent_x: Number
+    tangent_y: Number
+    speed: Number
+    turning: Number
+    pressure: Number  # radians, 0 to pi/2
 
 
 def retraces(engagement: Engagement) -> bool:
@@ -51,7 +51,7 @@ def retraces(engagement: Engagement) -> bool:
     return cast("bool", x.c[1] * x.c[1] + y.c[1] * y.c[1] < RETRACE * RETRACE)
 
 
-def pitch(engagement: Engagement, input_deg: Coefficient) -> Pitch:
+def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
     """Everything about the pitch curve at input angles other than a retracing mid-motion."""
     x, y = engagement.slot(input_deg, 2)
     m = library(x.c[0])

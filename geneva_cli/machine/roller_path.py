@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.digits import PI
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, sin_cos
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Long, Number, Which
@@ -90,7 +90,7 @@ class Path(ABC):
         cosine are exact.
         """
 
-    def at(self, phi: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def at(self, phi: Number, order: int) -> tuple[Jet, Jet]:
         """The pin for a crank angle in radians."""
         return self.place(*sin_cos(Jet.variable(phi, order)))
 

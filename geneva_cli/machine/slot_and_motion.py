@@ -12,7 +12,7 @@ import math
 from geneva_cli.machine.engagement import Axis, Slot
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 
 # Where psi and phi nearly vanish together, a series of psi / phi: within these angles its first
 # terms are exact to a double (a spline's series ends at its fifth).
@@ -26,25 +26,25 @@ class SolvedPath:
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign
 
-    def distances(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's distance from the wheel's axis and from the crank's, in units of L."""
         near = NEAR_DEG if self.motion.law.ANALYTIC else NEAR_SPLINE_DEG
 
-        def whole(x: Coefficient) -> Jet:
+        def whole(x: Number) -> Jet:
             return _stacked(*self._by_sines(x, order))
 
-        def middle(x: Coefficient) -> Jet:
+        def middle(x: Number) -> Jet:
             return _stacked(*self._by_series(x, order))
 
         both = piecewise(input_deg, (-near, near), (whole, middle, whole)).c
         return Jet(both[: order + 1]), Jet(both[order + 1 :])
 
-    def _by_sines(self, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def _by_sines(self, x: Number, order: int) -> tuple[Jet, Jet]:
         phi, psi = Jet.variable(radians(x), order), self.motion(x, order)
         below = sin_cos(phi + psi * self.sign)[0]
         return sin_cos(phi)[0] / below, sin_cos(psi)[0] / below
 
-    def _by_series(self, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def _by_series(self, x: Number, order: int) -> tuple[Jet, Jet]:
         """Near mid-motion both sines vanish: each is divided by phi first, as a series of it."""
         t = Jet.variable(radians(x), order)
         c = self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
@@ -56,13 +56,13 @@ class SolvedPath:
         below = angle * _sinc(angle * t)
         return _sinc(t) / below, slope * _sinc(psi) / below
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The roller in its straight slot, which stands at the wheel's angle."""
         rho, _ = self.distances(input_deg, order)
         s, c = sin_cos(self.motion(input_deg, order))
         return rho * c, rho * s
 
-    def groove(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The fixed groove's pitch curve, the crank's axis being the origin."""
         _, R = self.distances(input_deg, order)
         s, c = sin_cos(Jet.variable(radians(input_deg), order))
@@ -76,12 +76,12 @@ class RadialSlot(Slot):
     def __init__(self, path: SolvedPath) -> None:
         self.path = path
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
         rho, _ = self.path.distances(input_deg, order)
         return rho, rho * 0.0
 
-    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> Axis:
         """The lever is the pin's distance from the wheel's axis."""
         rho, _ = self.path.distances(input_deg, order + 1)
         return Axis(Jet(rho.c[:-1]), rho.derivative())

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.arrays import Whole
 
-Coefficient = Number
 
 _FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
 
@@ -37,11 +36,11 @@ class Jet:
     __slots__ = ("c",)
     __array_ufunc__ = None  # an array beside a jet leaves the arithmetic to the jet
 
-    def __init__(self, coefficients: Sequence[Coefficient]) -> None:
+    def __init__(self, coefficients: Sequence[Number]) -> None:
         self.c = tuple(coefficients)
 
     @staticmethod
-    def variable(x: Coefficient, order: int) -> Jet:
+    def variable(x: Number, order: int) -> Jet:
         """The independent variable itself at x."""
         return Jet((x, 1.0, *[0.0] * (order - 1))[: order + 1])
 
@@ -50,7 +49,7 @@ class Jet:
         """The highest derivative carried."""
         return len(self.c) - 1
 
-    def derivatives(self) -> tuple[Coefficient, ...]:
+    def derivatives(self) -> tuple[Number, ...]:
         """Value, first derivative, second, ... up to the order."""
         return tuple(c if k < 2 else c * _FACTORIAL[k] for k, c in enumerate(self.c))
 
@@ -66,7 +65,7 @@ class Jet:
         """The jet of the derivative, one order lower."""
         return Jet([k * c for k, c in enumerate(self.c) if k])
 
-    def __add__(self, other: Jet | Coefficient) -> Jet:
+    def __add__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
             return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
         return Jet((self.c[0] + other, *self.c[1:]))
@@ -76,15 +75,15 @@ class Jet:
     def __neg__(self) -> Jet:
         return Jet([-a for a in self.c])
 
-    def __sub__(self, other: Jet | Coefficient) -> Jet:
+    def __sub__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
             return Jet([a - b for a, b in zip(self.c, other.c, strict=True)])
         return Jet((self.c[0] - other, *self.c[1:]))
 
-    def __rsub__(self, other: Coefficient) -> Jet:
+    def __rsub__(self, other: Number) -> Jet:
         return Jet((other - self.c[0], *[-a for a in self.c[1:]]))
 
-    def __mul__(self, other: Jet | Coefficient) -> Jet:
+    def __mul__(self, other: Jet | Number) -> Jet:
         if not isinstance(other, Jet):
             return Jet([a * other for a in self.c])
         a, b = self.c, other.c
@@ -92,16 +91,16 @@ class Jet:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Jet | Coefficient) -> Jet:
+    def __truediv__(self, other: Jet | Number) -> Jet:
         if not isinstance(other, Jet):
             return Jet([a / other for a in self.c])
         b = other.c
-        q: list[Coefficient] = []
+        q: list[Number] = []
         for k, a in enumerate(self.c):
             q.append((a - sum(q[i] * b[k - i] for i in range(k))) / b[0])
         return Jet(q)
 
-    def __rtruediv__(self, other: Coefficient) -> Jet:
+    def __rtruediv__(self, other: Number) -> Jet:
         return Jet((other, *[0.0] * self.order)) / self
 
 
@@ -109,9 +108,7 @@ class Jet:
 V = TypeVar("V", Jet, "Array")
 
 
-def _convolve(
-    a: Sequence[Coefficient], b: Sequence[Coefficient], k: int, first: int
-) -> Coefficient:
+def _convolve(a: Sequence[Number], b: Sequence[Number], k: int, first: int) -> Number:
     total = a[first] * b[k - first]
     for i in range(first + 1, k + 1):
         total = total + a[i] * b[k - i]
@@ -124,9 +121,7 @@ def sin_cos(x: Jet) -> tuple[Jet, Jet]:
     return _circle([k * a for k, a in enumerate(x.c)], m.sin(x.c[0]), m.cos(x.c[0]))
 
 
-def _circle(
-    slope: Sequence[Coefficient], sine: Coefficient, cosine: Coefficient
-) -> tuple[Jet, Jet]:
+def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet, Jet]:
     """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
     s, c = [sine], [cosine]
     if all(isinstance(a, float) and not a for a in slope[2:]):  # an even turn, as the input's own
@@ -146,7 +141,7 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
 
 
-def sine_versine_of(rate: Jet, y: Coefficient, x: Coefficient, order: int) -> tuple[Jet, Jet]:
+def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:
     """The same of the direction of the vector (x, y), which turns at ``rate``."""
     m = library(x, y)
     length = m.hypot(x, y)
@@ -166,7 +161,7 @@ def sqrt(x: Jet) -> Jet:
     return Jet(q)
 
 
-def integral(slope: Jet, value: Coefficient) -> Jet:
+def integral(slope: Jet, value: Number) -> Jet:
     """The jet, one order higher, whose derivative is ``slope`` and whose value is ``value``."""
     return Jet((value, *[c / (k + 1) for k, c in enumerate(slope.c)]))
 
@@ -185,9 +180,7 @@ def turning(x: Jet, y: Jet) -> Jet:
     return (low_x * y.derivative() - low_y * x.derivative()) / (low_x * low_x + low_y * low_y)
 
 
-def piecewise(
-    x: Coefficient, cuts: Sequence[Coefficient], pieces: Sequence[Callable[[Coefficient], Jet]]
-) -> Jet:
+def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
     Of one design each piece sees only its own part of an array of angles. Of many designs, whose
@@ -210,7 +203,7 @@ def piecewise(
 
 
 def _by_columns(
-    x: Array, index: NDArray[np.int8], pieces: Sequence[Callable[[Coefficient], Jet]]
+    x: Array, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
 ) -> Jet:
     """Of angles (n, k) of designs: columns that lie in one piece are seen by no other."""
     import numpy as np
@@ -231,7 +224,7 @@ def _by_columns(
 
 
 def _by_choice(
-    x: Coefficient, index: NDArray[np.int8], pieces: Sequence[Callable[[Coefficient], Jet]]
+    x: Number, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
 ) -> Jet:
     """Each piece that holds anywhere sees all angles, and its own part is chosen."""
     import numpy as np

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple
 from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Coefficient, Jet, V, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -53,7 +53,7 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
 
 
 def contact(
-    engagement: Engagement, input_deg: Coefficient, order: int = 0, joints: bool = True
+    engagement: Engagement, input_deg: Number, order: int = 0, joints: bool = True
 ) -> Contact[Jet]:
     """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
@@ -63,11 +63,11 @@ def contact(
     if is_straight(engagement) or all_true(input_deg != 0.0):
         return _beside(engagement, input_deg, order, joints=joints)
 
-    def beside(x: Coefficient) -> Jet:
+    def beside(x: Number) -> Jet:
         *jets, _ = _beside(engagement, x, order, joints=False)
         return Jet([c for jet in jets for c in jet.c])
 
-    def middle(x: Coefficient) -> Jet:
+    def middle(x: Number) -> Jet:
         assert order == 0
         return Jet([x * 0.0 + c for c in _middle(engagement)])
 
@@ -85,7 +85,7 @@ def is_straight(engagement: Engagement) -> bool:
 
 def _beside(
     engagement: Engagement,
-    x: Coefficient,
+    x: Number,
     order: int,
     rates: Jet | None = None,
     joints: bool = True,
@@ -125,7 +125,7 @@ def _beside(
 
 
 def _held(
-    engagement: Engagement, x: Coefficient, lever: Jet, aside: Jet
+    engagement: Engagement, x: Number, lever: Jet, aside: Jet
 ) -> tuple[tuple[Vector, Vector], ...] | None:
     """The joints' reactions to three unit loads at the pin."""
     if engagement.joints is None:
@@ -145,7 +145,7 @@ def _held(
     return tuple(engagement.joints(x, path, loads))
 
 
-def _middle(engagement: Engagement) -> list[Coefficient]:
+def _middle(engagement: Engagement) -> list[Number]:
     """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
     back = retraces(engagement)
     if isinstance(back, bool):
@@ -157,13 +157,13 @@ def _middle(engagement: Engagement) -> list[Coefficient]:
         return [choose(back, cusp, crossing) for cusp, crossing in both]
 
 
-def _crossing(engagement: Engagement) -> list[Coefficient]:
+def _crossing(engagement: Engagement) -> list[Number]:
     values = [jet.c[0] for jet in _beside(engagement, 0.0, 0, joints=False)[:-1]]
     values[Contact._fields.index("lever")] = 0.0
     return values
 
 
-def _cusp(engagement: Engagement) -> list[Coefficient]:
+def _cusp(engagement: Engagement) -> list[Number]:
     at = pitch_at_retrace(engagement)
     m = library(at.x)
     lever = at.x * at.tangent_x + at.y * at.tangent_y

@@ -22,7 +22,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Coefficient, Jet, V
+from geneva_cli.numerics.jet import Jet, Number, V
 from geneva_cli.numerics.quadrature import integrals
 
 if TYPE_CHECKING:
@@ -131,12 +131,10 @@ class Cycle:
 
     def _both_ways(
         self, quantities: Sequence[Quantity]
-    ) -> Callable[[Contact[Jet], Coefficient, Coefficient, Coefficient], list[Row[Jet]]]:
+    ) -> Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]:
         """Rows whose maxima are the greatest value of each quantity, and minus its least."""
 
-        def rows(
-            at: Contact[Jet], drives: Coefficient, slides: Coefficient, pays: Coefficient
-        ) -> list[Row[Jet]]:
+        def rows(at: Contact[Jet], drives: Number, slides: Number, pays: Number) -> list[Row[Jet]]:
             found = instant(self.given, at, drives, slides, pays)
             out = []
             for quantity in quantities:

@@ -22,7 +22,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Coefficient, Jet, V
+from geneva_cli.numerics.jet import Jet, Number, V
 
 
 class Setting(NamedTuple):
@@ -114,7 +114,7 @@ class Row(NamedTuple, Generic[V]):
 
     value: V
     room: V | None = None
-    way: Coefficient = 1.0
+    way: Number = 1.0
 
 
 class Forces(NamedTuple, Generic[V]):
@@ -131,12 +131,12 @@ class Forces(NamedTuple, Generic[V]):
     square: V | None  # of the contact stress
 
 
-def value(quantity: V) -> Coefficient:
+def value(quantity: V) -> Number:
     """The value of a jet, or what is a value already."""
     return quantity.c[0] if isinstance(quantity, Jet) else quantity
 
 
-def sliding(at: Contact[V], drives: Coefficient, radius: float) -> V:
+def sliding(at: Contact[V], drives: Number, radius: float) -> V:
     """Speed at which the roller rubs along the wall, over L, per input radian."""
     return at.along - at.spin * (drives * radius)
 
@@ -146,20 +146,20 @@ def needed(given: Setting, at: Contact[V]) -> V:
     return at.acceleration * given.inertia_Nm + given.resists_Nm
 
 
-def gain(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> V:
+def gain(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
     """Torque on the input shaft over the wheel's, times the grip: it has a value everywhere."""
     lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
     return at.velocity * _grip(given, at, drives, slides) + lost
 
 
-def _grip(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> V:
+def _grip(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
     if not given.rubs:
         return at.lever
     rub = at.touches * (given.friction * slides)
     return at.lever + rub * (at.aside * drives - at.arm * given.radius)
 
 
-def forces(given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient) -> Forces[V]:
+def forces(given: Setting, at: Contact[V], drives: Number, slides: Number) -> Forces[V]:
     """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
     torque = needed(given, at)
     grip, shaft = _grip(given, at, drives, slides), torque * at.velocity

@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, forces, sliding, value
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.numerics.jet import Coefficient, Jet, V, sqrt
+from geneva_cli.numerics.jet import Jet, Number, V, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -40,9 +40,9 @@ class Instant(NamedTuple, Generic[V]):
     wheel_bearing_N: V  # size of the force on the wheel, and so of its shaft's reaction
     crank_bearing_squared: V  # of the shaft whose crank carries the roller or link, N²
     guide_squared: V | None  # of rocker, slider, groove or fixed gear; None without
-    drives: Coefficient  # sign of the wheel's torque
-    slides: Coefficient  # sign of the sliding
-    pays: Coefficient  # sign of the input's torque
+    drives: Number  # sign of the wheel's torque
+    slides: Number  # sign of the sliding
+    pays: Number  # sign of the input's torque
     grip: V  # where it is not above 0, friction alone holds the wheel: forces are endless
     held: V | None  # the same for what friction alone makes endless; None without
     edge: V | None  # the same for the stress alone: the wall is sharper than the roller
@@ -103,7 +103,7 @@ def lesser(a: V, b: V) -> V:
 
 
 def instant(
-    given: Setting, at: Contact[V], drives: Coefficient, slides: Coefficient, pays: Coefficient
+    given: Setting, at: Contact[V], drives: Number, slides: Number, pays: Number
 ) -> Instant[V]:
     """What happens where wheel torque, sliding and input torque have these signs."""
     found = forces(given, at, drives, slides)
@@ -139,8 +139,8 @@ def _joints(
     given: Setting,
     at: Contact[V],
     force: V,
-    drives: Coefficient,
-    rub: Coefficient,
+    drives: Number,
+    rub: Number,
     on_wheel: V,
 ) -> tuple[V, V | None]:
     """Squares of the reactions on the crank's shaft, and of what guides the roller's body besides.

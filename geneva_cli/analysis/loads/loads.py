@@ -18,7 +18,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.tables import Limits
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class State(NamedTuple):
     pressure_deg: Number
 
 
-def state(mechanism: Mechanism, engagement: Engagement, input_deg: Coefficient) -> State:
+def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> State:
     """An engagement's loads at an input angle from its mid-motion, or at an array of angles."""
     import numpy as np
 
@@ -86,9 +86,7 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
     """The greatest of each field of ``State``, at the engagement's own input angles."""
     from geneva_cli.analysis.loads.peaks import maxima
 
-    def rows(
-        at: Contact[Jet], drives: Coefficient, slides: Coefficient, _: Coefficient
-    ) -> list[Row[Jet]]:
+    def rows(at: Contact[Jet], drives: Number, slides: Number, _: Number) -> list[Row[Jet]]:
         found = forces(given, at, drives, slides)
         grip = found.grip if given.friction else None
         slope = at.aside / at.lever
@@ -156,9 +154,7 @@ def _slowness(
     force_max, torque_max, stress_max = limits
     unit = given._replace(inertia_Nm=0.0, resists_Nm=1.0)
 
-    def rows(
-        at: Contact[Jet], drives: Coefficient, slides: Coefficient, _: Coefficient
-    ) -> list[Row[Jet]]:
+    def rows(at: Contact[Jet], drives: Number, slides: Number, _: Number) -> list[Row[Jet]]:
         found = forces(unit, at, drives, slides)
         needed = at.acceleration * given.inertia_Nm
         held: list[tuple[float, Jet]] = []

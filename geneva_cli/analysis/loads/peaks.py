@@ -21,7 +21,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.roots_many import Roots, roots_between, roots_many
 from geneva_cli.numerics.scan import Scan, hopeful, scan
@@ -47,7 +47,7 @@ class Stretch(NamedTuple):
 
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
-Rows: TypeAlias = Callable[[Contact[Jet], Coefficient, Coefficient, Coefficient], list[Row[Jet]]]
+Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]
 
 
 Signed: TypeAlias = Callable[[Contact[Jet]], Jet]  # something whose sign is asked for
@@ -268,7 +268,7 @@ def maxima(
     out = []
     for i in range(len(found.value)):
 
-        def at(x: Coefficient, piece: Stretch, order: int, i: int = i) -> Row[Jet]:
+        def at(x: Number, piece: Stretch, order: int, i: int = i) -> Row[Jet]:
             return rows(contact(engagement, x, order), *piece[2:])[i]
 
         lost = np.isnan(found.value[i])
@@ -400,7 +400,7 @@ def _brink(
     found: Scan,
     lost: Mask,
     pieces: tuple[Stretch, ...],
-    at: Callable[[Coefficient, Stretch, int], Row[Jet]],
+    at: Callable[[Number, Stretch, int], Row[Jet]],
 ) -> float:
     """Where a quantity first has no value: where what it needs is 0, or its stretch begins."""
     first = int(np.argmax(lost))

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.loads.contact import Contact
     from geneva_cli.analysis.loads.instant import Instant
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Coefficient, Jet
+    from geneva_cli.numerics.jet import Jet, Number
     from geneva_cli.spec.tables import Shaft
 
     On = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
@@ -104,7 +104,7 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     given, known = mechanism.spec.shaft, setting(mechanism)
     lever = given.bending_factor * ends.overhang_mm / 1000.0
 
-    def rows(at: Contact[Jet], *signs: Coefficient) -> list[Row[Jet]]:
+    def rows(at: Contact[Jet], *signs: Number) -> list[Row[Jet]]:
         i = instant(known, at, *signs)
         square, torque = loaded(i, at)
         bent, turned = square * (lever * lever), torque * given.torsion_factor

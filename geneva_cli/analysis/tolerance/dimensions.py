@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -49,7 +49,7 @@ def tolerances(spec: Spec) -> dict[str, float]:
     }
 
 
-def deviations(values: list[Coefficient]) -> Deviations:
+def deviations(values: list[Number]) -> Deviations:
     """The deviations with these values; for places without slopes."""
     return Deviations(*[Jet((value,)) for value in values])
 
@@ -83,7 +83,7 @@ class Draws(NamedTuple):
             count = min(size, samples - start)
             # drawn in powers of two: of others the sequence warns that they are out of balance
             shares = sequence.random(1 << (count - 1).bit_length())[:count].T.copy()
-            columns: list[Coefficient] = [0.0] * len(self.sizes)
+            columns: list[Number] = [0.0] * len(self.sizes)
             for i, share in zip(deviate, shares, strict=True):
                 share += shift[i]
                 share[share >= 1.0] -= 1.0

@@ -19,7 +19,7 @@ from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array, choose
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sqrt
+from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 LOOKS = 361  # input angles of a motion that are tried first
 CLOSER = 12  # times about the greatest, a tenth as wide each time
@@ -33,7 +33,7 @@ class Led(NamedTuple):
     arm: float  # R; its deviation moves nothing where the roller is on no arm
     clearance: float  # roller to slot, per side
 
-    def __call__(self, by: Deviations, input_deg: Coefficient, side: Coefficient) -> Jet:
+    def __call__(self, by: Deviations, input_deg: Number, side: Number) -> Jet:
         """The wheel's angle less its true one, radians, with the roller on a wall (side 1, -1)."""
         x, y = (self.L * z.c[0] for z in self.engagement.path(input_deg, 0))
         offset = self.L * self.engagement.slot.offset

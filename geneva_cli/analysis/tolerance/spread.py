@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -56,5 +56,5 @@ def spread(
     )
 
 
-def _one(value: Coefficient) -> float:
+def _one(value: Number) -> float:
     return float(np.asarray(value).reshape(-1)[0])

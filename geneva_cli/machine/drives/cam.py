@@ -20,7 +20,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, choose, larger, parameter
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ class Slide:
     """
 
     def __call__(
-        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, and of the groove, to each load."""
         x, y = path

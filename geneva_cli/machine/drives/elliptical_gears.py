@@ -22,7 +22,7 @@ from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 MOST = 1.0 - 0.999e-12
@@ -104,7 +104,7 @@ class Focal(NamedTuple):
     cos_p: float
     size: float
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the driven gear's angle d since, ``tau`` input radians later."""
         e = self.e
         m = library(tau, e, self.size)

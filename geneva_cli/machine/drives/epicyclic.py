@@ -23,7 +23,7 @@ from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range, Words
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ class PlanetJoints(NamedTuple):
     c: float
 
     def __call__(
-        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the carrier's shaft, and of the fixed gear, to each load."""
         turn = Jet.variable(radians(input_deg), path[0].order - 1)
@@ -165,7 +165,7 @@ class Arms(NamedTuple):
     arms: tuple[tuple[float, float], ...]
     c: float
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """The pin's way since then, along the ray and across it."""
         u: Jet | None = None
         v: Jet | None = None

@@ -24,7 +24,7 @@ from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size, smaller
-from geneva_cli.numerics.jet import Coefficient, Jet, piecewise
+from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
@@ -151,22 +151,22 @@ class SectorMotion(Motion):
         """Entry, both handovers with mid-motion between them, and exit."""
         return (self.entry_deg, -self.half_sector, 0.0, self.half_sector, self.exit_deg)
 
-    def slot_deg(self, input_deg: Coefficient) -> Coefficient:
+    def slot_deg(self, input_deg: Number) -> Number:
         """The crank angle of the roller in its slot; in the gears, the one at handover."""
         out = larger(size(input_deg) - self.half_sector, 0.0) + self.handover_deg
         return library(out, input_deg).copysign(out, input_deg)
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """The slot's motion, moved out by the gears' in between."""
 
-        def before(x: Coefficient) -> Jet:
+        def before(x: Number) -> Jet:
             at = self.inner.entry_deg + (x - self.entry_deg)
             return self.inner(at, order) + (self.inner.half_step - self.half_step)
 
-        def gears(x: Coefficient) -> Jet:
+        def gears(x: Number) -> Jet:
             return Jet.variable(radians(x), order) * self.u
 
-        def after(x: Coefficient) -> Jet:
+        def after(x: Number) -> Jet:
             at = self.inner.exit_deg + (x - self.exit_deg)
             return self.inner(at, order) + (self.half_step - self.inner.half_step)
 
@@ -179,7 +179,7 @@ class SectorPath(NamedTuple):
     inner: Path
     motion: SectorMotion
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's centre."""
         return self.inner(self.motion.slot_deg(input_deg), order)
 
@@ -190,17 +190,17 @@ class SectorSlot(Slot):
     def __init__(self, inner: RadialSlot, motion: SectorMotion) -> None:
         self.inner, self.motion = inner, motion
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
         return self.inner(self.motion.slot_deg(input_deg), order)
 
-    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> Axis:
         """In the gears the lever is the wheel's pitch radius, L/(1+u), and nothing slides."""
         lever, along = self.inner.axis(self.motion.slot_deg(input_deg), order)
         slot = self.touches(input_deg)
         return Axis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
 
-    def touches(self, input_deg: Coefficient) -> Coefficient:
+    def touches(self, input_deg: Number) -> Number:
         """Not while the gears drive."""
         slot = size(input_deg) >= self.motion.half_sector
         return float(slot) if isinstance(slot, bool) else slot.astype(float)
@@ -217,7 +217,7 @@ class SectorEngagement(Engagement):
         super().__init__(0.0, path, SectorSlot(slot, motion), motion)
         self._inner, self._sector = inner, motion
 
-    def carrier(self, input_deg: Coefficient, order: int = 0) -> Jet:
+    def carrier(self, input_deg: Number, order: int = 0) -> Jet:
         """The roller sits on the crank."""
         return self._inner.carrier(self._sector.slot_deg(input_deg), order)
 

@@ -21,7 +21,7 @@ from geneva_cli.machine.wheels import poses
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2, sin_cos, sine_versine, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sine_versine, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class FirstRoller(Pushed):
     def __init__(self, l: float, distance: float, sign: float, mid: float) -> None:
         self.l, self.distance, self.sign, self.mid = l, distance, sign, mid
 
-    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
         """The roller as seen from the first wheel's axis, and across its slot."""
         s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
         x, y = (1.0 - c * self.l) * self.distance, s * (-self.sign * self.l * self.distance)
@@ -126,7 +126,7 @@ class FirstWheel(NamedTuple):
 
     pose: poses.Pose
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of its angle d since then, ``tau`` input radians later."""
         sine, versine = sine_versine(Jet.variable(tau, max(order, 1)))
         along, across = self.pose.displacement(sine, versine)

@@ -25,7 +25,7 @@ from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.spline import ZERO, Doubt, Exact, Pieces, doubt, periodic, shifted
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
@@ -154,7 +154,7 @@ class Since(NamedTuple):
 
     since: Pieces
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the crank's angle d, ``tau`` input radians later."""
         m = library(tau)
         turns = m.floor(tau / math.tau + 0.5)

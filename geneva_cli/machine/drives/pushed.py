@@ -7,18 +7,18 @@ from collections.abc import Sequence
 
 from geneva_cli.machine.engagement import Path, Vector, cross
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Coefficient, Jet, turning
+from geneva_cli.numerics.jet import Jet, Number, turning
 
 
 class Pushed(ABC):
     """The crank's shaft holds it, and something pushes it round: without friction, or mass."""
 
     @abstractmethod
-    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
         """Where it is pushed, over L from the crank's axis, and in what direction, of any size."""
 
     def __call__(
-        self, input_deg: Coefficient, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, and of what turns the crank, to each load."""
         x, y = (Jet(jet.c[:-1]) for jet in path)
@@ -41,7 +41,7 @@ class Mesh(Pushed):
     def __init__(self, path: Path, distance: float) -> None:
         self.path, self.distance = path, distance  # the roller turns as the crank does
 
-    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
         """The radius of the driven gear, C/(1 + i), changes by -C i'/(1 + i)² a radian of input."""
         x, y = self.path(input_deg, order + 2)
         rate = turning(x - 1.0, y)

@@ -27,7 +27,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.numerics.jet import Coefficient, Jet, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
@@ -43,7 +43,7 @@ class About(NamedTuple):
     advance: Displacement
 
 
-def same(tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+def same(tau: Number, order: int) -> tuple[Jet, Jet]:
     """Of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
 
@@ -54,7 +54,7 @@ class Carried(NamedTuple):
     pose: Pose
     advance: Displacement
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """The pin's way since then, along the pose's ray and across it."""
         return self.pose.displacement(*self.advance(tau, order))
 

@@ -22,7 +22,7 @@ from geneva_cli.machine.wheels.side_crank_peaks import (
 )
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
 A_SURE = 0.999  # up to it the quicker ways to the peaks miss none
@@ -86,7 +86,7 @@ class Coulisse(NamedTuple):
     rest: float
     grows: bool  # of many designs an array of them
 
-    def __call__(self, tau: Coefficient, order: int) -> tuple[Jet, Jet]:
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the coulisse's angle d since then, ``tau`` input radians later."""
         A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
         m = library(tau, A, s)
@@ -111,7 +111,7 @@ class Block(Pushed):
         self.A, self.r, self.sign = A, r, sign
         self.mid = mid  # input angle of the engagement's mid-motion, radians
 
-    def line(self, input_deg: Coefficient, order: int) -> tuple[Vector, Vector]:
+    def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
         """Along the coulisse, which points at the wheel at input angle 0, and across it."""
         s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
         x, y = (c + self.A) * (-self.sign * self.r), s * self.r

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.numerics.jet import Coefficient, Jet, integral, piecewise
+from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.spec.schema import Table
 
 if TYPE_CHECKING:
@@ -76,14 +76,14 @@ class Law(Table):
         return None
 
     @abstractmethod
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s on 0 <= u <= 1/2, with its derivatives by u.
 
         >>> Polynomial345().first(0.5, 3).derivatives()  # s, ds/du and so on
         (0.5, 1.875, 0.0, -30.0)
         """
 
-    def second(self, w: Coefficient, order: int) -> Jet:
+    def second(self, w: Number, order: int) -> Jet:
         """What is left, 1 - s, on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
 
         >>> law = SineGroup(0.1)
@@ -92,7 +92,7 @@ class Law(Table):
         """
         return self.first(w, order)
 
-    def __call__(self, u: Coefficient, order: int = 3) -> Jet:
+    def __call__(self, u: Number, order: int = 3) -> Jet:
         """The law at a number or an array of u in 0..1, with its derivatives by u."""
         return piecewise(
             u,
@@ -107,9 +107,9 @@ def remaining(rest: Jet, end: float = 1.0) -> Jet:
 
 
 def from_velocity(
-    u: Coefficient,
+    u: Number,
     order: int,
-    position: Callable[[Coefficient], Coefficient],
+    position: Callable[[Number], Number],
     velocity: Callable[[Jet], Jet],
 ) -> Jet:
     """The jet of s(u) from a closed form of s and from the jet of ds/du.

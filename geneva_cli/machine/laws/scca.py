@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import Range
 
 LEAST = 1e-3  # the least share: of a shorter rise the jerk is a jump in all but name
@@ -58,6 +58,6 @@ class SineConstantCosine(Law):
         """Where the pieces meet."""
         return breaks(*self._shares, 0.0)
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The half in which the wheel gains speed."""
         return first_half(u, order, *self._shares)

@@ -12,7 +12,7 @@ import math
 
 from geneva_cli.machine.laws.law import from_velocity
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Coefficient, Jet, piecewise, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 
 
 def peak(b: float, d: float) -> float:
@@ -45,7 +45,7 @@ def _ends(b: float, d: float, v: float) -> tuple[float, float, float]:
     return rise * b, max(rise * (1.0 - d), rise * b), rise
 
 
-def first_half(u: Coefficient, order: int, b: float, d: float, v: float = 0.0) -> Jet:
+def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet:
     """The share s on 0 <= u <= 1/2, with its derivatives; c is what b and d leave of 1."""
     ends = _ends(b, d, v)
     sine, constant, cosine = ends[0], ends[1] - ends[0], ends[2] - ends[1]
@@ -59,7 +59,7 @@ def first_half(u: Coefficient, order: int, b: float, d: float, v: float = 0.0) -
     v_2 = v_1 + a * constant  # before the cosine
     s_2 = s_1 + constant * (v_1 + 0.5 * a * constant)
 
-    def start(x: Coefficient) -> Jet:
+    def start(x: Number) -> Jet:
         rate = 0.5 * math.pi / sine
 
         def velocity(x: Jet) -> Jet:
@@ -70,7 +70,7 @@ def first_half(u: Coefficient, order: int, b: float, d: float, v: float = 0.0) -
             x, order, lambda x: a / rate * (x - library(x).sin(rate * x) / rate), velocity
         )
 
-    def flat(x: Coefficient) -> Jet:
+    def flat(x: Number) -> Jet:
         t = x - sine
         return from_velocity(
             x,
@@ -79,11 +79,11 @@ def first_half(u: Coefficient, order: int, b: float, d: float, v: float = 0.0) -
             lambda x: (x - sine) * a + v_1,
         )
 
-    def end(x: Coefficient) -> Jet:
+    def end(x: Number) -> Jet:
         rate = 0.5 * math.pi / cosine
         t = x - ends[1]
 
-        def position(x: Coefficient) -> Coefficient:
+        def position(x: Number) -> Number:
             return s_2 + v_2 * t + 2.0 * a * (library(x).sin(0.5 * rate * t) / rate) ** 2
 
         return from_velocity(
@@ -93,7 +93,7 @@ def first_half(u: Coefficient, order: int, b: float, d: float, v: float = 0.0) -
             lambda x: sin_cos((x - ends[1]) * rate)[0] * (a / rate) + v_2,
         )
 
-    def middle(x: Coefficient) -> Jet:
+    def middle(x: Number) -> Jet:
         return from_velocity(x, order, lambda x: 0.5 - top * (0.5 - x), lambda x: x * 0.0 + top)
 
     lasting = ((sine, start), (constant, flat), (cosine, end), (0.5 * v, middle))

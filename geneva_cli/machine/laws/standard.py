@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import all_true, library
-from geneva_cli.numerics.jet import Coefficient, Jet, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, sin_cos
 from geneva_cli.spec.rules import Range
 
 
@@ -30,7 +30,7 @@ class Harmonic(Law):
     NAME: ClassVar[str] = "harmonic"
     ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s = sin²(pi u / 2)."""
         return from_velocity(
             u,
@@ -53,7 +53,7 @@ class Cycloidal(Law):
     NAME: ClassVar[str] = "cycloidal"
     ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s = u - sin(2 pi u) / (2 pi)."""
 
         def velocity(u: Jet) -> Jet:
@@ -83,7 +83,7 @@ class ModifiedTrapezoid(Law):
         """At eighths, where sines and constants meet."""
         return breaks(0.25, 0.25, 0.0)
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """Quarter sine to u = 1/8, constant acceleration to 3/8, quarter sine to the middle."""
         return first_half(u, order, 0.25, 0.25)
 
@@ -106,7 +106,7 @@ class ModifiedSine(Law):
         """Where the sines meet."""
         return breaks(0.25, 0.75, 0.0)
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The quick sine to u = 1/8, the slow one to the middle."""
         return first_half(u, order, 0.25, 0.75)
 
@@ -129,7 +129,7 @@ class ModifiedConstantVelocity(Law):
         """Where the sines meet, and both ends of the constant velocity."""
         return breaks(0.25, 0.75, 0.5)
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The quick sine to u = 1/16, the slow one to 1/4, constant velocity to the middle."""
         return first_half(u, order, 0.25, 0.75, 0.5)
 
@@ -147,7 +147,7 @@ class Polynomial345(Law):
     NAME: ClassVar[str] = "3-4-5"
     ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s = 10 u³ - 15 u⁴ + 6 u⁵."""
 
         def velocity(u: Jet) -> Jet:
@@ -170,10 +170,10 @@ class Polynomial4567(Law):
     NAME: ClassVar[str] = "4-5-6-7"
     ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
 
-        def position(u: Coefficient) -> Coefficient:
+        def position(u: Number) -> Number:
             return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
 
         def velocity(u: Jet) -> Jet:
@@ -203,17 +203,17 @@ class SineGroup(Law):
         """Only without a tilt."""
         return all_true(self.lambda_ == 0.0)
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s in closed form, from its velocity."""
         return _tilted(u, order, self.lambda_)
 
-    def second(self, w: Coefficient, order: int) -> Jet:
+    def second(self, w: Number, order: int) -> Jet:
         """Seen from the end, the tilt is the other way."""
         return _tilted(w, order, -self.lambda_)
 
 
-def _tilted(u: Coefficient, order: int, shape: Coefficient) -> Jet:
-    def position(u: Coefficient) -> Coefficient:
+def _tilted(u: Number, order: int, shape: Number) -> Jet:
+    def position(u: Number) -> Number:
         m = library(u)
         x = math.pi * u
         even = x - 2.0 / 3.0 * m.sin(2.0 * x) + m.sin(4.0 * x) / 12.0

@@ -15,7 +15,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.numerics.digits import FIFTY
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.spline import Doubt, Exact, Pieces, at_rest, doubt, shifted
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import Points
@@ -65,11 +65,11 @@ class TableLaw(Law):
         """The points: a spline's fifth derivative jumps there."""
         return tuple(u for u, _ in self.points.pairs[1:-1])
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The spline."""
         return Jet(self._halves[0](u, order))
 
-    def second(self, w: Coefficient, order: int) -> Jet:
+    def second(self, w: Number, order: int) -> Jet:
         """What is left, from the other end."""
         return Jet(self._halves[1](w, order))
 

@@ -20,7 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.numerics.arrays import all_true, scalar
-from geneva_cli.numerics.jet import Coefficient, Jet
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import OneOf, Range
 
 SMOOTH = 3  # derivatives of y that must not jump: the wheel's velocity has the third
@@ -84,11 +84,11 @@ class Tuned(Law):
         """Those of its law."""
         return self._y.knots
 
-    def first(self, u: Coefficient, order: int) -> Jet:
+    def first(self, u: Number, order: int) -> Jet:
         """The share s = y + 2 zeta y'/Omega + y''/Omega²."""
         return self._with_rates(self._y.first(u, order + 2), 1.0)
 
-    def second(self, w: Coefficient, order: int) -> Jet:
+    def second(self, w: Number, order: int) -> Jet:
         """What is left; the first derivative has the other sign by what is left of the time."""
         return self._with_rates(self._y.second(w, order + 2), -1.0)
 

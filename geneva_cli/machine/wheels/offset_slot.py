@@ -8,7 +8,7 @@ from geneva_cli.machine.engagement import Anchor, Axis, Slot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import are_designs, chosen, library
-from geneva_cli.numerics.jet import Coefficient, Jet, integral, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt
 
 
 class OffsetSlot(Slot):
@@ -17,17 +17,17 @@ class OffsetSlot(Slot):
     def __init__(self, path: AnchoredPath, skew: Skew) -> None:
         self.path, self.skew, self.offset = path, skew, skew.e
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
 
-    def axis(self, input_deg: Coefficient, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> Axis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
         return Axis(Jet(depth.c[:-1]), depth.derivative())
 
-    def _depth(self, input_deg: Coefficient, order: int) -> Jet:
+    def _depth(self, input_deg: Number, order: int) -> Jet:
         return _depth(self.skew, self.path.middle.way(input_deg, order)[0])[0]
 
 
@@ -38,19 +38,19 @@ class OffsetFollowed(Followed):
         super().__init__(path, half_step)
         self.skew = skew
 
-    def __call__(self, input_deg: Coefficient, order: int = 3) -> Jet:
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """The slot's direction, taken from the nearest anchor: exactly at rest at both ends."""
         (entry, mid, exit_), cuts = self.path.anchors, self.path.cuts
         first, last = (self._from_end(end, order) for end in (entry, exit_))
         if are_designs(input_deg, *cuts):  # one formula serves both ends
 
-            def nearer(x: Coefficient) -> Jet:
+            def nearer(x: Number) -> Jet:
                 return self._from_end(chosen(x, (mid.input_deg,), (entry, exit_)), order)(x)
 
             first = last = nearer
         return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order), last])
 
-    def _from_end(self, anchor: Anchor, order: int) -> Callable[[Coefficient], Jet]:
+    def _from_end(self, anchor: Anchor, order: int) -> Callable[[Number], Jet]:
         """About entry or exit, where the pin is at (along, -e) in the slot's frame.
 
         The slot's axis passes the pin at (s, -e) with s² = rho² - e². What s gains on ``along`` is
@@ -58,7 +58,7 @@ class OffsetFollowed(Followed):
         """
         e = self.skew.e
 
-        def solve(x: Coefficient) -> Jet:
+        def solve(x: Number) -> Jet:
             along, across = anchor.place(x, order)
             more = across * (across - 2.0 * e)  # s² - along²
             square = along * along + more
@@ -70,7 +70,7 @@ class OffsetFollowed(Followed):
 
         return solve
 
-    def _inside(self, x: Coefficient, order: int) -> Jet:
+    def _inside(self, x: Number, order: int) -> Jet:
         """About mid-motion: the pin's direction, and less what the slot's gains on it."""
         e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
         toward, across = mid.way(x, order)
@@ -93,7 +93,7 @@ def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
     return sqrt(square), square + skew.e**2
 
 
-def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet, value: Coefficient) -> Jet:
+def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet, value: Number) -> Jet:
     """A wheel's angle from its rate, (x y' - y x' - e s') / rho², for ``lever`` = e s."""
     if not x.order:
         return Jet((value,))

@@ -13,7 +13,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, Step
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Coefficient, Jet, atan2
+from geneva_cli.numerics.jet import Jet, Number, atan2
 from geneva_cli.spec.rules import Range
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ class Cone(NamedTuple):
     turn: Displacement
     cos_th: float
 
-    def __call__(self, tau: Coefficient, order: int) -> Jet:
+    def __call__(self, tau: Number, order: int) -> Jet:
         """Positive with the wheel, ``tau`` input radians after mid-motion."""
         sine, versine = self.turn(tau, order + 1)
         out: Jet = atan2(sine, 1.0 - versine).derivative() * -self.cos_th
@@ -117,7 +117,7 @@ class Height(NamedTuple):
     fall: float
     turn: Displacement
 
-    def __call__(self, tau: Coefficient, order: int) -> Jet:
+    def __call__(self, tau: Number, order: int) -> Jet:
         """``tau`` input radians after mid-motion."""
         out: Jet = self.top - self.turn(tau, order)[1] * self.fall
         return out
