@@ -581,6 +581,19 @@ class Design:
             lambda: tolerance_table(self.mechanism, self.proof, samples, seed, radius_mm)
         )
 
+    def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
+        """How the machines of ``tolerance`` spread: the middles of bins, and the share in each.
+
+        >>> from geneva_cli import Design, External, Tolerance
+        >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
+        >>> found = indexed.tolerance_histogram(1024).to_dict()
+        >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
+        (60, 1.0)
+        """
+        from geneva_cli.verdict.tolerance.tables import histogram_table
+
+        return self._located(lambda: histogram_table(self.mechanism, self.proof, samples, seed))
+
     @answer
     def warnings(self) -> list[str]:
         """What a number alone would hide of the motion and the slots.

@@ -20,6 +20,9 @@ def run(
     radius: Annotated[
         float | None, typer.Option(metavar="MM", help="Where micrometres are told.")
     ] = None,
+    histogram: Annotated[
+        bool, typer.Option("--histogram", help="How the drawn machines spread, bin by bin.")
+    ] = False,
     given: Given = None,
     output: Output = "-",
     format: Format = "",
@@ -33,6 +36,9 @@ def run(
     from geneva_cli.output import show
 
     design = load(spec, given or ())
+    if histogram:
+        show(design.tolerance_histogram(samples, seed), output, format, design.spec.files)
+        return
     table = design.tolerance(samples, seed, radius)
     show(table, output, format, design.spec.files)
     warn(design)

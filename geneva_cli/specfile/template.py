@@ -80,7 +80,7 @@ def template(kind: str) -> str:
         f"#:schema ./{FILE}",  # for editors: `geneva schema -o` writes it
         f"# A Geneva mechanism: {about}.",
         "# Keys behind a # have the default shown, or none; remove the # to set them.",
-        f"title = {quoted(about)}",
+        f"title = {quoted(about[0].upper() + about[1:])}",
     ]
     gearing = registry.gearing(str(given["wheel"].get("gearing", External.NAME)))
     # any law may be put in: a template shows the keys of all

@@ -459,3 +459,32 @@ def test_a_roller_that_could_come_to_the_wheels_axis_is_refused(distribution, mo
     assert all(math.isfinite(v) for v in fits.values() if isinstance(v, float))
     with pytest.raises(GenevaError, match=f"must together be below {room:.6g}"):
         told(design.with_("tolerance.crank_radius_mm", room - 4.999))
+
+
+@pytest.mark.parametrize("distribution", ["uniform", "normal"])
+def test_the_histogram_has_the_mean_and_deviation_of_its_machines(distribution):
+    """A slot's angle alone: the wheel is off by it; a bin's width is what its middle may miss."""
+    only = Tolerance(slot_angle_deg=0.03, distribution=distribution)
+    design = Design(External(6), tolerance=only)
+    found = design.tolerance_histogram(8192, 3).to_dict()
+    at, share = found["dwell_position_deg"], found["dwell_position_share"]
+    width = at[1] - at[0]
+    assert sum(share) == pytest.approx(1.0, abs=1e-12) and np.ptp(np.diff(at)) < 1e-12
+    mean = float(np.dot(at, share))
+    spread = math.sqrt(float(np.dot((np.asarray(at) - mean) ** 2, share)))
+    told = design.tolerance(8192, 3).to_dict()
+    assert mean == pytest.approx(told["dwell_position.mean_deg"], abs=0.5 * width)
+    assert spread == pytest.approx(told["dwell_position.std_deg"], rel=0.01)
+    if distribution == "uniform":  # all bins alike
+        assert max(share) < 1.1 / len(share)
+
+
+def test_no_histogram_of_what_is_not_known():
+    design = Design(
+        External(6, held_by="brake"),
+        motion=Motion(Cycloidal(), ratio="matched"),
+        size=Size(lock_radius_mm=0.0),
+        tolerance=Tolerance(slot_angle_deg=0.1),
+    )
+    with pytest.raises(GenevaError, match="--histogram: dwell_position is not known"):
+        design.tolerance_histogram(64)

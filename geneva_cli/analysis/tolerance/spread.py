@@ -14,6 +14,7 @@ from geneva_cli.numerics.jet import Jet, Number
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
+BINS = 60  # of a histogram
 MOST = 0.997  # of the machines are within p997
 
 
@@ -21,7 +22,8 @@ class Spread(NamedTuple):
     """How far the wheel is off its place, degrees, towards one side.
 
     ``mean`` and ``std`` are of that angle with its sign, ``p997`` is the size that 99.7 % of the
-    machines keep. ``parts`` has for each dimension its own plus or minus of it.
+    machines keep. ``parts`` has for each dimension its own plus or minus of it. ``shape`` is the
+    histogram of the machines drawn: the middles of its bins, and the share of the machines in each.
     """
 
     worst: float
@@ -30,6 +32,7 @@ class Spread(NamedTuple):
     std: float
     p997: float
     parts: tuple[float, ...]
+    shape: tuple[tuple[float, float], ...] = ()
 
     @property
     def shares(self) -> tuple[float, ...]:
@@ -53,7 +56,14 @@ def spread(
         math.degrees(drawn.std()),
         math.degrees(np.partition(abs(drawn), k)[k]),
         tuple(math.degrees(abs(part)) for part in parts),
+        _shape(drawn),
     )
+
+
+def _shape(drawn: Array) -> tuple[tuple[float, float], ...]:
+    counts, edges = np.histogram(np.degrees(drawn), BINS)
+    middles = 0.5 * (edges[:-1] + edges[1:])
+    return tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True))
 
 
 def _one(value: Number) -> float:

@@ -49,6 +49,24 @@ def tolerance_table(
     return record_table(values, spec.title)
 
 
+def histogram_table(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Table:
+    """How the machines spread: for each angle the middles of bins, and their shares.
+
+    Raises GenevaError where neither angle is known.
+    """
+    found = study(mechanism, proof, samples, seed)
+    known = {"dwell_position": found.dwell, "motion_play": found.motion}
+    columns: dict[str, list[float]] = {}
+    for name, spread in known.items():
+        if spread:
+            columns[f"{name}_deg"], columns[f"{name}_share"] = map(
+                list, zip(*spread.shape, strict=True)
+            )
+    if not columns:
+        raise GenevaError(f"--histogram: {'; '.join(found.warnings)}")
+    return Table(tuple(columns), list(columns.values()), title=mechanism.spec.title)
+
+
 def _angles(name: str, spread: Spread | None, radius_mm: float | None) -> dict[str, float | None]:
     """The five numbers of a spread in degrees, arc seconds, and micrometres at a radius."""
     degrees = [getattr(spread, angle) if spread else None for angle in ANGLES]
