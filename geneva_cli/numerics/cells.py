@@ -170,7 +170,8 @@ class Tops:
         # a cubic rises above its ends by 4/27 of this at most; and a cubic may miss
         rise = (turns.right[0] - turns.left[0]) * np.abs(d - e) * (4.0 / 27.0)
         reach = np.maximum(rises * v, rises * w) + rise * (1.0 + 4.0 * PREDICTED)
-        hopes = (d * e <= 0.0) & (reach >= self.most[self.number(turns.row, rises), turns.design])
+        most = self.most[self.number(turns.row, rises), turns.design]
+        hopes = (d * e <= 0.0) & (reach >= most) & (most < np.inf)
         return taken(turns._replace(rises=rises), hopes)
 
 

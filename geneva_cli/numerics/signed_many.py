@@ -17,6 +17,7 @@ import numpy as np
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.budget import ask
 from geneva_cli.numerics.cells import (
+    LEVEL,
     Cells,
     Cuts,
     Look,
@@ -46,7 +47,7 @@ BESIDE = 0.01  # share of a cell: Newton begins no nearer to its ends
 BENT = 1e-7  # share of a function's range: a smaller bend over a cell may be rounding
 NARROW = 1e-9  # share of a place: a cell no wider is not halved
 NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
-_UNIT = np.arange(CELLS + 1) / CELLS
+_HALF = np.arange(CELLS // 2 + 1) / CELLS
 
 
 class Signed(Protocol):
@@ -60,10 +61,13 @@ class Signed(Protocol):
     def at(self, x: Array, which: Which, order: int) -> Any:
         """What the functions of some designs are made of, at places (m, k) in degrees."""
 
-    def look(self, at: Any, forced: Array | None = None) -> tuple[Mask, list[Array]]:
+    def look(
+        self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
+    ) -> tuple[Mask, list[Array]]:
         """Which signs are positive, (signs, m, k), and Taylor coefficients (functions, m, k).
 
-        ``forced`` are signs that are known, 1.0 or -1.0; where it is NaN they are looked up. A
+        ``forced`` are signs that are known, 1.0 or -1.0; where it is NaN they are looked up. Of
+        the wanted functions only those ``asked`` are among the functions, if that is given. A
         function without a bound is infinite, and its slope 0.
         """
 
@@ -109,10 +113,10 @@ class _Search:
                 self.tops.add(self.tops.number(k, sign), there, place[there], side)
 
     def found(self, spans: Sequence[tuple[Array, Array]]) -> Found:
-        for number, (a, b) in enumerate(spans):
-            there = (b > a)[:, 0]
-            for i in range(0, self.n, BLOCK):
-                part = slice(i, i + BLOCK)
+        for i in range(0, self.n, BLOCK):
+            part = slice(i, i + BLOCK)
+            for number, (a, b) in enumerate(spans):
+                there = (b > a)[:, 0]
                 self._sample(a[part], np.maximum(a, b)[part], there[part], part, number)
         cells = joined(self.cells)
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
@@ -124,11 +128,13 @@ class _Search:
         """One span of some designs: what is to be looked at again, and where functions turn."""
         f = self.f
         # Designs lie side by side in memory: each operation runs along all of them.
-        x = np.asfortranarray(a + (b - a) * _UNIT)
-        x[:, -1:] = b
+        # Each half is counted from its own end: mirrored spans have mirrored places.
+        x = np.asfortranarray(np.hstack((a + (b - a) * _HALF, b - (b - a) * _HALF[-2::-1])))
         positive, (value, slope) = f.look(f.at(x, part, 1))
         slope *= DEGREE
         design = np.arange(part.start, part.start + len(x))
+        for end, beside in ((0, 1), (-1, -2)):
+            self._sign_end(x, positive, value, slope, design, end, beside)
         self.range.widen(design[there], value[:, there])
         self.tops.add_samples(design[there], x[there], value[f.signs :, there])
         open_ = self._open(x, positive, value, slope, design) & there[:, None]
@@ -150,6 +156,35 @@ class _Search:
             if turning.any():
                 some = turns_in(row, k, cells(turning), self.range)
                 self.turns.append(self.tops.hopeful(some))
+
+    def _sign_end(
+        self,
+        x: Array,
+        positive: Mask,
+        value: Array,
+        slope: Array,
+        design: Whole,
+        end: int,
+        beside: int,
+    ) -> None:
+        """Signs at one end of a span where a function is rounding: those that it has within.
+
+        A motion's middle and ends are where it passes 0, and there a span begins or ends.
+        """
+        signs, known = self.f.signs, np.full((self.f.signs, len(design)), np.nan)
+        size = np.abs(value[:signs]).max(axis=2)
+        within = np.where(positive[:, :, beside], 1.0, -1.0)
+        for kind in range(signs):  # those after it may hang on its sign
+            noise = np.abs(value[kind, :, end]) <= NOISE * size[kind]
+            rise = slope[kind, :, end] * (x[:, beside] - x[:, end])
+            clear = np.abs(rise) > LEVEL * size[kind]
+            own = np.where(clear, np.sign(rise), within[kind])
+            known[kind] = np.where(noise, own, np.nan)
+            wrong = np.flatnonzero(noise & (positive[kind, :, end] != (own > 0.0)))
+            if len(wrong):
+                at = self.f.at(x[wrong, end, None], design[wrong], 1)
+                look = self._look(at, known[:, wrong])
+                positive[:, wrong, end], value[:, wrong, end], slope[:, wrong, end] = look
 
     def _open(self, x: Array, positive: Mask, value: Array, slope: Array, design: Whole) -> Mask:
         """Of samples (m, k) the cells that must be looked at again: (m, k - 1)."""
@@ -173,9 +208,11 @@ class _Search:
         wanted = self.tops.bounded()[:, design]
         return np.concatenate((np.full((self.f.signs, len(design)), True), wanted))
 
-    def _look(self, at: Any, forced: Array | None = None) -> Look:
+    def _look(
+        self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
+    ) -> Look:
         """At places (m, 1): without their last axis, and slopes by degrees."""
-        positive, c = self.f.look(at, None if forced is None else forced[..., None])
+        positive, c = self.f.look(at, None if forced is None else forced[..., None], asked)
         return Look(positive[..., 0], c[0][..., 0], c[1][..., 0] * DEGREE)
 
     def _settle(self, cells: Cells) -> None:
@@ -198,7 +235,7 @@ class _Search:
         before = np.where(number < kind, sides[0], np.nan)
 
         def zero(x: Array, live: Whole) -> tuple[Array, Array]:
-            _, value, slope = self._look(f.at(x[:, None], design[live], 1), before[:, live])
+            _, value, slope = self._look(f.at(x[:, None], design[live], 1), before[:, live], ())
             own = kind[live], np.arange(len(live))
             return value[own], slope[own]
 
@@ -299,9 +336,14 @@ class _Search:
     def _jet(self, x: Array, turns: Turns, live: Whole) -> list[Array]:
         """Taylor coefficients of the functions of some turns, each at its place."""
         forced = np.where(turns.positive[:, live], 1.0, -1.0)[..., None]
-        _, c = self.f.look(self.f.at(x[:, None], turns.design[live], 2), forced)
-        own = self.f.signs + turns.row[live], np.arange(len(live)), 0
-        return [one[own] for one in c]
+        row, out = turns.row[live], np.empty((3, len(live)))
+        for k in range(self.f.wanted):
+            here = np.flatnonzero(row == k)
+            if len(here):
+                at = self.f.at(x[here, None], turns.design[live[here]], 2)
+                _, c = self.f.look(at, forced[:, here], (k,))
+                out[:, here] = [one[-1, :, 0] for one in c]
+        return list(out)
 
 
 def _cuts(before: Cells, after: Cells, where: Whole) -> Cuts:

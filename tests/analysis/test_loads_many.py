@@ -13,6 +13,7 @@ from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED, ends_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.many import many
+from geneva_cli.numerics.signed_many import BLOCK
 from geneva_cli.spec.tables import Load
 
 LOAD = Load(inertia_kgm2=1.0, friction=0.1)
@@ -140,6 +141,23 @@ def test_greatest_sizes_as_the_report_tells_them(name):
             assert together[name_].max[row] == pytest.approx(one.max, rel=32 * ULP), (told, i)
             if np.isfinite(one.max):
                 assert together[name_].at_deg[row] == pytest.approx(one.at_deg, abs=1e-4)
+
+
+@pytest.mark.parametrize("name", ["crank", "cycloidal"])
+def test_blocks_of_designs_answer_as_each_does(name):
+    """More than are sampled at a time."""
+    spec, rules = MACHINES[name]
+    spec = spec.but(load=LOAD, size=spec.size.but(face_width_mm=10.0))
+    names = ("pin_force_N", "contact_stress_MPa")
+    n, few = BLOCK + 40, 8
+    varied = drawn([*rules, *CARRIED], n, 4)
+    found = many(spec, {key: np.tile(values[:few], n // few) for key, values in varied.items()})
+    together = greatest_of_many(found.machine, names)
+    repeated = len(found.which) // (n // few)
+    for one in together.values():
+        for values in one:
+            first = values[:repeated]
+            assert np.array_equal(values, np.tile(first, n // few), equal_nan=True)
 
 
 def test_the_inertia_alone_against_the_theory():

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
+ODD = ("acceleration", "aside", "along")  # what a mirror at mid-motion turns round
 BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight
 
 
@@ -52,16 +53,40 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
     return Contact._make([*[jet.c[0] for jet in jets], held])
 
 
+def mirrored(at: Contact[Jet]) -> Contact[Jet]:
+    """The contact at the mirror images of places (n, k), in their order, without joints.
+
+    Of a straight radial slot whose motion is symmetric.
+    """
+    jets = []
+    for name, jet in zip(at._fields[:-1], at[:-1], strict=True):
+        even = name not in ODD
+        jets.append(Jet([_turned(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
+    return Contact._make([*jets, None])
+
+
+def _turned(c: Number, same: bool) -> Number:
+    if not isinstance(c, float):
+        c = c[:, ::-1]
+    return c if same else -c
+
+
 def contact(
-    engagement: Engagement, input_deg: Number, order: int = 0, joints: bool = True
+    engagement: Engagement,
+    input_deg: Number,
+    order: int = 0,
+    joints: bool = True,
+    spins: bool = True,
 ) -> Contact[Jet]:
     """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
-    Without ``joints`` nothing is asked of what holds the roller's body. At mid-motion of a curved
-    slot only the values have a limit, that of the way in: there ``order`` must be 0.
+    Without ``joints`` nothing is asked of what holds the roller's body, and without ``spins``
+    nothing of how that turns: ``spin`` is then 0, as suits whoever asks for no sliding. At
+    mid-motion of a curved slot only the values have a limit, that of the way in: there ``order``
+    must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
-        return _beside(engagement, input_deg, order, joints=joints)
+        return _beside(engagement, input_deg, order, joints=joints, spins=spins)
 
     def beside(x: Number) -> Jet:
         *jets, _ = _beside(engagement, x, order, joints=False)
@@ -89,6 +114,7 @@ def _beside(
     order: int,
     rates: Jet | None = None,
     joints: bool = True,
+    spins: bool = True,
 ) -> Contact[Jet]:
     """Wherever the pin moves in its slot, or the slot is straight.
 
@@ -118,7 +144,9 @@ def _beside(
         curvature = (ux * bend_y - uy * bend_x) / (along * along * along)
     upright = engagement.slot.upright(x, order)
     touches = constant + engagement.slot.touches(x)
-    spin = (engagement.carrier(x, order) - velocity * upright) * touches
+    spin = constant
+    if spins:
+        spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
     held = _held(engagement, x, lever, aside) if joints else None
     return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches, held)

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR, Contact, contact
+from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, mirrored
 from geneva_cli.analysis.loads.forces import Setting, gain, needed, sliding, value
 from geneva_cli.analysis.loads.instant import Instant, instant
 from geneva_cli.analysis.loads.peaks import ZERO
-from geneva_cli.analysis.loads.quantities import QUANTITIES
+from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import retraces
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.numerics.roots_many import Which
 
+# Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
+JOINTS = ("crank_bearing_N", "guide_force_N")
+SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
 At: TypeAlias = tuple[Setting, Contact[Any], tuple[int, ...]]  # and the shape of the places
 
 
@@ -39,7 +42,25 @@ class Loaded:
         self.names = names
         self.kinds = kinds(engagement, given)
         self.signs, self.wanted = len(self.kinds), len(names)
-        self.kept: tuple[int, Any] = (-1, None)
+        self.joints = any(name in JOINTS for name in names)
+        self.spins = given.rubs or any(name in SLIDING for name in names)
+        motion, slot = engagement.motion, engagement.slot
+        straight = not slot.curved and all_true(slot.offset == 0.0)
+        self.mirrored = straight and motion.symmetric and not self.joints
+        # of the block of designs that is sampled: which, their machine, and places and contact
+        self.kept: tuple[slice | None, Any] = (None, None)
+        self.last: tuple[Array, Contact[Any]] | None = None
+
+    @property
+    def repeats(self) -> bool:
+        """Whether the second half of the motion has no greater sizes than the first.
+
+        Without friction nor a torque, or nor an inertia, forces are as great in both, and what
+        the input gives is no less than what it gets back.
+        """
+        given = self.machine[1]
+        alone = all_true(given.resists_Nm == 0.0) or all_true(given.inertia_Nm == 0.0)
+        return self.mirrored and alone and not given.rubs
 
     def at(
         self, x: Array, which: Which, order: int
@@ -47,18 +68,29 @@ class Loaded:
         """Setting, contact and shape of some designs."""
         if not isinstance(which, slice):
             engagement, given = taken(self.machine, which)
-        else:
-            if which.start != self.kept[0]:
-                self.kept = which.start, taken(self.machine, which)
-            engagement, given = self.kept[1]
-        return given, contact(engagement, x, order), x.shape
+            return given, self._contact(engagement, x, order), x.shape
+        if which != self.kept[0]:
+            self.kept, self.last = (which, taken(self.machine, which)), None
+        engagement, given = self.kept[1]
+        if not self.mirrored:
+            return given, self._contact(engagement, x, order), x.shape
+        if self.last and order == 1 and np.array_equal(self.last[0], -x[:, ::-1]):
+            return given, mirrored(self.last[1]), x.shape
+        self.last = x, self._contact(engagement, x, order)
+        return given, self.last[1], x.shape
 
-    def look(self, at: At, forced: Array | None = None) -> tuple[Mask, list[Array]]:
+    def _contact(self, engagement: Engagement, x: Array, order: int) -> Contact[Any]:
+        return contact(engagement, x, order, self.joints, self.spins)
+
+    def look(
+        self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
+    ) -> tuple[Mask, list[Array]]:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
+        names = self.names if asked is None else [self.names[k] for k in asked]
         found = look(self.kinds, *at[:2], forced)
         shape = at[2]
         orders = range(at[1].velocity.order + 1)
-        shape_in = (self.signs + self.wanted, *shape[::-1])
+        shape_in = (self.signs + len(names), *shape[::-1])
         values = [np.empty(shape_in).swapaxes(1, 2) for _ in orders]
         for i, jet in enumerate(found.jets):
             for k in orders:
@@ -66,7 +98,7 @@ class Loaded:
         positive = np.empty((self.signs, *shape[::-1]), dtype=bool).swapaxes(1, 2)
         for i, sign in enumerate(found.signs):
             positive[i] = sign > 0.0
-        for i, name in enumerate(self.names, self.signs):
+        for i, name in enumerate(names, self.signs):
             row = QUANTITIES[name](found.instant)
             for k in orders:
                 values[k][i] = row.value.c[k]

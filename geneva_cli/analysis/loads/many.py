@@ -24,6 +24,7 @@ from geneva_cli.analysis.loads.contact import NEAR
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import Setting, setting
 from geneva_cli.analysis.loads.loaded_many import (
+    JOINTS,
     Loaded,
     at_mid_motion,
     look,
@@ -46,8 +47,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-# Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
-JOINTS = ("crank_bearing_N", "guide_force_N")
 GROUP = 4096  # designs whose stretches are found together
 
 
@@ -156,6 +155,8 @@ def _of(
 
 def _group(load: Loaded, n: int, sized: bool, means: bool) -> tuple[Array, Array, Array]:
     spans = spans_of(load.machine[0], n)
+    if sized and load.repeats:
+        spans = spans[: len(spans) // 2]
     known = at_mid_motion(load, n) if load.machine[0].slot.curved else []
     found = search(load, spans, n, sized, known)
     sums = _sums(load, found, spans, n) if means else found.most
