@@ -17,6 +17,7 @@ from geneva_cli.curves.pieces import STEP, prepared
 from geneva_cli.curves.plates import plates, with_material_left
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.roots import boundary
 
 NEAR = 1e-5  # mm: a path that comes nearer to the part by less leaves it whole
 SAMPLES = 4  # of the path, along the offset
@@ -64,16 +65,17 @@ def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circ
 
 def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
     """What to do instead: the widest kerf that goes, to three digits."""
-    goes, fails = 0.0, kerf
-    for _ in range(LOOKS):
-        middle = 0.5 * (goes + fails)
+
+    def leaves_a_path(width: float) -> bool:
         try:
-            offset(shape, outside, 0.5 * middle)
-            goes = middle
+            offset(shape, outside, 0.5 * width)
         except _Closed:
-            fails = middle
+            return False
+        return True
+
+    goes = boundary(leaves_a_path, 0.0, kerf, LOOKS)
     if not goes:
-        return f"nor would one of {fails:.2g}"
+        return f"nor would one of {kerf * 0.5**LOOKS:.2g}"
     unit = 10.0 ** (math.floor(math.log10(goes)) - 2)
     return f"a kerf up to {math.floor(goes / unit) * unit:.6g} would still do"
 
@@ -154,7 +156,10 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
 
 
 def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[float, float]:
-    """Where two pieces cross whose ends overlap, as shares of their ways; by Newton's method."""
+    """Where two pieces cross whose ends overlap, as shares of their ways.
+
+    Newton's method in both at once, from the corner, which is near: no root of one variable.
+    """
     s, t = 1.0, 0.0
     for _ in range(STEPS):
         (x, y), (u, v) = at(first, s), at(second, t)

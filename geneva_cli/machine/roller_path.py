@@ -14,7 +14,7 @@ from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Jet, Number, sin_cos
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Long, Number, Which
+    from geneva_cli.numerics.arrays import Long, Which
 
 LONG_PI = np.longdouble(str(PI))
 

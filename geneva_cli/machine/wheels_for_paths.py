@@ -71,7 +71,10 @@ def long_point(path: Path, phi: Long) -> tuple[LongComplex, LongComplex]:
 
 
 def polished(path: Path, found: Fits, step: Step) -> tuple[Long, Long]:
-    """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles."""
+    """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles.
+
+    Newton's method in two unknowns, from roots that are known to a double's last digits.
+    """
     every = np.arange(len(found.entry))
     ends = ends_at(path, every, np.hstack((found.entry, found.exit)))
     rest = residual(ends, np.broadcast_to(step.b, found.entry.shape))

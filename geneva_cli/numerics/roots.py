@@ -63,15 +63,16 @@ def root(
     return x
 
 
-def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real) -> Real:
+def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real, looks: int = STEPS) -> Real:
     """The last number from ``good`` towards ``bad`` for which something holds, by halving.
 
-    ``good`` and ``bad`` are floats, arrays of designs, or Decimals of a context that is set.
+    ``good`` and ``bad`` are floats, arrays of designs, or Decimals of a context that is set. With
+    ``looks`` it is asked no more often, and the number is one for which it holds.
 
     >>> boundary(lambda x: x * x <= 2.0, 1.0, 2.0)
     1.414213562373095
     """
-    for _ in range(STEPS):
+    for _ in range(looks):
         middle = (good + bad) / 2
         if all_true((middle == good) | (middle == bad) | (middle != middle)):
             break

@@ -177,8 +177,9 @@ class Adviser:
     ) -> float:
         """The value nearest to one that fails, as nearly as there is time for.
 
-        Where what is left of the limit is without bound, as of a value that makes no machine, the
-        search halves.
+        The steps are those of ``numerics.roots.Falsi``, taken here because time may run out. Where
+        what is left of the limit is without bound, as of a value that makes no machine, the search
+        halves.
         """
         start, short = bad
         found, enough = Falsi(*good, *bad), NEARLY * abs(short) if math.isfinite(short) else 0.0

@@ -22,7 +22,7 @@ from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.tables import Limits
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array, Number
+    from geneva_cli.numerics.jet import Array
 
 
 class State(NamedTuple):

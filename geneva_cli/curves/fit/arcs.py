@@ -5,6 +5,9 @@ h, k' being the rate of the curvature. Where knots and tangents may leave the cu
 best is an error that runs like the third Bernoulli polynomial, k' h³ / 125: a third fewer arcs.
 So each pair of arcs is a biarc, whose ends are moved off the curve by small distances and angles;
 those follow from least squares, in which the miss is a piecewise quadratic of the arc length.
+
+How many there must be is a whole number, which each try predicts from its error: no boundary to
+halve towards, as those of ``numerics.roots``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""The fewest pieces that serve, where the error of each piece is its own affair."""
+"""The fewest pieces that serve, where the error of each piece is its own affair.
+
+Neither search is one of ``numerics.roots``: how many pieces there must be is a whole number, which
+each try predicts from its errors, and where they meet is many unknowns.
+"""
 
 from __future__ import annotations
 

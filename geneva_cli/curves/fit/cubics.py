@@ -87,7 +87,10 @@ def _wanted(path: Path, places: Array, samples: int) -> Wanted:
 
 
 def _handles(wanted: Wanted, known: Array) -> Array:
-    """The handles of the nearest cubics, from ``known`` ones if there are as many of them."""
+    """The handles of the nearest cubics, from ``known`` ones if there are as many of them.
+
+    Least squares in two unknowns a piece (Levenberg and Marquardt's), no root of one variable.
+    """
     # At a cusp the place w goes as the cubic's own parameter does, and elsewhere too.
     even = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     state = _seen(wanted, _first_handles(wanted, even), even)
@@ -149,7 +152,11 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
 
 
 def _projected(wanted: Wanted, handles: Array, v: Array) -> Array:
-    """The places on the cubics nearest to the samples, one step of Newton's closer."""
+    """The places on the cubics nearest to the samples, one step of Newton's closer.
+
+    Not to the last bit and in no bracket, as ``numerics.roots_many`` would: a few steps serve, with
+    the handles still moving, and each must lead to a lesser distance from wherever it starts.
+    """
     point, rate, bend = _bezier(wanted, handles, v)
     off = wanted.points - point
     slope = np.abs(rate) ** 2
