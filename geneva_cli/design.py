@@ -449,19 +449,23 @@ class Design:
         """
         return self.proof.found
 
-    def drawn(self, tolerance_mm: float) -> Proof:
+    def drawn(self, tolerance_mm: float, part: str = "wheel") -> Proof:
         """The parts as they are written for a tolerance in mm above 0, and their full turn.
 
-        Raises GenevaError for another tolerance, or where there are no flat parts.
+        Raises GenevaError for another tolerance, or where there are no flat parts, unless ``part``
+        is one that is drawn without.
 
         >>> Design(External(6)).drawn(0.01).found.relief
         'arc'
         """
+        from geneva_cli.parts.catalogue import is_alone
         from geneva_cli.parts.outlines import outlines
         from geneva_cli.parts.proof import Proof
 
         if not tolerance_mm > 0.0:
             raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
+        if is_alone(part) and not self.spec.is_flat:
+            return Proof(self.mechanism)
         made = self._located(lambda: outlines(self.mechanism, tolerance_mm))
         return Proof(self.mechanism, made)
 
@@ -475,8 +479,8 @@ class Design:
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
-        ``slot``, ``wheel``, ``crank``, ``arm``, ``assembly`` or ``groove``; millimetres. With a
-        kerf, the paths of a cut so wide, and ``GenevaError`` where it does not fit in.
+        ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly`` or ``groove``; millimetres.
+        With a kerf, the paths of a cut so wide, and ``GenevaError`` where it does not fit in.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -485,9 +489,8 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        found = (of or self.drawn(tolerance_mm)).found
-        of_curves = CURVES[curves]
-        made = self._located(lambda: part_drawing(found, part, tolerance_mm, of_curves))
+        proof, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
+        made = self._located(lambda: part_drawing(proof, part, tolerance_mm, of_curves))
         if kerf_mm is None:
             return made
         from geneva_cli.curves.kerf import paths

@@ -129,8 +129,9 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-    proof = design.drawn(tolerance)
-    _judge(design, proof, force)
+    proof = design.drawn(tolerance, part)
+    if design.spec.is_flat:
+        _judge(design, proof, force)
     if sheet:
         _refuse(units=units, kerf=kerf)
         if fill is not None:

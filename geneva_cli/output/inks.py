@@ -17,12 +17,13 @@ INKS = {
     "WHEEL": Ink(142, "#007ca5"),
     "CRANK": Ink(94, "#007f00"),
     "ARM": Ink(23, "#a56752"),
+    "LINK": Ink(134, "#007f7f"),
     "ROLLER": Ink(200, "#bf00ff"),
     "BORE": Ink(1, "#ff0000"),
     "PITCH": Ink(8, "#808080"),
     "GROOVE": Ink(54, "#7f7f00"),
 }
-OTHERS = (Ink(134, "#007f7f"), Ink(240, "#ff003f"), Ink(84, "#1f7f00"))
+OTHERS = (Ink(153, "#527ca5"), Ink(240, "#ff003f"), Ink(84, "#1f7f00"))
 CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
 DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
 

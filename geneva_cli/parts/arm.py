@@ -9,6 +9,7 @@ it, below the wheel: the crank is overhung, and its hub is a disc that carries t
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,7 @@ from geneva_cli.parts.crank import (
     roller_centres,
     sectors,
 )
+from geneva_cli.parts.hole_walls import apart, beyond
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even
@@ -31,7 +33,6 @@ from geneva_cli.parts.sizes import even
 LAYER, HOLES = "ARM", "BORE"
 HUB = 1.6  # of the bore: how wide the arm is round it
 EYE = 2.0  # of a hole: how wide the arm is round it, where there is room
-FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of the samples of a bore with a keyway
 RADII = 400  # at which the locking disc is looked at for its bolts
 
 
@@ -75,7 +76,7 @@ def crank_arm(found: Outlines) -> CrankArm:
         )
     centres = roller_centres(plane)
     far = max(math.hypot(*c) for c in centres)
-    radius = _bore(found, min(math.hypot(*c) for c in centres) - hole)
+    radius = shaft_bore(found)
     fitted = key(spec.size.crank_keyway, radius)
     deep = radius + (fitted.in_hub if fitted else 0.0)
     wall = sizes.wall_min
@@ -129,7 +130,7 @@ def _widest(found: Outlines, at: list[float]) -> float:
     return float(radii[int(walls.min(axis=1).argmax())])
 
 
-def _bore(found: Outlines, room: float) -> float:
+def shaft_bore(found: Outlines) -> float:
     """The bore's radius: of the shaft through the disc, or of one that ends below the wheel."""
     spec = found.plane.given.spec
     if spec.size.arm_bore_mm is not None:
@@ -138,6 +139,8 @@ def _bore(found: Outlines, room: float) -> float:
         return found.sizes.crank_bore
     if spec.shaft.crank_diameter_mm is not None:
         return 0.5 * spec.shaft.crank_diameter_mm
+    hole = found.sizes.pin - 0.5 * spec.size.press_fit_mm
+    room = min(math.hypot(*c) for c in roller_centres(found.plane)) - hole
     return even(min(found.plane.L / 20.0, 0.35 * room))
 
 
@@ -173,29 +176,13 @@ def walls(made: CrankArm, found: Outlines) -> float:
     """The least wall round the arm's holes, and round bolts and keyway in the locking disc."""
     holes = [made.bore, *made.pins, *made.bolts]
     outline = Polyarc([made.outline])
-    least = [-_beyond(outline, hole) for hole in holes]
-    least += [_apart(one, two) for i, two in enumerate(holes) for one in holes[:i]]
+    least = [-beyond(outline, hole) for hole in holes]
+    least += [apart(one, two) for one, two in combinations(holes, 2)]
     in_disc: list[Shape] = [*made.bolts]
     if found.sizes.crank_bore:
         in_disc += [s for s in crank_circles(found.plane, found.sizes) if s.layer == HOLES]
-        least += [_apart(in_disc[-1], bolt) for bolt in made.bolts]
+        least += [apart(in_disc[-1], bolt) for bolt in made.bolts]
     if found.crank:
         disc = Polyarc(found.crank)
-        least += [-_beyond(disc, hole) for hole in in_disc]
+        least += [-beyond(disc, hole) for hole in in_disc]
     return min(least)
-
-
-def _beyond(outline: Polyarc, hole: Shape) -> float:
-    """How far a hole's edge reaches past an outline, negative inside."""
-    if isinstance(hole, Circle):
-        return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
-    return float(outline.signed(Polyarc([hole]).samples(FINE, LONGEST)).max())
-
-
-def _apart(bore: Shape, hole: Shape) -> float:
-    """Between the bore, or another hole, and a hole that is a circle."""
-    assert isinstance(hole, Circle)  # only the bore may have a keyway
-    if isinstance(bore, Circle):
-        return math.dist(bore.centre, hole.centre) - bore.radius - hole.radius
-    away = Polyarc([bore]).signed(np.array([hole.centre]))
-    return float(away[0]) - hole.radius

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.parts.proof import Proof
 
 
 class Part(NamedTuple):
@@ -26,6 +27,7 @@ class Part(NamedTuple):
     sphere: str | None = None  # its points where the wheel is a sphere's
     cut: bool = False  # whether it is cut out of a plate
     sheet: str | None = None  # as a drawing sheet with dimensions
+    alone: bool = False  # whether it is drawn without the outlines of wheel and crank
 
 
 PARTS = {
@@ -33,6 +35,7 @@ PARTS = {
     "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table", cut=True),
     "crank": Part(drawing="drawings:crank", cut=True),
     "arm": Part(drawing="drawings:arm", cut=True),
+    "links": Part(drawing="link_drawings:links", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
     "assembly": Part(drawing="drawings:assembly"),
     "gears": Part("gear_curves:gears_table"),
@@ -78,7 +81,12 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     return made
 
 
-def part_drawing(found: Outlines, part: str, tolerance_mm: float, curves: str) -> Drawing:
+def is_alone(part: str) -> bool:
+    """Whether a part is drawn without the outlines of wheel and crank."""
+    return part in PARTS and PARTS[part].alone
+
+
+def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Drawing:
     """A part as contours of lines and arcs, or ("cubics") of lines, arcs and cubics.
 
     Raises GenevaError for a part that is not drawn, or that the machine does not have.
@@ -86,8 +94,9 @@ def part_drawing(found: Outlines, part: str, tolerance_mm: float, curves: str) -
     _require_known(part)
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, and no drawing to cut")
-    is_table(found.plane.mechanism, part, drawn=True)
-    made: Drawing = _made(PARTS[part].drawing)(found, tolerance_mm, curves)
+    is_table(proof.mechanism, part, drawn=True)
+    of = proof if is_alone(part) else proof.found
+    made: Drawing = _made(PARTS[part].drawing)(of, tolerance_mm, curves)
     return made
 
 

@@ -1,6 +1,7 @@
 """Drawings of the parts, each in its own frame, and of the machine put together.
 
-Layers: WHEEL, CRANK, ARM, GROOVE and BORE are cut; ROLLER is a circle; PITCH is where rollers run.
+Layers: WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut; ROLLER is a circle; PITCH is where rollers
+run, and where gears roll.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
 from geneva_cli.parts.assembly import Plane
 from geneva_cli.parts.crank import crank_circles, roller_centres
+from geneva_cli.parts.link_drawings import once, titled, together
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines, slot_walls
 from geneva_cli.parts.plates import arm_plate, crank_group, wheel_plate
 from geneva_cli.parts.walls.ways import beside
@@ -84,18 +87,22 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
     contour, *circles = _wheel(found, tolerance, curves)
     shapes: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
     carrier = crank_arm(found) if has_arm(found) else None
+    bars = drawn_links(plane.given, found)
     carried = [*_crank(found), *_arm(found, carrier)]
     shapes += [mapped(turned(s, angle), lambda p: (p[0] + plane.L, p[1])) for s in carried]
+    shapes += together(bars)
     shapes += _ways(found, psi, tolerance, curves)
     solid = Group(
         _title(found, ""),
         (
             Member(wheel_plate(found, contour), turn=psi),
-            Member(crank_group(found, carrier), (plane.L, 0.0), angle),
+            Member(crank_group(found, carrier, bars.pin_low), (plane.L, 0.0), angle),
+            *bars.cut,
+            *bars.joined,
         ),
     )
     look = Look((Span((0.0, 0.0), (plane.L, 0.0), "L"),), tuple(_turns(found)))
-    return Drawing(_title(found, ""), tuple(shapes), look, solid)
+    return Drawing(_title(found, ""), tuple(once(shapes)), look, solid)
 
 
 def _turns(found: Outlines) -> Iterator[Arc]:
@@ -135,8 +142,7 @@ def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
 
 
 def _title(found: Outlines, part: str) -> str:
-    spec = found.plane.mechanism.spec
-    name = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    name = titled(found.plane.mechanism)
     return f"{name}: {part}" if part else name
 
 

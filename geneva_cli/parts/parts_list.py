@@ -2,22 +2,25 @@
 
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
 axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
-turns on: the wheel's, the crank's, a roller's own. Hubs are left out.
+turns on: the wheel's, the crank's, a roller's own, a link's first joint. z is along the axis, from
+the wheel's lower face. Hubs and shafts are left out.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Plate, body
+from geneva_cli.curves.plates import Member, Plate, body
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
+from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.arm import crank_arm, has_arm
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_plate
 from geneva_cli.parts.proof import Proof
@@ -32,6 +35,8 @@ KINDS = {
         "material",
         "density_kgm3",
         "thickness_mm",
+        "z_low_mm",
+        "z_high_mm",
         "mass_kg",
         "inertia_kgm2",
         "size_x_mm",
@@ -52,9 +57,8 @@ def parts_list(proof: Proof) -> Table:
     """The same, of a machine whose outlines may be known; no parts where its sizes leave none."""
     mechanism = proof.mechanism
     found: list[dict[str, object]] = []
-    if mechanism.spec.is_flat:
-        with suppress(GenevaError):  # the check of the parts says why there are none
-            found += parts_rows(proof.found)
+    with suppress(GenevaError):  # the check of the parts says why there are none
+        found += parts_rows(proof.found) if mechanism.spec.is_flat else link_rows(mechanism)
     found += [*_pivots(mechanism), *_dimensions(mechanism)]
     rows = [[row.get(name) for name in NAMES] for row in found]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
@@ -66,9 +70,23 @@ def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
     if has_arm(found):
         with suppress(GenevaError):  # the check of the arm says why there is none
             arm = crank_arm(found)
-    carried = (member.part for member in crank_group(found, arm).members)
-    crank = [part for part in carried if isinstance(part, Plate)]
-    plates = Counter([wheel_plate(found, found.wheel), *crank])
+    bars = None
+    with suppress(GenevaError):  # and that of the links
+        bars = drawn_links(found.plane.given, found)
+    group = crank_group(found, arm, bars.pin_low if bars else None)
+    yield from _rows(spec, [Member(wheel_plate(found, found.wheel)), *group.members])
+    if bars:
+        yield from _rows(spec, [*bars.cut, *bars.joined])
+
+
+def link_rows(mechanism: Mechanism) -> Iterator[dict[str, object]]:
+    """The links alone, of a machine whose wheel is not drawn."""
+    bars = drawn_links(mechanism)
+    yield from _rows(mechanism.spec, [*bars.cut, *bars.joined])
+
+
+def _rows(spec: Spec, members: Iterable[Member]) -> Iterator[dict[str, object]]:
+    plates = Counter(one.part for one in members if isinstance(one.part, Plate))
     for plate, count in plates.items():
         name, of = (
             ("roller", spec.material_roller)
@@ -83,6 +101,8 @@ def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
             "material": f"material.{name}",
             "density_kgm3": of.density_kgm3,
             "thickness_mm": plate.thickness,
+            "z_low_mm": plate.low,
+            "z_high_mm": plate.high,
             "mass_kg": made.mass_kg,
             "inertia_kgm2": made.inertia_kgm2,
             "size_x_mm": box.x1 - box.x0,

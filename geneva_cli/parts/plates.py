@@ -31,10 +31,13 @@ def arm_plate(found: Outlines, arm: CrankArm) -> Plate:
     return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
 
 
-def crank_group(found: Outlines, arm: CrankArm | None = None) -> Group:
+def crank_group(
+    found: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
+) -> Group:
     """What the crank carries: locking disc or sectors, rollers, their pins; and the arm, if given.
 
-    A bore is a hole in the disc, and nothing where none is left about the axis.
+    ``pin_low`` is down to where pins go that stand in a link. A bore is a hole in the disc, and
+    nothing where none is left about the axis.
     """
     plane, sizes = found.plane, found.sizes
     low = -plane.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
@@ -56,7 +59,8 @@ def crank_group(found: Outlines, arm: CrankArm | None = None) -> Group:
     ]
     plates += [arm_plate(found, arm)] if arm else []
     members = [Member(plate) for plate in plates]
-    round_ = _rollers(found, low - (sizes.arm_thickness if arm else 0.0))
+    below = low - (sizes.arm_thickness if arm else 0.0) if pin_low is None else pin_low
+    round_ = _rollers(found, below)
     members += [Member(plate, axis) for axis in roller_centres(plane) for plate in round_]
     return Group("crank", tuple(members))
 

@@ -89,10 +89,10 @@ def sizes(plane: Plane, known: Ways | None = None) -> Sizes:
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
-    wall_min = _or(given.wall_min_mm, L / 200.0)
-    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall_min, given.wheel_hub_mm, L))
+    wall = wall_min(given, L)
+    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall, given.wheel_hub_mm, L))
     wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
-    thick = _or(given.wheel_thickness_mm, _or(given.face_width_mm, L / 10.0))
+    thick = thicknesses(given, L)
     out = Sizes(
         roller=r,
         half_width=w,
@@ -104,18 +104,45 @@ def sizes(plane: Plane, known: Ways | None = None) -> Sizes:
         lock=lock,
         recess=lock + given.lock_clearance_mm if lock else 0.0,
         relief=relief,
-        wall_min=wall_min,
+        wall_min=wall,
         wheel_bore=wheel_bore,
         wheel_hub=_or(_half(given.wheel_hub_mm), even(min(1.6 * wheel_bore, 0.75 * end))),
         crank_bore=bore,
         crank_hub=_or(_half(given.crank_hub_mm), even(1.5 * bore)),
-        pin=_or(_half(given.pin_mm), r / 2.0),
-        wheel_thickness=thick,
-        lock_thickness=_or(given.lock_thickness_mm, thick + given.pin_gap_mm),
-        arm_thickness=_or(given.arm_thickness_mm, thick),
+        pin=pin_radius(given, r),
+        wheel_thickness=thick.wheel,
+        lock_thickness=thick.lock,
+        arm_thickness=thick.arm,
     )
     _refuse(plane, out)
     return out
+
+
+class Thicknesses(NamedTuple):
+    """Of the parts along the axis, mm."""
+
+    wheel: float
+    lock: float
+    arm: float
+    link: float
+
+
+def thicknesses(size: Size, L: float) -> Thicknesses:
+    """The thicknesses as they are given, or the wheel's for all."""
+    wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
+    arm = _or(size.arm_thickness_mm, wheel)
+    lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
+    return Thicknesses(wheel, lock, arm, _or(size.link_thickness_mm, arm))
+
+
+def pin_radius(size: Size, r: float) -> float:
+    """The radius of a roller's pin, 0 for none."""
+    return _or(_half(size.pin_mm), r / 2.0)
+
+
+def wall_min(size: Size, L: float) -> float:
+    """The least wall that ``check`` lets pass, mm."""
+    return _or(size.wall_min_mm, L / 200.0)
 
 
 def mouth(plane: Plane, engagement: Engagement, r: float) -> float:

@@ -118,6 +118,21 @@ class Size(Table):
     arm_thickness_mm: Annotated[
         float | None, POSITIVE, "of the crank arm along the axis; the wheel's"
     ] = None
+    link_pin_mm: Annotated[
+        float | None, POSITIVE, "diameter of the pins on which links turn; L/20 where there is room"
+    ] = None
+    link_bore_mm: Annotated[
+        float | None, POSITIVE, "diameter of the links' bores for shafts; L/10 where there is room"
+    ] = None
+    link_width_mm: Annotated[
+        float | None, POSITIVE, "width of the links round those pins; 2 pins"
+    ] = None
+    link_thickness_mm: Annotated[
+        float | None, POSITIVE, "of the links along the axis; the crank arm's"
+    ] = None
+    washer_mm: Annotated[
+        float, NOT_NEGATIVE, "thickness of the washers between links one below the other"
+    ] = 0.0
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import pytest
 import repo
 
 from geneva_cli import load
-from geneva_cli.machine.layout import Pivot
+from geneva_cli.machine.layout import Joint, Pivot
 
 # of a linkage's own lengths, some hundred mm: rounding of a few sines
 NEAR = 1e-11
@@ -26,19 +26,35 @@ def machine(request):
     return load(str(repo.DESIGNS / f"{request.param}.toml")).mechanism
 
 
+def stated(machine, input_deg):
+    return machine.spec.drive.links(machine.plan, machine.spec.wheel.SIGN, input_deg)
+
+
 def links(machine, input_deg):
-    found = machine.spec.drive.links(machine.plan, machine.spec.wheel.SIGN, input_deg)
-    return {link.name: link.joints for link in found}
+    return {link.name: link.joints for link in stated(machine, input_deg)}
 
 
 def test_bars_keep_their_length(machine):
     turn = np.linspace(-180.0, 180.0, 97)
-    for name, joints in links(machine, turn).items():
-        if name in ("coulisse", "slider"):  # the pin slides along it; a point
-            continue
-        for (x, y), (u, v) in zip(joints, joints[1:], strict=False):
+    for link in stated(machine, turn):
+        assert len(link.kinds) == len(link.joints)
+        rigid = [
+            joint
+            for joint, kind in zip(link.joints, link.kinds, strict=True)
+            if kind is not Joint.SLIDE  # which goes along it
+        ]
+        for (x, y), (u, v) in zip(rigid, rigid[1:], strict=False):
             length = np.hypot(u - x, v - y)
-            assert np.ptp(length) < NEAR, name
+            assert np.ptp(length) < NEAR, link.name
+
+
+def test_a_slider_stays_on_its_line(machine):
+    turn = np.linspace(-180.0, 180.0, 97)
+    for link in stated(machine, turn):
+        if Joint.SLIDE in link.kinds and len(link.joints) > 2:
+            (x, y), (u, v), (p, q) = link.joints
+            aside = ((u - x) * (q - y) - (v - y) * (p - x)) / np.hypot(u - x, v - y)
+            assert np.abs(aside).max() < NEAR
 
 
 def test_joints_at_input_0_are_the_pivots_of_the_list(machine):

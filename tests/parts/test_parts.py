@@ -39,7 +39,7 @@ FLAT = [name for name in DESIGNS if name not in NOT_FLAT]
 LINKAGES = ("four-bar-z4", "slider-crank")
 UNLOCKED = (*LINKAGES, "internal-curved-z8")  # lock_radius_mm = 0
 INTERNAL = ("elliptical-internal", "internal-curved-z8", "internal-z6")
-LAYERS = {"WHEEL", "CRANK", "ARM", "ROLLER", "BORE", "PITCH", "GROOVE"}
+LAYERS = {"WHEEL", "CRANK", "ARM", "LINK", "ROLLER", "BORE", "PITCH", "GROOVE"}
 PARTS = ("slot", "wheel", "crank", "assembly")
 VARIED = (  # straight, curved, offset, uneven and internal slots; one roller and more; no lock
     "cam-geneva",

@@ -20,6 +20,7 @@ from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.proof import Proof
 from geneva_cli.study.batch import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged
@@ -61,7 +62,7 @@ def one(text):
         if not found.spec.is_flat:
             return "without parts"
         try:
-            drawn = outlines(found)
+            drawn = Proof(found, outlines(found))
         except GenevaError as error:
             assert error.key, f"no place: {error}"
             return "parts refused"

@@ -18,7 +18,7 @@ from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
@@ -120,12 +120,12 @@ class Epicyclic(PinPath):
         m, axis = library(turn), (still + L, still)
         planet = L - R0 * m.cos(turn), R0 * m.sin(turn)
         roller = planet[0] - rp * m.cos(c * turn), planet[1] + rp * m.sin(c * turn)
-        radius = R0 / abs(c)
+        radius, shaft = R0 / abs(c), Joint.SHAFT
         return (
-            Link("carrier", (axis, planet)),
-            Link("planet's arm", (planet, roller)),
-            Link("planet", (planet,), radius),
-            Link("fixed gear", (axis,), radius * abs(c - 1.0)),
+            Link("carrier", (axis, planet), (shaft, shaft), 2),
+            Link("planet's arm", (planet, roller), (shaft, Joint.ROLLER), 1),
+            Link("planet", (planet,), (shaft,), 3, radius),
+            Link("fixed gear", (axis,), (shaft,), 3, radius * abs(c - 1.0)),
         )
 
 

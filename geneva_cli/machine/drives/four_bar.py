@@ -13,9 +13,9 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
-from geneva_cli.machine.drives.linkage import Joint, Linkage, RodPath, refuse_proportions
+from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
 from geneva_cli.machine.roller_path import Way, rounded
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt
@@ -104,9 +104,10 @@ class FourBar(Linkage):
             Dimension("branch", self.branch),
         )
 
-    def holder(self, end: Joint) -> dict[str, tuple[Joint, ...]]:
-        """The rocker."""
-        return {"rocker": (end, (0.0 * end[0] + self.ground_mm, 0.0 * end[0]))}
+    def holder(self, end: Moving) -> Link:
+        """The rocker, on a pin in the frame."""
+        axis = 0.0 * end[0] + self.ground_mm, 0.0 * end[0]
+        return Link("rocker", (end, axis), (Joint.PIN, Joint.PIN), 3)
 
     @property
     def roller_path(self) -> CouplerPath:

@@ -19,7 +19,7 @@ from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import Carried, same
 from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout, Link
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
@@ -90,10 +90,11 @@ class GearSector(PinPath):
         m = library(input_deg)
         ends = [radians(input_deg + side * 0.5 * self.sector_deg) for side in (1.0, -1.0)]
         rollers = [(L - R * m.cos(a), R * m.sin(a)) for a in ends]
+        shaft, roller = Joint.SHAFT, Joint.ROLLER
         return (
-            Link("crank", (axis, *rollers)),
-            Link("crank gear", (axis,), L * u / (1.0 + u)),
-            Link("wheel gear", ((still, still),), L / (1.0 + u)),
+            Link("crank", (axis, *rollers), (shaft, roller, roller), 1),
+            Link("crank gear", (axis,), (shaft,), 2, L * u / (1.0 + u)),
+            Link("wheel gear", ((still, still),), (shaft,), 2, L / (1.0 + u)),
         )
 
     def _half_angle(self, z: int) -> float:

@@ -16,7 +16,7 @@ from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import Joints, Path, Vector
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
@@ -81,8 +81,11 @@ class GenevaPair(Transmission):
         turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
         m, R, far = library(turn), first * step.sin_cos[0], L + first
         pin = far - R * m.cos(turn), -sign * R * m.sin(turn)
-        rim = Link("first wheel", ((still + L, still),), first * step.sin_cos[1])
-        return Link("first crank", ((still + far, still), pin)), rim
+        axis, shaft = (still + far, still), Joint.SHAFT
+        return (
+            Link("first crank", (axis, pin), (shaft, Joint.ROLLER), 3),
+            Link("first wheel", ((still + L, still),), (shaft,), 2, first * step.sin_cos[1]),
+        )
 
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm

@@ -23,7 +23,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.link import LinkJoints
 from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
 from geneva_cli.machine.roller_path import LONG_PI, Path, rounded
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 Place = TypeVar("Place", float, "Array")
-Joint: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
+Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
 LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
 
 
@@ -115,14 +115,15 @@ class Linkage(PinPath):
         )
         reach = at.path.hold(*direction)[0]
         end = pin[0] + reach * unit[0], pin[1] + reach * unit[1]
-        joints = {
-            "crank": ((0.0 * turn, 0.0 * turn), pin),
-            self.CARRIER: (pin, end, roller),
-            **self.holder(end),
-        }
+        origin = 0.0 * turn, 0.0 * turn
+        own = (
+            Link("crank", (origin, pin), (Joint.SHAFT, Joint.PIN), 2),
+            Link(self.CARRIER, (pin, end, roller), (Joint.PIN, Joint.PIN, Joint.ROLLER), 1),
+            self.holder(end),
+        )
         return tuple(
-            Link(name, tuple(self._placed(plan, x, y) for x, y in ends))
-            for name, ends in joints.items()
+            link._replace(joints=tuple(self._placed(plan, x, y) for x, y in link.joints))
+            for link in own
         )
 
     def _placed(self, plan: Plan, x: Place, y: Place) -> tuple[Place, Place]:
@@ -132,8 +133,8 @@ class Linkage(PinPath):
         return plan.center_distance_mm + ahead, aside
 
     @abstractmethod
-    def holder(self, end: Joint) -> dict[str, tuple[Joint, ...]]:
-        """What holds the carrying link at its end B: its name and joints, in the own frame."""
+    def holder(self, end: Moving) -> Link:
+        """What holds the carrying link at its end B, in the linkage's own frame."""
 
     @property
     def varies(self) -> bool:

@@ -14,7 +14,7 @@ from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import Joints, Path, PeakKnown
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout, Link, Pivot
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
@@ -76,7 +76,11 @@ class SideCrank(Transmission):
         m = library(turn)
         axis = still + (L - sign * self.A * r), still
         pin = axis[0] - sign * r * m.cos(turn), r * m.sin(turn)
-        return Link("input crank", (axis, pin)), Link("coulisse", ((still + L, still), pin))
+        own = still + L, still
+        return (
+            Link("input crank", (axis, pin), (Joint.SHAFT, Joint.PIN), 3),
+            Link("coulisse", (own, pin), (Joint.SHAFT, Joint.SLIDE), 2),
+        )
 
     def _crank_mm(self, plan: Plan) -> float:
         own = plan.ratio * plan.center_distance_mm

@@ -12,9 +12,9 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
-from geneva_cli.machine.drives.linkage import Joint, Linkage, RodPath, refuse_proportions
+from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
 from geneva_cli.machine.roller_path import Way, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
@@ -76,12 +76,13 @@ class SliderCrank(Linkage):
             Dimension("angle BAC", self.point_deg, "deg"),
         )
 
-    def holder(self, end: Joint) -> dict[str, tuple[Joint, ...]]:
-        """The slider, and its line as far as it can get."""
+    def holder(self, end: Moving) -> Link:
+        """The slider's guide, which stands: along its line, as far as it can get."""
         still = 0.0 * end[0]
         foot, ahead = still, still + (self.crank_mm + self.rod_mm)
         line = still + self.height_mm
-        return {"slider": (end,), "slider's line": ((foot, line), (ahead, line))}
+        joints = ((foot, line), (ahead, line), end)
+        return Link("guide", joints, (Joint.NONE, Joint.NONE, Joint.SLIDE), 3)
 
     @property
     def roller_path(self) -> SlidingRod:

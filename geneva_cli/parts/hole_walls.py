@@ -1,0 +1,59 @@
+"""Walls of a plate: between its holes, and from them to its outline."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.plates import with_material_left
+from geneva_cli.curves.shapes import Circle, Shape
+
+FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of the samples of a hole that is no circle
+
+
+def least_wall(holes: Sequence[Shape], outline: Shape | None = None) -> float:
+    """The least wall between holes, and within an outline; negative where they overlap.
+
+    >>> least_wall([Circle("", (0.0, 0.0), 2.0), Circle("", (9.0, 0.0), 3.0)])
+    4.0
+    """
+    least = [apart(one, two) for one, two in combinations(holes, 2)]
+    if outline is not None:
+        whole = _boundary([outline])
+        least += [-beyond(whole, hole) for hole in holes]
+    return min(least, default=math.inf)
+
+
+def beyond(outline: Polyarc, hole: Shape) -> float:
+    """How far a hole's edge reaches past an outline, negative inside."""
+    if isinstance(hole, Circle):
+        return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
+    return float(outline.signed(_points(hole)).max())
+
+
+def apart(one: Shape, two: Shape) -> float:
+    """Between two holes."""
+    if isinstance(one, Circle) and isinstance(two, Circle):
+        return math.dist(one.centre, two.centre) - one.radius - two.radius
+    if isinstance(one, Circle):
+        one, two = two, one
+    away = _boundary([one])
+    if isinstance(two, Circle):
+        return float(away.signed(np.array([two.centre]))[0]) - two.radius
+    return float(away.signed(_points(two)).min())
+
+
+def _points(hole: Shape) -> np.ndarray:
+    return _boundary([hole]).samples(FINE, LONGEST)
+
+
+def _boundary(shapes: Iterable[Shape]) -> Polyarc:
+    contours = []
+    for shape in shapes:
+        assert not isinstance(shape, Circle)  # a circle's distances need no pieces
+        contours.append(with_material_left(shape, True))
+    return Polyarc(contours)

@@ -1,0 +1,88 @@
+"""Links as drawings: all that are cut side by side, and where they stand in the machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from geneva_cli.curves.measure import S, bounds, mapped, turned
+from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.curves.shapes import Circle, Drawing, Point, Shape
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.links import LAYER, Links, drawn_links
+from geneva_cli.parts.proof import Proof
+
+BETWEEN = 0.05  # of the centre distance: between links side by side
+PITCH = "PITCH"
+
+
+def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
+    """Every link and sliding block once, one above the other, each in its own frame."""
+    mechanism = proof.mechanism
+    made = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
+    if not made.cut:
+        raise GenevaError(
+            f'--part links: kind = "{mechanism.spec.drive.NAME}" has none: '
+            + (
+                "its crank is --part arm"
+                if mechanism.spec.drive.CRANKED
+                else "--part parts lists what it has"
+            )
+        )
+    members = list(_side_by_side(made.plates, BETWEEN * mechanism.center_distance_mm))
+    title = f"{titled(mechanism)}: links"
+    return Drawing(title, tuple(shapes(members)), solid=Group(title, tuple(members)))
+
+
+def titled(mechanism: Mechanism) -> str:
+    """What a machine is called."""
+    spec = mechanism.spec
+    return spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+
+
+def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
+    top = 0.0
+    for plate in dict.fromkeys(plates):
+        box = bounds(plate.outline)
+        up = (0.0, top - box.y0)
+        yield Member(  # moved itself, so that the kerf finds its outlines in the drawing
+            plate._replace(
+                outline=placed(plate.outline, up, 0.0),
+                holes=tuple(placed(hole, up, 0.0) for hole in plate.holes),
+            )
+        )
+        top += box.y1 - box.y0 + between
+
+
+def shapes(members: Iterable[Member]) -> Iterator[Shape]:
+    """Outlines and holes of plates where they are."""
+    for one in members:
+        assert isinstance(one.part, Plate)
+        for shape in (one.part.outline, *one.part.holes):
+            yield placed(shape, one.at, one.turn)
+
+
+def placed(shape: S, at: Point, turn: float) -> S:
+    """A shape turned about its own origin, and then moved."""
+    return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
+
+
+def together(made: Links) -> Iterator[Shape]:
+    """What is seen of the links in the machine: outlines, bores, and the gears' pitch circles."""
+    found = [shape._replace(layer=LAYER) for shape in shapes(made.cut)]
+    found += [Circle(PITCH, gear.at, gear.radius) for gear in made.gears]
+    yield from found
+    yield from (Circle(LAYER, gear.at, gear.bore) for gear in made.gears if gear.bore)
+
+
+def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
+    """Shapes without the circles of a layer that lie one below the other."""
+    seen = set()
+    for shape in shapes:
+        if isinstance(shape, Circle):
+            (x, y), r = shape.centre, shape.radius
+            key = shape.layer, round(x, 6), round(y, 6), round(r, 6)
+            if key in seen:
+                continue
+            seen.add(key)
+        yield shape

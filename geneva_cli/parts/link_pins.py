@@ -1,0 +1,83 @@
+"""What joins links: pins from plane to plane, the washers and spacers on them, and rollers.
+
+Pins that stand in the frame are the frame's, as shafts are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.parts.link_sizes import LinkSizes, places
+
+LAYER, ROLLER = "LINK", "ROLLER"
+
+
+class Joined(NamedTuple):
+    """Links that share a joint at all input angles: their names and planes, and where at 0."""
+
+    at: complex
+    names: tuple[str, ...]
+    planes: tuple[int, ...]
+
+
+def joined(links: Iterable[Link], near: float) -> list[Joined]:
+    """The joints that several links share by a pin, nearer than ``near`` mm at all angles."""
+    every = [
+        (link, at)
+        for link in links
+        for at, kind in zip(places(link), link.kinds, strict=True)
+        if kind in (Joint.PIN, Joint.SLIDE)
+    ]
+    found: list[Joined] = []
+    for i, (link, at) in enumerate(every):
+        others = [other for other, there in every[i + 1 :] if np.abs(at - there).max() < near]
+        if others:
+            both = sorted((link, *others), key=lambda one: one.plane)
+            names, planes = zip(*((one.name, one.plane) for one in both), strict=True)
+            found.append(Joined(complex(at[len(at) // 2]), names, planes))
+    return found
+
+
+def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
+    """Each pin that joins links, and what keeps their planes apart on it."""
+    for one in joined(links, near):
+        where = one.at.real, one.at.imag
+        spans = [sizes.span(plane) for plane in one.planes]
+        origin = (0.0, 0.0)
+        pin = Circle(LAYER, origin, sizes.pin)
+        name = " and ".join(one.names)
+        yield Member(Plate(f"pin of {name}", LAYER, pin, (), spans[-1][0], spans[0][1]), where)
+        for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
+            if high > low:
+                ring = Circle(LAYER, origin, sizes.ring)
+                what = "washer" if high - low <= sizes.washer else "spacer"
+                yield Member(Plate(f"{what} of {name}", LAYER, ring, (pin,), low, high), where)
+
+
+def rollers(links: Iterable[Link], sizes: LinkSizes, roller: float, pin: float) -> Iterator[Member]:
+    """Rollers that run below the wheel's plane: of a first wheel, with its pin; in a groove."""
+    if not pin:
+        return
+    hole, whole = (Circle(ROLLER, (0.0, 0.0), radius) for radius in (pin, roller))
+    for link in links:
+        for at, kind in zip(places(link), link.kinds, strict=True):
+            z = complex(at[len(at) // 2])
+            where = z.real, z.imag
+            if kind is Joint.ROLLER and link.plane > 1:
+                low, high = sizes.span(link.plane - 1)
+                below = sizes.span(link.plane)[0]
+                yield Member(
+                    Plate(f"{link.name}'s roller", ROLLER, whole, (hole,), low, high), where
+                )
+                yield Member(Plate(f"{link.name}'s pin", ROLLER, hole, (), below, high), where)
+            if kind is Joint.CARRIED:
+                low, high = sizes.span(link.plane + 1)
+                yield Member(
+                    Plate("roller in the groove", ROLLER, whole, (hole,), low, high), where
+                )
