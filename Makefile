@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test lint stress jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -52,12 +52,19 @@ cad: .venv/dev
 	$(BIN)/pip install --quiet "cadquery-ocp>=8,<9"
 	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py
 
-# A million random specs, and 20,000 machines with parts; hours. Stopped, it goes on from there;
-# another seed, or new code, begins again: rm build/fuzz-*.json.
+# Every design's DXF files in a physics engine, which is installed for it: does it jam, and does the
+# wheel go where it should; ten minutes.
+jam: .venv/dev
+	$(BIN)/pip install --quiet "pymunk>=7,<8"
+	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
+
+# A million random specs, 20,000 machines with parts, 100,000 wheels of ever larger clearance; hours.
+# Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
 fuzz: .venv/dev
 	@mkdir -p build
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 20000 --jobs 2 --state build/fuzz-play.json
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev
