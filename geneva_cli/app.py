@@ -49,6 +49,7 @@ GROUPS = {
     "Learn": {
         "help": "The manual: a page a topic.",
         "new": "A commented spec to start from.",
+        "explain": "What a check, a quantity, a kind or a warning means.",
         "keys": "Every key of a spec: unit, range, default, meaning.",
         "schema": "JSON Schema of a spec, for editors.",
         "bench": "Run time against error, beside what else is in use.",

@@ -51,6 +51,7 @@ ALONE = {
     "specfile.template",
     "specfile.designs",
     "specfile.keys",
+    "specfile.meanings",
     "specfile.json_schema",
     "curves.pieces",
     "parts.catalogue",

@@ -76,6 +76,13 @@ def topics() -> Iterable[str]:
     return TOPICS
 
 
+def explained() -> Iterable[str]:
+    """What ``geneva explain`` explains."""
+    from geneva_cli.specfile.meanings import names
+
+    return names()
+
+
 def fields() -> Iterable[str]:
     """The quantities of a design."""
     from geneva_cli.study.names import usual_fields

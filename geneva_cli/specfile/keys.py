@@ -20,6 +20,18 @@ UNITS = {
     "_Nm_rad": "N m/rad",
     "_mm3_Nm": "mm³/(N m)",
     "_W_m2": "W/m²",
+    "_rad_s": "rad/s",
+    "_rad_s2": "rad/s²",
+    "_rad_s3": "rad/s³",
+    "_rad2_s3": "rad²/s³",
+    "_m_s": "m/s",
+    "_Nms": "N m s",
+    "_Hz": "Hz",
+    "_W": "W",
+    "_J": "J",
+    "_m": "m",
+    "_um": "µm",
+    "_arcsec": "arc seconds",
     "_mm": "mm",
     "_deg": "deg",
     "_rpm": "1/min",
@@ -112,6 +124,16 @@ def _lists(rules: list[Any]) -> list[OneOf]:
     return [rule for rule in rules if isinstance(rule, OneOf)]
 
 
+def unit_of(name: str) -> str | None:
+    """The unit that the ending of a key's or a quantity's name says; None where it says none.
+
+    >>> unit_of("loads.omega_rad_s"), unit_of("tau")
+    ('rad/s', None)
+    """
+    last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, as rpm
+    return next((unit for end, unit in UNITS.items() if last.endswith(end)), None)
+
+
 def _bare(key: Key) -> str:
     return key.table.strip("[]")
 
@@ -154,13 +176,12 @@ def _of_kinds(table: str, word: str, kinds: Mapping[str, type[Table]]) -> Iterat
 
 
 def _key(table: str, field: Field, of: str | None = None) -> Key:
-    unit = next((u for end, u in UNITS.items() if field.key.endswith(end)), None)
     types = " or ".join(TYPES[t] for t in field.types if t in TYPES)
     given = field.default not in (None, REQUIRED)
     return Key(
         f"[{table}]" if table in LISTS else table,
         field.key,
-        unit,
+        unit_of(field.key),
         "a file" if isinstance(field.rule, Csv) else types,
         None if field.rule is None else str(field.rule),
         quoted(field.default) if given else None,

@@ -88,6 +88,8 @@ ROWS = [
     Row("compare side-crank-z6.toml internal-z6.toml", "tomli numpy"),
     Row("sweep side-crank-z6.toml --vary drive.A=0,0.3", "tomli numpy"),
     Row("keys", "tomli numpy"),
+    Row("explain", "tomli numpy"),
+    Row("explain horn_mm", "tomli numpy"),
     Row("laws"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
     Row("synth --tau 1/3 --z 6 --checked 1", "numpy"),

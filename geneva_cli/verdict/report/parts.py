@@ -6,7 +6,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
 
-_PARTS = [
+NAMES = [
     f"parts.{name}"
     for name in (
         "none",
@@ -27,7 +27,7 @@ _PARTS = [
 
 def parts(proof: Proof) -> Values:
     """None where there are no flat parts; ``parts.none`` says why they cannot be made."""
-    values: Values = dict.fromkeys(_PARTS)
+    values: Values = dict.fromkeys(NAMES)
     if not proof.mechanism.spec.is_flat:
         return values
     try:

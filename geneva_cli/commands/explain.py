@@ -1,0 +1,45 @@
+"""``geneva explain``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geneva_cli.commands import completion
+from geneva_cli.commands.options import Format, Output
+
+EXAMPLES = (
+    "geneva explain",
+    "geneva explain horn_mm",
+    "geneva explain loads.pin_force_N.max --format json",
+)
+
+
+def run(
+    word: Annotated[
+        str,
+        typer.Argument(
+            metavar="[CHECK|QUANTITY|KIND]",
+            help="horn_mm, acceleration.max, side-crank, a law, a warning; all without.",
+            autocompletion=completion.words(completion.explained),
+        ),
+    ] = "",
+    output: Output = "-",
+    format: Format = "",
+) -> None:
+    """What a word of the output means: formula, unit, source, what to do, which test proves it."""
+    from geneva_cli.output import format_of, show, show_markdown, show_text
+    from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
+    from geneva_cli.table import rows_table
+
+    if not word:
+        show(rows_table(("group", "name", "about"), listed()), output, format)
+        return
+    found = meanings(word)
+    if (format or format_of(output)) not in ("table", "md"):
+        show(rows_table(Meaning._fields, found), output, format)
+    elif output == "-":
+        show_markdown(as_markdown(found))
+    else:
+        show_text(as_markdown(found), output)

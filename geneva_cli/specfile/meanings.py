@@ -1,0 +1,181 @@
+"""What a word means: a check, a quantity, a kind, a law or a warning, or a key of a spec."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+from functools import cache
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.machine import registry
+from geneva_cli.manual.explained import Entry, entries
+from geneva_cli.specfile.keys import Key, every, unit_of
+
+WIDTH = 90  # of a page of text
+CHECKS, INPUTS = "checks.", "inputs."  # what a report's names of checks and of keys begin with
+
+
+class Meaning(NamedTuple):
+    """What one word means; None for what is not said of it."""
+
+    group: str
+    name: str
+    meaning: str
+    unit: str | None
+    formula: str | None
+    source: str | None
+    to_do: str | None
+    proof: str | None
+
+
+def meanings(word: str) -> list[Meaning]:
+    """All that a word means, whole (``timing.dwell_s``) or by its end (``dwell_s``).
+
+    Raises GenevaError, with the nearest name, for one that is not known.
+
+    >>> [(m.group, m.unit) for m in meanings("loads.pin_force_N.rms")]
+    [('quantity', 'N')]
+    >>> [m.group for m in meanings("jerk_max")]
+    ['check', 'quantity', 'key']
+    """
+    found = _found(word)
+    if not found:
+        known = [*names(), *(CHECKS + n for e in entries() if e.group == "check" for n in e.names)]
+        among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
+        hint = nearest(word, among)
+        raise GenevaError(
+            f'"{cut(word)}" is no check, quantity, kind, law, warning or key{hint}; '
+            "`geneva explain` lists them"
+        )
+    return found
+
+
+def listed() -> list[tuple[str, str, str]]:
+    """Everything that is explained: group, name, and a sentence."""
+    out = []
+    for entry in entries():
+        whole = _of_entry(entry, entry.names[0]).meaning
+        out += [(entry.group, name, _sentence(whole)) for name in entry.names]
+    return out
+
+
+def names() -> list[str]:
+    """The names of everything that is explained, and of the keys."""
+    return [name for e in entries() for name in e.names] + [_name(key) for key in _keys()]
+
+
+def as_markdown(found: list[Meaning]) -> str:
+    """Meanings as a page, for a person."""
+    return "\n".join(_page(one) for one in found)
+
+
+def _page(one: Meaning) -> str:
+    lines = [f"## {one.name} ({one.group})", "", *_wrapped(one.meaning), ""]
+    for name, text in one._asdict().items():
+        if text and name not in ("group", "name", "meaning"):
+            lines += _wrapped(f"- {name.capitalize().replace('_', ' ')}: {text}")
+    return "\n".join([*lines, ""]) if lines[-1] else "\n".join(lines)
+
+
+def _wrapped(text: str) -> list[str]:
+    indent = "  " if text.startswith("- ") else ""
+    return textwrap.wrap(
+        text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+
+
+@cache
+def _keys() -> tuple[Key, ...]:
+    return tuple(every())
+
+
+def _found(word: str) -> list[Meaning]:
+    some = entries()
+    if word.startswith(CHECKS):
+        bare = word.removeprefix(CHECKS)
+        own = [e for e in some if e.group == "check" and bare in e.names]
+        if own:
+            return [_of_entry(entry, word) for entry in own]
+    key = word.removeprefix(INPUTS)
+    keys = [_of_key(k) for k in _keys() if key in (k.key, _name(k))]
+    if word.startswith(INPUTS):
+        return keys
+    exact = [e for e in some if word in e.names or f".{word}" in e.names]
+    if exact:
+        return [_of_entry(entry, word) for entry in exact] + keys
+    base, dot, end = word.rpartition(".")
+    ending = next((e for e in some if dot and f".{end}" in e.names), None)
+    if ending:
+        of = [m for m in _found(base) if m.group == "quantity"]
+        if of:
+            return [_ended(ending, one, word) for one in of]
+    by_end = [(entry, name) for entry in some for name in entry.names if name.endswith(f".{word}")]
+    return [_of_entry(entry, name) for entry, name in by_end] + keys
+
+
+def _of_entry(entry: Entry, name: str) -> Meaning:
+    """An entry as it stands; of a kind, what its class says of itself comes first."""
+    said = (about(entry, name), entry.meaning)
+    return Meaning(
+        entry.group,
+        name,
+        " ".join(text for text in said if text),
+        entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
+        entry.formula or None,
+        entry.source or None,
+        entry.to_do or None,
+        entry.proof or None,
+    )
+
+
+def about(entry: Entry, name: str) -> str:
+    """What a class of machine says of itself in a line; nothing for what has none."""
+    if entry.group == "law":
+        return _sentenced(registry.law(name).ABOUT)
+    kinds = ((registry.GEARINGS, registry.gearing), (registry.DRIVES, registry.drive))
+    for known, cls in kinds if entry.group == "kind" else ():
+        if name in known:
+            return inspect.cleandoc(cls(name).__doc__ or "").partition("\n")[0]
+    return ""
+
+
+def _ended(ending: Entry, of: Meaning, word: str) -> Meaning:
+    """A quantity with an ending: what the ending says, and what it is said of."""
+    return of._replace(
+        name=word,
+        meaning=f"{ending.meaning} The quantity: {of.meaning}",
+        unit=ending.unit or unit_of(word) or of.unit,
+        formula="; ".join(text for text in (ending.formula, of.formula) if text) or None,
+    )
+
+
+def _of_key(key: Key) -> Meaning:
+    """A key of a spec, in the words of ``geneva keys``."""
+    said = [
+        key.meaning,
+        key.type,
+        key.range,
+        key.goes_with,
+        "required" if key.required else f"default {key.default}" if key.default else None,
+    ]
+    return Meaning(
+        "key",
+        _name(key),
+        f"A key of the spec's [{key.table}]: " + "; ".join(text for text in said if text) + ".",
+        key.unit,
+        *[None] * 4,
+    )
+
+
+def _name(key: Key) -> str:
+    return f"{key.table.strip('[]')}.{key.key}" if key.table else key.key
+
+
+def _sentence(text: str) -> str:
+    """The first sentence of a text."""
+    return text.partition(". ")[0].rstrip(".") + "."
+
+
+def _sentenced(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}."

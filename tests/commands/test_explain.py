@@ -1,0 +1,218 @@
+"""Everything that the program says is explained: names are those of the program itself."""
+
+import ast
+import json
+import re
+from functools import cache
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.analysis import figures, law_values, motion
+from geneva_cli.analysis.cam_factors import CamFactors
+from geneva_cli.analysis.loads import summary
+from geneva_cli.analysis.loads.sizing import Sizing
+from geneva_cli.analysis.vibration import answers
+from geneva_cli.analysis.vibration.vibration import Avoid, Station
+from geneva_cli.app import app
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.manual.explained import GROUPS, Entry, entries
+from geneva_cli.parts import gear_curves, groove, parts_list, slot_profile
+from geneva_cli.specfile.meanings import listed, meanings, names
+from geneva_cli.specfile.template import EXAMPLES
+from geneva_cli.study import batch, survey
+from geneva_cli.study.fields import ALL
+from geneva_cli.study.sweep.run import ERROR
+from geneva_cli.study.synthesis.table import NAMES as SYNTH
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STANDING, TURNING
+from geneva_cli.verdict.report import parts, tolerances
+from geneva_cli.verdict.tolerance.tables import ANGLES
+
+WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
+PACKAGE = repo.ROOT / "geneva_cli"
+
+
+def explained(group: str) -> set[str]:
+    """The names that a group's entries explain."""
+    return {name for e in entries() if e.group == group for name in e.names}
+
+
+@cache
+def named_in_calls(function: str) -> set[str]:
+    """The literal first arguments of all calls of a function in the program."""
+    found = set()
+    for file in PACKAGE.rglob("*.py"):
+        text = file.read_text(encoding="utf-8")
+        for node in ast.walk(ast.parse(text)) if f"{function}(" in text else ():
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == function and node.args:
+                first = node.args[0]
+                if isinstance(first, ast.Constant) and isinstance(first.value, str):
+                    found.add(first.value)
+    return found
+
+
+def test_every_check_has_an_entry_and_no_entry_names_none():
+    made = named_in_calls("Check")
+    assert made >= {"parts", "full_turn"}
+    assert explained("check") == {*MOTION, *LIMITS, *STANDING, *TURNING, *made}
+
+
+def test_every_kind_and_law_has_an_entry_and_no_entry_names_none():
+    kinds = {*registry.GEARINGS, *registry.DRIVES}
+    assert kinds <= explained("kind") <= {*kinds, *EXAMPLES}
+    assert explained("law") == set(registry.LAWS)
+
+
+@pytest.fixture(scope="module")
+def quantities() -> set[str]:
+    """The fields and columns of all commands, as whole as the program has them."""
+    proof = load(str(repo.DESIGNS / "turret.toml")).proof
+    quick = [section for section in ALL if not section.makes_parts]  # the rest have lists of names
+    out = {name for section in quick for name in section.values(proof)}
+    out |= {*parts.NAMES, *(f"tolerance.{name}" for name in tolerances.NAMES)}
+    out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
+    out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
+    of_loads = {f"{q}.{s}" for q in summary.SHOWN for s in summary.Summary._fields}
+    out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
+    out |= {f"sizing.{name}" for name in Sizing._fields}
+    out |= {f"vibration.avoid.{name}" for name in Avoid._fields}
+    out |= {f"vibration.{name}" for name in (*Station._fields, "avoid")}
+    out |= {
+        *answers.SPECTRUM,
+        *survey.NAMES,
+        *motion.NAMES,
+        *summary.PLACES,
+        *figures.OF_NAME,
+        *CamFactors._fields,
+    }
+    out |= {"acceleration.exit", "jerk.exit", *law_values.NAMES, *SYNTH, ERROR, *batch.NAMES}
+    out |= {*slot_profile.NAMES, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
+    out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
+    return out | {f"tolerance.{name}" for name in tolerance_names()}
+
+
+def tolerance_names() -> set[str]:
+    """Those of ``geneva tolerance``, of a wheel without parts to turn."""
+    spec = [str(repo.DESIGNS / "spherical-z6.toml"), "--set", "tolerance.slot_width_mm=0.1"]
+    words = ["tolerance", *spec, "--samples", "9", "--format", "json"]
+    told = json.loads(CliRunner().invoke(app, words).stdout)
+    out = set()
+    for group, value in told.items():
+        rows = value if isinstance(value, list) else [value]
+        out |= {f"{group}.{name}" for row in rows if isinstance(row, dict) for name in row}
+        out |= {group} if not isinstance(value, dict) else set()
+    assert {f"motion_play.{angle}_um" for angle in ANGLES} <= out
+    return out - {"spec", "title", "warnings"}
+
+
+def test_every_quantity_has_an_entry(quantities: set[str]):
+    unknown = []
+    for name in sorted(quantities):
+        try:
+            found = meanings(name)
+        except GenevaError:
+            found = []
+        if not found:
+            unknown.append(name)
+    assert not unknown
+
+
+def test_no_entry_names_no_quantity(quantities: set[str]):
+    def is_named(name: str) -> bool:
+        if name.startswith("."):
+            return any(q.endswith(name) for q in quantities)
+        return any(f".{name}" in f".{q}" for q in quantities)
+
+    assert not [name for name in explained("quantity") if not is_named(name)]
+
+
+@pytest.mark.parametrize("entry", entries(), ids=lambda e: e.names[0])
+def test_an_entry_is_whole(entry: Entry):
+    for name in entry.names:
+        assert re.fullmatch(r"\.?[\w.-]+", name), name
+        (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
+        needed = {"meaning", "source", "proof"} | (
+            {"to_do"} if entry.group in ("check", "warning") else set()
+        )
+        needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
+        if name.startswith("."):
+            needed -= {"unit", "source"}  # those of what it ends
+        if found.unit in WORDLESS or (found.unit or "").startswith("that of"):
+            needed -= {"formula", "source"}
+        missing = {field for field in needed if not found._asdict()[field]}
+        assert not missing
+        assert found.meaning[0].isupper() and found.meaning.endswith(".")
+    for proof in entry.proof.split(", "):
+        path, _, test = proof.partition("::")
+        text = (repo.ROOT / path).read_text(encoding="utf-8")
+        assert path.startswith("tests/") and f"\ndef {test}(" in text, proof
+
+
+def test_no_name_is_explained_twice():
+    for group in GROUPS.values():
+        every = [name for e in entries() if e.group == group for name in e.names]
+        assert len(every) == len(set(every))
+
+
+def test_a_file_has_nothing_besides_its_entries():
+    """A label that is misspelt would be read as part of what is said before it."""
+    for group in GROUPS:
+        text = (PACKAGE / "manual" / "explained" / f"{group}.md").read_text(encoding="utf-8")
+        for line in text.splitlines():
+            label = re.match(r"([A-Z][a-z]+(?: [a-z]+)?): ", line)
+            assert not label or label[1] in ("Formula", "Unit", "Source", "To do", "Proof"), line
+
+
+@pytest.mark.parametrize(
+    ("word", "groups"),
+    [
+        ("checks.horn_mm", ["check"]),
+        ("pressure_angle_deg", ["check"]),
+        ("jerk_max", ["check", "quantity", "key"]),
+        ("dwell_s", ["quantity"]),
+        ("loads.pin_force_N.max_at_deg", ["quantity"]),
+        ("strength.lock.margin", ["quantity"]),
+        ("max", ["quantity"]),
+        ("side-crank", ["kind"]),
+        ("cycloidal", ["law"]),
+        ("inputs.drive.n_rpm", ["key"]),
+        ("wheel.steps_deg", ["key"]),
+        ("A", ["key", "key"]),
+    ],
+)
+def test_what_a_word_means(word: str, groups: list[str]):
+    assert [m.group for m in meanings(word)] == groups
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [("hrn_mm", "horn_mm"), ("side-krank", "side-crank"), ("checks.gap_m", "checks.gap_mm")],
+)
+def test_a_misspelt_word(word: str, meant: str):
+    with pytest.raises(GenevaError, match=f'did you mean "{meant}"'):
+        meanings(word)
+
+
+def test_the_list_has_everything_and_each_can_be_asked_for():
+    rows = listed()
+    assert {name for _, name, _ in rows} == {name for e in entries() for name in e.names}
+    assert all(about.endswith(".") and len(about) > 8 for _, _, about in rows)
+    assert {name for _, name, _ in rows} <= set(names())
+
+
+def test_formats(tmp_path):
+    def run(*words: str) -> str:
+        result = CliRunner().invoke(app, ["explain", *words])
+        assert result.exit_code == 0, result.output
+        return result.stdout
+
+    (row,) = json.loads(run("horn_mm", "--format", "json"))["rows"]
+    assert (row["group"], row["name"], row["unit"]) == ("check", "horn_mm", "mm")
+    page = run("horn_mm")
+    assert page.startswith("## horn_mm (check)\n\n") and row["formula"] in " ".join(page.split())
+    run("horn_mm", "-o", str(tmp_path / "horn.md"))
+    assert (tmp_path / "horn.md").read_text(encoding="utf-8") == page
+    assert "check,horn_mm," in run("--format", "csv")
