@@ -8,6 +8,7 @@ from geneva_cli.machine.laws.law import Law, remaining
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import ascending
 from geneva_cli.numerics.jet import Jet, Number, piecewise
+from geneva_cli.numerics.latest import Latest
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
@@ -20,6 +21,7 @@ class LawMotion(Motion):
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
         super().__init__(entry_deg, exit_deg, half_step)
         self.law = law
+        self._latest = Latest()
 
     @property
     def symmetric(self) -> bool:
@@ -38,6 +40,9 @@ class LawMotion(Motion):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Each half of the law from its own end."""
+        return self._latest(self._halves, input_deg, order)[0]
+
+    def _halves(self, input_deg: Number, order: int) -> tuple[Jet]:
         whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
         middle = 0.5 * (self.entry_deg + self.exit_deg)
 
@@ -50,7 +55,7 @@ class LawMotion(Motion):
 
         s = piecewise(input_deg, (middle,), (first, second))
         rate = 1.0 / (whole * DEGREE)
-        return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])
+        return (Jet([c * rate**k if k else c for k, c in enumerate(s.c)]),)
 
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:

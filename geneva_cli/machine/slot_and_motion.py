@@ -8,11 +8,14 @@ rho = L sin phi / sin(phi + psi) (an internal wheel: phi - psi).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from functools import cached_property
 
 from geneva_cli.machine.engagement import Axis, Slot
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
+from geneva_cli.numerics.latest import Latest
 
 # Where psi and phi nearly vanish together, a series of psi / phi: within these angles its first
 # terms are exact to a double (a spline's series ends at its fifth).
@@ -25,9 +28,14 @@ class SolvedPath:
 
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign
+        self._latest = Latest()
 
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The roller's distance from the wheel's axis and from the crank's, in units of L."""
+        rho, R = self._latest(self._distances, input_deg, order)
+        return rho, R
+
+    def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         near = NEAR_DEG if self.motion.law.ANALYTIC else NEAR_SPLINE_DEG
 
         def whole(x: Number) -> Jet:
@@ -44,13 +52,21 @@ class SolvedPath:
         below = sin_cos(phi + psi * self.sign)[0]
         return sin_cos(phi)[0] / below, sin_cos(psi)[0] / below
 
+    @cached_property
+    def _series(self) -> Sequence[Number]:
+        """Of psi in powers of phi, about mid-motion."""
+        return self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
+
     def _by_series(self, x: Number, order: int) -> tuple[Jet, Jet]:
         """Near mid-motion both sines vanish: each is divided by phi first, as a series of it."""
-        t = Jet.variable(radians(x), order)
-        c = self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
-        slope = t * 0.0
-        for a in reversed(c[1:]):
-            slope = slope * t + a  # psi / phi
+        t, c = Jet.variable(radians(x), order), self._series[1:]
+        # psi / phi, each coefficient of its jet a polynomial of the angle
+        slope = Jet(
+            [
+                _polynomial([math.comb(j, k) * c[j] for j in range(k, len(c))], t.c[0])
+                for k in range(order + 1)
+            ]
+        )
         psi = slope * t
         angle = slope * self.sign + 1.0  # (phi +- psi) / phi
         below = angle * _sinc(angle * t)
@@ -91,10 +107,31 @@ def _stacked(a: Jet, b: Jet) -> Jet:
     return Jet((*a.c, *b.c))
 
 
-def _sinc(x: Jet) -> Jet:
-    """sin x / x for small x: eight terms of the series are exact to a double up to 1/10."""
-    square = x * x
+def _polynomial(c: Sequence[Number], x: Number) -> Number:
     total = x * 0.0
-    for k in range(8, -1, -1):
-        total = total * square + (-1.0) ** k / math.factorial(2 * k + 1)
+    for a in reversed(c):
+        total = total * x + a
+    return total
+
+
+def _sinc(x: Jet) -> Jet:
+    """sin x / x for small x, by the series of it and of its derivatives about the value of x.
+
+    Of each so many terms that all are exact to a double up to 1/2.
+    """
+    at, order = x.c[0], x.order
+    square = at * at
+    step = Jet((at * 0.0, *x.c[1:]))
+    total = step * 0.0
+    for k in range(order, -1, -1):
+        first = (k + 1) // 2  # the first power, of the square, that k derivatives leave
+        # of (-1)^j x^2j / (2j + 1)!, the k-th derivative over k!
+        term = _polynomial(
+            [
+                (-1.0) ** j * math.comb(2 * j, k) / math.factorial(2 * j + 1)
+                for j in range(first, first + 9)
+            ],
+            square,
+        )
+        total = total * step + (term * at if k % 2 else term)
     return total

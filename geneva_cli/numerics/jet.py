@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.arrays import Mask, Whole
 
 
 _FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
@@ -251,8 +251,12 @@ def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) 
     if not x.size:
         return pieces[0](x)
     # np.unique would import numpy.ma, a sixth of a short run
-    parts = [(index == i, pieces[i]) for i in np.flatnonzero(np.bincount(index.ravel())).tolist()]
-    found = [(where, piece(x[where]).c) for where, piece in parts]
+    parts: dict[Callable[[Array], Jet], Mask] = {}
+    for i in np.flatnonzero(np.bincount(index.ravel())).tolist():
+        here, piece = index == i, pieces[i]
+        parts[piece] = parts[piece] | here if piece in parts else here
+    alone = len(parts) == 1  # the very array then, of which something may be known already
+    found = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
     designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in found for c in jet])
     out = [np.empty((*designs, *x.shape)) for _ in found[0][1]]
     for where, jet in found:

@@ -141,7 +141,10 @@ def _nodes(mechanism: Mechanism, part: Callable[[float, float], Array]) -> Array
 
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
-    """Where a flank stops and turns back, the roller being as large as the curve is sharp."""
+    """Where a flank stops and turns back, the roller being as large as the curve is sharp.
+
+    Of a symmetric motion the first half's.
+    """
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.slot_clearance_mm
     offset /= mechanism.center_distance_mm
@@ -151,8 +154,9 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
         return array(at.speed - side * offset * at.turning)
 
     # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
-    step = engagement.motion_deg / SURVEY
-    grid = engagement.entry_deg + step * (np.arange(SURVEY, dtype=np.float64) + 0.5)
+    step, mirrored = engagement.motion_deg / SURVEY, engagement.motion.symmetric
+    count = (SURVEY + 1) // 2 if mirrored else SURVEY  # of a half that mirrors, one is enough
+    grid = engagement.entry_deg + step * (np.arange(count, dtype=np.float64) + 0.5)
     at = pitch(engagement, grid)
     found = []
     for side in (-1.0, 1.0):

@@ -20,7 +20,7 @@ from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, gain, slidi
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import scalar
+from geneva_cli.numerics.arrays import rows_of, scalar
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.roots_many import Roots, roots_between, roots_many
@@ -238,9 +238,8 @@ def _between_samples(
 
 def _columns(jets: list[Jet], x: Array) -> tuple[Array, Array]:
     """Values and slopes by degrees, a row a jet."""
-    value = np.array([np.broadcast_to(j.c[0], x.shape) for j in jets], dtype=float)
-    slope = np.array([np.broadcast_to(j.c[1] * DEGREE, x.shape) for j in jets], dtype=float)
-    return value, slope
+    value, slope = (rows_of([jet.c[k] for jet in jets], len(x)) for k in (0, 1))
+    return value, slope * DEGREE
 
 
 def maxima(
@@ -254,11 +253,11 @@ def maxima(
         asked = rows(contact(engagement, x, 1), *signs[:, span])
         value, slope = _columns([row.value for row in asked], x)
         for i, row in enumerate(asked):
-            if row.room is not None:
-                lost = np.broadcast_to(row.room.c[0] <= 0.0, x.shape)
-                value[i, lost] = np.broadcast_to(np.where(row.way > 0.0, np.nan, -np.inf), x.shape)[
-                    lost
-                ]
+            if row.room is None:
+                continue
+            lost = row.room.c[0] <= 0.0
+            if np.any(lost):
+                value[i] = np.where(lost, np.where(row.way > 0.0, np.nan, -np.inf), value[i])
         return value, slope
 
     found = scan(sampled, [(p.start, p.end) for p in pieces])
@@ -317,9 +316,7 @@ def _tops(
         at = contact(engagement, found.x[before[which]] + way, 2)
         asked = [one.value.c for one in rows(at, *signs[:, found.span[before[which]]])]
         pick = row[which], np.arange(len(way))
-        value, slope, bend = (
-            np.array([np.broadcast_to(c[k], way.shape) for c in asked])[pick] for k in range(3)
-        )
+        value, slope, bend = (rows_of([c[k] for c in asked], len(way))[pick] for k in range(3))
         return slope, 2.0 * DEGREE * bend, value
 
     slopes = found.slope[row, before], found.slope[row, before + 1]

@@ -20,6 +20,8 @@ from geneva_cli.analysis.loads.loads import state
 from geneva_cli.machine.pitch_curve import pitch
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
@@ -119,15 +121,14 @@ def horn(
         return None
     best = None
     for side in horns(mechanism, half_width_mm, recess_mm):
-        for entry in _halves(side):
-            start = _Search(side, [entry, NEAR * entry], [side.mouth_deg, NEAR * side.mouth_deg])
-            found = _looked(mechanism, start, width_mm, GRID)
-            if found and not (best and best[0].stress_MPa >= found[0].stress_MPa):
-                best = found
+        start = _Search(side, _from(_halves(side), GRID), _from([side.mouth_deg], GRID)[0])
+        found = _looked(mechanism, start, width_mm)
+        if found and not (best and best[0].stress_MPa >= found[0].stress_MPa):
+            best = found
     if best is None:
         return None
     for _ in range(ROUNDS):  # the middle of what is left is the best so far
-        best = _looked(mechanism, best[1], width_mm, FINER) or best
+        best = _looked(mechanism, best[1], width_mm) or best
     bent, engagement = best[0], best[1].side.engagement
     return bent._replace(at_deg=mechanism.shown_deg(engagement.mid_deg + bent.at_deg))
 
@@ -140,39 +141,47 @@ def _halves(side: Side) -> list[float]:
     return [engagement.entry_deg, engagement.exit_deg]
 
 
+def _from(ends: Sequence[float], count: int) -> Array:
+    """Input angles from each of some ends to mid-motion, a row an end."""
+    return np.array([np.linspace(end, NEAR * end, count) for end in ends])
+
+
 class _Search(NamedTuple):
-    """Between which input angles roller and section are looked for."""
+    """At which input angles roller and section are looked at."""
 
     side: Side
-    roller: list[float]
-    section: list[float]
+    roller: Array  # a row for each half of the motion
+    section: Array
 
 
-def _looked(
-    mechanism: Mechanism, within: _Search, width: float, count: int
-) -> tuple[Bent, _Search] | None:
-    """The greatest of ``count`` by ``count`` places, and the places around it to look between."""
-    side = within.side
-    x, u = (np.linspace(a, b, count) for a, b in within[1:])
-    stress = _stress(mechanism, side, width, x, u)
-    i, j = divmod(int(np.argmax(stress)), count)
+def _looked(mechanism: Mechanism, within: _Search, width: float) -> tuple[Bent, _Search] | None:
+    """The greatest stress of all these places, and places around it to look at next."""
+    side, roller, u = within
+    wall = side.wall(u)[0]
+    thick = side.thickness(wall)
+    stress = _stress(mechanism, side, width, roller.ravel(), wall, thick)
+    i, j = divmod(int(np.argmax(stress)), len(u))
     if not stress[i, j] > 0.0:
         return None
-    wall = side.wall(u[[j]])[0]
-    thick, inwards = float(side.thickness(wall)[0]), float(wall[0, 0])
-    near_x = [float(x[max(i - 1, 0)]), float(x[min(i + 1, count - 1)])]
-    near_u = [float(u[max(j - 1, 0)]), float(u[min(j + 1, count - 1)])]
-    return Bent(float(stress[i, j]), float(x[i]), inwards, thick), _Search(side, near_x, near_u)
+    half, k = divmod(i, roller.shape[1])
+    x = roller[half]
+    bent = Bent(float(stress[i, j]), float(x[k]), float(wall[0, j]), float(thick[j]))
+    return bent, _Search(side, _around(x, k)[None], _around(u, j))
 
 
-def _stress(mechanism: Mechanism, side: Side, width: float, x: Array, u: Array) -> Array:
+def _around(places: Array, i: int) -> Array:
+    """Places between the neighbours of one of them."""
+    return np.linspace(places[max(i - 1, 0)], places[min(i + 1, len(places) - 1)], FINER)
+
+
+def _stress(
+    mechanism: Mechanism, side: Side, width: float, x: Array, wall: Array, thick: Array
+) -> Array:
     """The stress, a row for each place of the roller and a column for each section, MPa."""
     loads = state(mechanism, side.engagement, x)
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
     force = np.where(bears, loads.pin_force_N, 0.0)[:, None]
     contact, way = side.wall(x)
-    wall, _ = side.wall(u)
-    thick = side.thickness(wall)
     # from the contact to the middle of the section, (2, places, sections)
     arm = np.stack([wall[0], wall[1] - 0.5 * thick])[:, None, :] - contact[:, :, None]
     further = arm[0] > 0.0

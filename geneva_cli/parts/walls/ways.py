@@ -66,11 +66,12 @@ def walls(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE
         angles = np.unwrap(np.arctan2(way[:, 1] - centre[1], way[:, 0] - centre[0]))
         for side in (-w, w):
             found.append(_arc(path, near, centre, radius + side, np.sort(angles)))
-    flanks = [
-        _flank(plane, engagement, path, near, part, side, back, coarse)
-        for part in (t[: middle + 1], t[middle:])
-        for side in (-w, w)
-    ]
+    flanks = []
+    for part in (t[: middle + 1], t[middle:]):
+        curves = _curves(plane, engagement, part, coarse)
+        at = pitch_at(engagement, part, back) if back else None
+        for side in (-w, w):
+            flanks.append(_flank(curves(side), path, near, part, at, plane.L, side))
     if not back:
         return [*found, *flanks]
     x, y = _pitch(plane, engagement, np.zeros(1))[0]
@@ -147,36 +148,36 @@ def beside(plane: Plane, engagement: Engagement, side: float, outward: bool) -> 
 
 
 def _flank(
-    plane: Plane,
-    engagement: Engagement,
-    path: Array,
-    near: float,
-    t: Array,
-    side: float,
-    back: bool,
-    coarse: bool,
+    curve: Curve, path: Array, near: float, t: Array, at: Pitch | None, L: float, side: float
 ) -> Wall:
     """One side of the way in, or of the way out; ``side`` is the offset to the left."""
-    curve = beside(plane, engagement, side, outward=bool(t[-1] > 0.0))
-    if coarse:
-        curve = _chords(curve, t)
-    if back:
-        t = _unfolded(curve, t, pitch_at(engagement, t, back), plane.L, side)
+    if at is not None:
+        t = _unfolded(curve, t, at, L, side)
     points = curve(t)[0]
     return Wall(curve, t, points, _free(points, path, near))
 
 
-def _chords(curve: Curve, t: Array) -> Curve:
-    """The curve as chords between samples, which costs nothing to ask for."""
+def _curves(
+    plane: Plane, engagement: Engagement, t: Array, coarse: bool
+) -> Callable[[float], Curve]:
+    """The curve at any side of the way in, or out; coarse, as chords that cost nothing to ask."""
+    outward = bool(t[-1] > 0.0)
+    if not coarse:
+        return lambda side: beside(plane, engagement, side, outward)
     fine = np.interp(np.arange((len(t) - 1) * CHORDS + 1) / CHORDS, np.arange(len(t)), t)
-    points, tangents = curve(fine)
-    columns = [*points.T, *tangents.T]
+    points, tangents = beside(plane, engagement, 0.0, outward)(fine)
+    normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
 
-    def chord(x: Array) -> tuple[Array, Array]:
-        found = [np.interp(x, fine, column) for column in columns]
-        return np.column_stack(found[:2]), np.column_stack(found[2:])
+    def chords(side: float) -> Curve:
+        columns = [*(points + side * normals).T, *tangents.T]
 
-    return chord
+        def chord(x: Array) -> tuple[Array, Array]:
+            found = [np.interp(x, fine, column) for column in columns]
+            return np.column_stack(found[:2]), np.column_stack(found[2:])
+
+        return chord
+
+    return chords
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
