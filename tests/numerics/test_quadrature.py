@@ -1,0 +1,66 @@
+"""Integrals with roots at their ends, and what is kept of the latest angles."""
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.slot_and_motion import _sinc
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.latest import Latest
+from geneva_cli.numerics.quadrature import integrals
+
+CLOSED = {  # over 2..5
+    "root at the start": (lambda x: np.sqrt(x - 2.0), 2.0 / 3.0 * 3.0**1.5),
+    "root at the end": (lambda x: np.sqrt(5.0 - x), 2.0 / 3.0 * 3.0**1.5),
+    "roots at both": (lambda x: np.sqrt((x - 2.0) * (5.0 - x)), math.pi / 8.0 * 9.0),
+    "a life to the power": (lambda x: (x - 2.0) ** (10.0 / 3.0), 3.0 ** (16.0 / 3.0) / 13.0),
+    "smooth": (np.exp, math.exp(5.0) - math.exp(2.0)),
+}
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
+    f, exact = CLOSED[name]
+    calls = []
+
+    def rows(x, span):
+        calls.append(len(x))
+        return [f(x)]
+
+    (found,) = integrals(rows, [(2.0, 5.0)])
+    # beside an end x itself is rounded, to 4e-16 of 5: a root of that over so short a way is lost
+    assert found == pytest.approx(exact, rel=2e-15)
+    assert len(calls) <= 4, "an end is halved time and again"
+
+
+def test_the_latest_angles_are_known_by_array_and_values():
+    asked = []
+
+    def law(x, order):
+        asked.append(order)
+        return (ModifiedSine()(x, order),)
+
+    latest, x = Latest(), np.linspace(0.0, 1.0, 9)
+    high = latest(law, x, 3)[0]
+    low = latest(law, x, 1)[0]
+    assert asked == [3]
+    assert len(low.c) == 2
+    assert all(np.array_equal(a, b) for a, b in zip(low.c, high.c, strict=False))
+    x += 0.01 * (x < 0.5)  # written over: another array in the same place
+    assert np.array_equal(latest(law, x, 3)[0].c[0], ModifiedSine()(x, 0).c[0])
+    assert asked == [3, 3]
+    latest(law, x.copy(), 3)
+    latest(law, x, 4)
+    assert asked == [3, 3, 3, 4]
+
+
+@pytest.mark.parametrize("x", [0.0, 1e-9, -0.05, 0.3, 0.5])
+def test_sine_over_its_angle_and_its_derivatives(x):
+    mpmath = pytest.importorskip("mpmath")
+    with mpmath.workdps(40):
+        exact = mpmath.taylor(mpmath.sinc, x, 4)
+    for found, true in zip(_sinc(Jet.variable(x, 4)).c, exact, strict=True):
+        # a rounding of its own size, or of the terms that cancel, of which the first is 1/6
+        assert found == pytest.approx(float(true), rel=1e-15, abs=4e-17)
