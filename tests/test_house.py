@@ -176,7 +176,16 @@ CORE = {"numerics", "machine", "curves", "analysis", "parts"}
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "analysis.loads.loaded_many": {"At", "at", "look", "sign", "instant", "_contact", "self.kept", "self.last"},
+    "analysis.loads.loaded_many": {
+        "At",
+        "at",
+        "look",
+        "sign",
+        "instant",
+        "_contact",
+        "self.kept",
+        "self.last",
+    },
     "numerics.signed_many": {"at", "look", "_look"},
     # one number, or as many as there are values
     "numerics.cells": {"number", "taken", "add", "self.known"},

@@ -18,7 +18,7 @@ from geneva_cli.numerics.sampling import ASPECT, MISS, places, refined, thinned
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.cycle import Cycle
-    from geneva_cli.analysis.loads.peaks import Stretch
+    from geneva_cli.analysis.loads.stretches import Stretch
     from geneva_cli.machine.engagement import Engagement, Motion
     from geneva_cli.numerics.jet import Array
 

@@ -11,7 +11,7 @@ from witness import mp
 from words import Drive, Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.peaks import whole
+from geneva_cli.analysis.loads.stretches import whole
 from geneva_cli.analysis.strength.roller import EXPONENT, life, passage, passages, wear_mm
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial

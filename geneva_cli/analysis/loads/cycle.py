@@ -16,7 +16,8 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
-from geneva_cli.analysis.loads.peaks import Stretch, cusps, maxima, stretches, whole
+from geneva_cli.analysis.loads.peaks import maxima
+from geneva_cli.analysis.loads.stretches import Stretch, cusps, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism

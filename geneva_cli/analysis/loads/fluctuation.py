@@ -13,7 +13,8 @@ from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.instant import instant, values
 from geneva_cli.analysis.loads.means import TORQUE, means_of
-from geneva_cli.analysis.loads.peaks import stretches, whole, zeros
+from geneva_cli.analysis.loads.stretches import stretches, whole
+from geneva_cli.analysis.loads.zeros import zeros
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.quadrature import integral_of_each

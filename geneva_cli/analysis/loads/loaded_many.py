@@ -14,8 +14,8 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, mirrored
 from geneva_cli.analysis.loads.forces import Setting, gain, needed, sliding, value
 from geneva_cli.analysis.loads.instant import Instant, instant
-from geneva_cli.analysis.loads.peaks import ZERO
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
+from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import retraces

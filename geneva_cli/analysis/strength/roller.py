@@ -19,7 +19,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import forces, setting, sliding
-from geneva_cli.analysis.loads.peaks import Signs, whole
+from geneva_cli.analysis.loads.stretches import Signs, whole
 from geneva_cli.numerics.quadrature import integrals
 
 if TYPE_CHECKING:
