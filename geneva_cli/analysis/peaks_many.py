@@ -21,12 +21,12 @@ from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.extrema_many import GROUP, peaks_many
 from geneva_cli.numerics.roots import TIE
-from geneva_cli.numerics.roots_many import GROUP, peaks_many
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.roots_many import Which
 
 ABOVE = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
 QUANTITIES = tuple(ABOVE)
@@ -64,7 +64,7 @@ class _Samples:
 
 
 class _Curve(NamedTuple):
-    """A quantity over the input angle in degrees, as ``roots_many`` asks for it."""
+    """A quantity over the input angle in degrees, as ``extrema_many`` asks for it."""
 
     samples: _Samples
     quantity: str

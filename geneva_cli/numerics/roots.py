@@ -1,6 +1,6 @@
 """Roots, extrema and boundaries in one variable: scan, bracket, refine to the last bit.
 
-``roots_many`` has the same for the functions of many designs.
+``roots_many`` and ``extrema_many`` have the same for the functions of many designs.
 """
 
 from __future__ import annotations

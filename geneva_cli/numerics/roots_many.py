@@ -1,62 +1,22 @@
-"""The solvers of ``roots`` for many designs at once: one function of one variable for each design.
+"""Roots and boundaries as of ``roots`` for many designs at once: a function for each design.
 
-Designs go through in blocks that stay in the processor's cache. All are scanned over their own
-spans; where a cubic through two neighbours' values and slopes does not predict the value midway,
-those designs alone are sampled again between them. Newton, kept in its bracket, then works on
-what is still open, and on nothing else.
-
-A design that is not a number anywhere has no number for an answer, and disturbs no other.
+Newton, kept in its bracket, works on the designs that are still open, and on nothing else. A design
+that is not a number anywhere has no number for an answer, and disturbs no other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.budget import ask
-from geneva_cli.numerics.roots import DEEPEST, PREDICTED, STEPS, TIE
+from geneva_cli.numerics.roots import STEPS
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
 
-    Which: TypeAlias = slice | Whole
-    Sample: TypeAlias = Array | tuple[Array, Array, Array]  # place, value, slope
-
-SCAN = 12  # intervals of the first scan, an even number
-BLOCK = 1024  # designs scanned at a time: 13 places of each are 110 kB a number of a formula
-GROUP = 16 * BLOCK  # designs refined together
-CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a Newton step, the last bit
 FALSI = 0.02  # of a bracket: the next place is no nearer to its ends
-ROUNDING = 1e-13  # share of a value that no sampling makes any surer
-_UNIT = np.arange(SCAN + 1) / SCAN
-
-
-class Curves(Protocol):
-    """A function for each design. ``A[which]`` are the designs' own numbers, if A is all of them.
-
-    With ``which`` a slice or indices of m designs, ``x`` has the shape (m, k), and numbers of the
-    shape (n, 1) give ``A[which]`` of the shape (m, 1).
-    """
-
-    def __call__(self, x: Array, which: Which, order: int) -> Sequence[Array]:
-        """Value and derivatives up to ``order``, 1 or 2, each of the shape of x."""
-
-
-class Stationary(NamedTuple):
-    """Stationary points, in order of design and place: one number of each for each point."""
-
-    which: Whole  # the design's number
-    x: Array
-    value: Array
-
-
-class Greatest(NamedTuple):
-    """The greatest size of each design's function, and the first place that has it."""
-
-    size: Array
-    x: Array
 
 
 class Roots(NamedTuple):
@@ -102,51 +62,6 @@ def roots_many(
         return newton_many(slope, a, b, 0.5 * (a + b), rising, close)[0]
 
 
-def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
-    """All stationary points between a and b, of the shape (n, 1), as ``roots.extrema``."""
-    found = []
-    with np.errstate(all="ignore"):
-        for part in _blocks(0, len(a), GROUP):
-            found.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns))
-    which, x, value = (np.concatenate(parts) for parts in zip(*found, strict=True))
-    order = np.lexsort((x, which))
-    return Stationary(which[order], x[order], value[order])
-
-
-def peaks_many(f: Curves, a: Array, b: Array) -> Greatest:
-    """The greatest size between a and b, of the shape (n, 1), the ends included: shapes (n,).
-
-    Of places whose sizes differ by less than a share of 1e-13, the first is told.
-
-    >>> A = np.array([[1.0], [2.0]])
-    >>> def waves(x, which, order):
-    ...     sine, cosine = np.sin(A[which] * x), np.cos(A[which] * x)
-    ...     return [sine, A[which] * cosine, -(A[which] ** 2) * sine][: order + 1]
-    >>> peaks_many(waves, 0.0 * A, 0.0 * A + 1.0)
-    Greatest(size=array([0.84147098, 1.        ]), x=array([1.        , 0.78539816]))
-    """
-    size, at = np.empty(len(a)), np.empty(len(a))
-    with np.errstate(all="ignore"):
-        for part in _blocks(0, len(a), GROUP):
-            scan = _scanned(f, a[part], b[part], part.start)
-            here, left, right = scan.turns.which - part.start, scan.turns.left, scan.turns.right
-            # A cubic rises above its ends by 4/27 of this at most; and a cubic may miss.
-            rise = (right[0] - left[0]) * np.abs(left[2] - right[2]) * (4.0 / 27.0)
-            reach = np.maximum(np.abs(left[1]), np.abs(right[1])) + rise
-            sampled = np.maximum(np.abs(scan.low), np.abs(scan.high))
-            missed = 4.0 * PREDICTED * (scan.high - scan.low)
-            which, x, value = _tops(f, scan.turns.taken(reach + missed[here] >= sampled[here]))
-            here, value, sizes = which - part.start, np.abs(value), np.abs(scan.ends)
-            most = sizes.max(axis=1)
-            np.maximum.at(most, here, value)
-            bar = most / (1.0 + TIE)
-            first = np.where(sizes[:, 1] >= bar, b[part, 0], np.nan)
-            near = value >= bar[here]
-            np.fmin.at(first, here[near], x[near])
-            size[part], at[part] = most, np.where(sizes[:, 0] >= bar, a[part, 0], first)
-    return Greatest(size, at)
-
-
 class End(NamedTuple):
     """Places of designs, and what is left of a limit there."""
 
@@ -184,161 +99,6 @@ def boundary_many(
         low[here[holds]], f_low[here[holds]] = x[holds], f[holds]
         high[here[~holds]], f_high[here[~holds]] = x[~holds], f[~holds]
     return low
-
-
-def _blocks(start: int, stop: int, size: int) -> list[slice]:
-    return [slice(i, min(i + size, stop)) for i in range(start, stop, size)] or [slice(0, 0)]
-
-
-class _Pairs(NamedTuple):
-    """Neighbouring samples of designs: place, value and slope in three rows, left and right."""
-
-    which: Whole
-    left: Array
-    right: Array
-
-    def taken(self, where: Mask) -> _Pairs:
-        return _Pairs(self.which[where], self.left[:, where], self.right[:, where])
-
-
-def _joined(pairs: Sequence[_Pairs]) -> _Pairs:
-    return _Pairs(*(np.concatenate(parts, axis=-1) for parts in zip(*pairs, strict=True)))
-
-
-class _Scan(NamedTuple):
-    ends: Array  # values at a and b, two columns
-    low: Array  # the least and the greatest sample of each design
-    high: Array
-    turns: _Pairs  # where the slope changes sign, or is zero at one end
-    missed: _Pairs  # where a cubic does not predict: to be halved
-
-
-def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
-    """A group of designs, the first of which has the number ``start``."""
-    scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
-    ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
-    turns, missed = (
-        _joined(pairs) for pairs in ([s.turns for s in scans], [s.missed for s in scans])
-    )
-    if len(missed.which):
-        turns = _joined([turns, _refined(f, start, missed, low, high)])
-    return _Scan(ends, low, high, turns, missed)
-
-
-def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
-    # Designs lie side by side in memory: each operation runs along all of them.
-    samples = np.empty((3, SCAN + 1, len(a))).transpose(0, 2, 1)
-    x, value, slope = samples
-    x[:] = a + (b - a) * _UNIT
-    x[:, -1:] = b
-    value[:], slope[:] = f(x, slice(start, start + len(a)), 1)
-    low, high = value.min(axis=1), value.max(axis=1)
-    left, middle, right = samples[:, :, :-1:2], samples[:, :, 1::2], samples[:, :, 2::2]
-    missed = unpredicted(left, middle, right, low[:, None], high[:, None])
-    turn = _turns(slope[:, :-1], slope[:, 1:])
-    turn[:, ::2] &= ~missed
-    turn[:, 1::2] &= ~missed
-    column, row = np.nonzero(turn.T)
-    turns = _Pairs(row + start, samples[:, row, column], samples[:, row, column + 1])
-    column, row = np.nonzero(missed.T)
-    left, middle, right = (s[:, row, column] for s in (left, middle, right))
-    row += start
-    halves = _joined([_Pairs(row, left, middle), _Pairs(row, middle, right)])
-    return _Scan(value[:, [0, -1]], low, high, turns, halves)
-
-
-def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _Pairs:
-    """Pairs with a turn, halved until a cubic predicts; low and high grow as it comes to light."""
-    settled = []
-    for _ in range(DEEPEST):
-        ask()
-        which, left, right = open_
-        x = 0.5 * (left[0] + right[0])
-        value, slope = (v[:, 0] for v in f(x[:, None], which, 1))
-        middle, here = np.stack((x, value, slope)), which - start
-        np.minimum.at(low, here, value)
-        np.maximum.at(high, here, value)
-        missed = unpredicted(left, middle, right, low[here], high[here])
-        halves = [_Pairs(which, left, middle), _Pairs(which, middle, right)]
-        settled += [half.taken(~missed) for half in halves]
-        open_ = _joined([half.taken(missed) for half in halves])
-        if not len(open_.which):
-            break
-    pairs = _joined([*settled, open_])
-    return pairs.taken(_turns(pairs.left[2], pairs.right[2]))
-
-
-def unpredicted(left: Sample, middle: Sample, right: Sample, low: Array, high: Array) -> Mask:
-    """Whether the cubic through both neighbours misses the sample midway between them.
-
-    Or whether a cubic turns twice between samples whose slopes have the same sign.
-    """
-    width = right[0] - left[0]
-    predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
-    rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
-    missed: Mask = np.abs(middle[1] - predicted) > PREDICTED * (high - low) + rounding
-    half = 0.5 * width
-    for one, two in ((left, middle), (middle, right)):
-        # the slope is a parabola, below zero within where its mean is less than a third of this
-        product = one[2] * two[2]
-        size = np.abs(one[2] + two[2])
-        rise = np.copysign(two[1] - one[1], (two[1] - one[1]) * one[2])
-        goes_back = 3.0 * rise < half * (size - np.sqrt(product))
-        missed |= goes_back & (product > 0.0) & (half * size > rounding)
-    return missed
-
-
-def _turns(left: Array, right: Array) -> Mask:
-    # both are zero where the function is a constant, or turns where a halving would have seen it
-    turns: Mask = (np.sign(left) * np.sign(right) < 0.0) | ((left == 0.0) != (right == 0.0))
-    return turns
-
-
-def _tops(f: Curves, pairs: _Pairs) -> Stationary:
-    """The right neighbour, where it is stationary, and the stationary point between the two.
-
-    A stationary neighbour may hide another between the two: the slope beside it has its bend's
-    sign, and it is divided out of the slope that Newton sees.
-    """
-    which, left, right = pairs
-    before, after = left[2], right[2]
-    flat = right[:2, after == 0.0], which[after == 0.0]
-    known = np.flatnonzero((before == 0.0) | (after == 0.0))
-    if len(known):
-        before, after = before.copy(), after.copy()
-        for side, slope, sign in ((left, before, 1.0), (right, after, -1.0)):
-            there = known[slope[known] == 0.0]
-            slope[there] = sign * f(side[0, there, None], which[there], 2)[2][:, 0]
-        turns = np.sign(before) * np.sign(after) < 0.0
-        (which, left, right), before = pairs.taken(turns), before[turns]
-    a, b = left[0], right[0]
-    at_a, at_b = left[2] == 0.0, right[2] == 0.0
-
-    def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array]:
-        value, slope, bend = (v[:, 0] for v in f(x[:, None], which[live], 2))
-        others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
-        return slope, bend - slope * others, value
-
-    start = turn_of_cubic(left, right)
-    x, step, (slope, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE)
-    # on the parabola through the last place but one
-    found = np.stack((x, value + 0.5 * slope * step))
-    (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
-    return Stationary(which, x, value)
-
-
-def turn_of_cubic(left: Array, right: Array) -> Array:
-    """Where the cubic through two neighbours' values and slopes is stationary between them."""
-    width = right[0] - left[0]
-    chord = (right[1] - left[1]) / width
-    s, e = left[2], right[2]
-    # slope = s + q t + p t², which rises through its root where s < 0
-    p, q = 3.0 * (s + e - 2.0 * chord), 2.0 * (3.0 * chord - 2.0 * s - e)
-    rising = np.where(s < 0.0, 1.0, -1.0)
-    root = rising * np.sqrt(np.maximum(q * q - 4.0 * p * s, 0.0))
-    t = np.where(q * rising > 0.0, -2.0 * s / (q + root), (root - q) / (2.0 * p))
-    turn: Array = left[0] + width * np.where((t > 0.0) & (t < 1.0), t, 0.5)
-    return turn
 
 
 def newton_many(

@@ -31,13 +31,14 @@ from geneva_cli.numerics.cells import (
     turns_in,
     zero_of_cubic,
 )
+from geneva_cli.numerics.extrema_many import turn_of_cubic, unpredicted
 from geneva_cli.numerics.roots import DEEPEST
-from geneva_cli.numerics.roots_many import newton_many, turn_of_cubic, unpredicted
+from geneva_cli.numerics.roots_many import newton_many
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.roots_many import Which
 
 BLOCK = 512  # designs sampled at a time: so many lie in the processor's cache
 CELLS = 8  # of a span, to begin with

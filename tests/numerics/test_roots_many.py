@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from numpy.polynomial import polynomial
 
+from geneva_cli.numerics import extrema_many as extrema_module
 from geneva_cli.numerics import roots_many as many
+from geneva_cli.numerics.extrema_many import extrema_many, peaks_many
 from geneva_cli.numerics.roots import extrema, root
-from geneva_cli.numerics.roots_many import extrema_many, peaks_many
 
 pytestmark = pytest.mark.filterwarnings("error")  # nothing is said of designs that are no numbers
 
@@ -113,8 +114,8 @@ def test_one_by_one(random_polynomials):
 def test_blocks_and_groups_change_nothing(random_polynomials, monkeypatch, solver):
     f, n = polynomials(random_polynomials), len(random_polynomials)
     whole = solver(f, column([-1.5] * n), column([1.5] * n))
-    monkeypatch.setattr(many, "BLOCK", 7)
-    monkeypatch.setattr(many, "GROUP", 91)
+    monkeypatch.setattr(extrema_module, "BLOCK", 7)
+    monkeypatch.setattr(extrema_module, "GROUP", 91)
     for a, b in zip(whole, solver(f, column([-1.5] * n), column([1.5] * n)), strict=True):
         assert np.array_equal(a, b)
 

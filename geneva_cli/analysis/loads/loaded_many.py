@@ -25,8 +25,8 @@ from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.roots_many import Which
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 JOINTS = ("crank_bearing_N", "guide_force_N")
