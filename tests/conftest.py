@@ -1,11 +1,13 @@
 """Machines under test, built as a spec would build them."""
 
 import functools
+import importlib
+import pkgutil
 
 import pytest
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli import load
+from geneva_cli import load, study
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts import outlines as outline
 from geneva_cli.parts import proof
@@ -92,8 +94,11 @@ READ = functools.cache(load)
 def read_once():
     """A file's design, read once: what it has worked out for one test it has for all such files.
 
-    They name files by paths that stay the same file's.
+    They name files by paths that stay the same file's. What takes ``load`` when it is imported has
+    to be imported before: else it would keep this one beyond the files' tests.
     """
+    for module in pkgutil.iter_modules(study.__path__, "geneva_cli.study."):
+        importlib.import_module(module.name)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("geneva_cli.design.load", READ)
         yield
