@@ -45,7 +45,7 @@ def test_as_one_by_one(name):
     Of unbounded ones, of curved slots, 128: their size is what is left beside mid-motion.
     """
     spec, varied, found = loaded(name, 12, 21)
-    together = summaries_of_many(found.machine, NAMES, means=False)
+    together = summaries_of_many(found.machine, NAMES, told=())
     for row, i in list(enumerate(found.which))[:2]:
         cycle = Cycle(alone(spec, varied, i))
         for load, one in zip(NAMES, ends_of(cycle, *NAMES), strict=True):
@@ -85,7 +85,7 @@ def test_means_as_one_by_one(name):
 def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""
     _, _, found = loaded(name, 100, 5)
-    together = summaries_of_many(found.machine, NAMES, means=False)
+    together = summaries_of_many(found.machine, NAMES, told=())
     given = Cycle(found.machine).given
     n = len(found.which)
     for engagement in found.machine.engagements:

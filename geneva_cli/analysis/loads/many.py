@@ -15,7 +15,7 @@ those of one design; all its stretches are found together, a block of designs af
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -74,7 +74,7 @@ def greatest_of_many(mechanism: Mechanism, names: Sequence[str]) -> dict[str, Pe
     As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is ``wheel_torque_Nm``.
     """
     best: dict[str, PeakOfMany] = {}
-    for found, at_deg, _ in _over_all(mechanism, names, sized=True, means=False):
+    for found, at_deg, _ in _over_all(mechanism, names, sized=True, told=()):
         for name, most, at in zip(names, found, at_deg, strict=True):
             here = PeakOfMany(most, at)
             best[name] = _greater(best[name], here) if name in best else here
@@ -82,21 +82,21 @@ def greatest_of_many(mechanism: Mechanism, names: Sequence[str]) -> dict[str, Pe
 
 
 def summaries_of_many(
-    mechanism: Mechanism, names: Sequence[str], means: bool = True
+    mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
 ) -> dict[str, SummaryOfMany]:
     """The summaries of quantities over a period, by their names; signs kept.
 
     Extremes are within some units in the last place of a quantity's greatest size of those of one
     design; means, and roots of the mean square, within 1e-12 of that size: both are sums of what
-    quadrature leaves of 1e-13, over stretches that may cancel. Without ``means`` there are none,
-    nor are there means of ``JOINTS``.
+    quadrature leaves of 1e-13, over stretches that may cancel. ``told`` says which of the two are
+    asked for; of ``JOINTS`` there are no means. One that is not told is None.
     """
     known = shares(Cycle(mechanism))
     lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
     sources = list(dict.fromkeys(source for source, _ in lent.values()))
     best: dict[str, SummaryOfMany] = {}
     sums: Array | None = None
-    for found, at_deg, total in _over_all(mechanism, sources, sized=False, means=means):
+    for found, at_deg, total in _over_all(mechanism, sources, sized=False, told=told):
         for i, name in enumerate(sources):
             here = SummaryOfMany(found[2 * i], at_deg[2 * i], -found[2 * i + 1], at_deg[2 * i + 1])
             best[name] = _outer(best[name], here) if name in best else here
@@ -112,10 +112,12 @@ def summaries_of_many(
             least = np.where(np.isinf(most) | (least > ZERO * most), least, 0.0)
             one = one._replace(max=most, min=least)
         if sums is not None:
-            mean, square = (np.where(bounded, v / period, np.inf) for v in sums[2 * i : 2 * i + 2])
-            mean = np.where(bounded & (mean * mean <= NOUGHT * square), 0.0, mean)
-            none = joined and name in JOINTS
-            one = one._replace(mean=None if none else mean, rms=np.sqrt(square))
+            square = np.where(bounded, sums[i] / period, np.inf)
+            one = one._replace(rms=np.sqrt(square))
+            if "mean" in told and not (joined and name in JOINTS):
+                mean = np.where(bounded, sums[len(sources) + i] / period, np.inf)
+                nought = bounded & (mean * mean <= NOUGHT * square)
+                one = one._replace(mean=np.where(nought, 0.0, mean))
         best[name] = one
     return {
         name: best[source].times(np.ravel(share))
@@ -125,13 +127,13 @@ def summaries_of_many(
 
 
 def _over_all(
-    mechanism: Mechanism, names: Sequence[str], *, sized: bool, means: bool
+    mechanism: Mechanism, names: Sequence[str], *, sized: bool, told: Collection[str]
 ) -> list[tuple[Array, Array, Array | None]]:
     """Of each engagement the greatest values, their places as shown, and the sums."""
     given = setting(mechanism)
     out = []
     for engagement in mechanism.engagements:
-        most, x, sums = _of(engagement, given, names, sized, means)
+        most, x, sums = _of(engagement, given, names, sized, told)
         places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
         shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, sums))
@@ -139,7 +141,11 @@ def _over_all(
 
 
 def _of(
-    engagement: Engagement, given: Setting, names: Sequence[str], sized: bool, means: bool
+    engagement: Engagement,
+    given: Setting,
+    names: Sequence[str],
+    sized: bool,
+    told: Collection[str],
 ) -> tuple[Array, Array, Array | None]:
     """Of one engagement, at its own input angles."""
     motion = engagement.motion
@@ -148,51 +154,60 @@ def _of(
     parts = []
     for i in range(0, m, GROUP):
         some = taken((engagement, given), slice(i, i + GROUP))
-        parts.append(_group(Loaded(some, names), min(GROUP, m - i), sized, means))
+        parts.append(_group(Loaded(some, names), min(GROUP, m - i), sized, told))
     most, x, sums = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
-    return most, x, sums if means else None
+    return most, x, sums if told else None
 
 
-def _group(load: Loaded, n: int, sized: bool, means: bool) -> tuple[Array, Array, Array]:
+def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Array, Array, Array]:
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
     known = at_mid_motion(load, n) if load.machine[0].slot.curved else []
     found = search(load, spans, n, sized, known)
-    sums = _sums(load, found, spans, n) if means else found.most
+    sums = _sums(load, found, spans, n, "mean" in told) if told else found.most
     return found.most, found.x, sums
 
 
-def _sums(load: Loaded, found: Found, spans: Sequence[tuple[Array, Array]], n: int) -> Array:
-    """The integral of each quantity and of its square by the angle in radians, in turn."""
+def _sums(
+    load: Loaded, found: Found, spans: Sequence[tuple[Array, Array]], n: int, plain: bool
+) -> Array:
+    """The integrals by the angle in radians of the squares, and of the quantities where ``plain``.
+
+    Only a quantity whose square is looked for goes with a root at the ends of its stretches.
+    """
     design, _, (a, b), positive = stretches_of(load, spans, found.cuts)
     signs = np.where(positive, 1.0, -1.0)
 
     def rows(x: Array, which: Whole) -> Array:
-        return _pairs(load, x, design[which], signs[:, which, None])
+        return _powers(load, x, design[which], signs[:, which, None], plain)
 
-    rooted = any(name in SQUARED for name in load.names)
+    rooted = plain and any(name in SQUARED for name in load.names)
+    powers = 2 if plain else 1
     with np.errstate(all="ignore"):
         # of what has no bound there is no mean
         bounded = np.isfinite(found.most).reshape(len(load.names), 2, n).all(axis=1)
-        total = integrals_many(rows, a, b, design, np.repeat(bounded, 2, axis=0), rooted)
+        total = integrals_many(rows, a, b, design, np.tile(bounded, (powers, 1)), rooted)
         engagement = load.machine[0]
         if engagement.slot.curved:  # the way to mid-motion, which no stretch reaches
             for end in (engagement.entry_deg, engagement.exit_deg):
                 near = np.broadcast_to(np.reshape(NEAR * end, (-1, 1)), (n, 1))
-                beside = _pairs(load, near * AHEAD, np.arange(n), None)
+                beside = _powers(load, near * AHEAD, np.arange(n), None, plain)
                 total += (beside @ SHARES) * np.abs(near[:, 0])
     return total * DEGREE
 
 
-def _pairs(load: Loaded, x: Array, which: Whole, signs: Array | None) -> Array:
+def _powers(load: Loaded, x: Array, which: Whole, signs: Array | None, plain: bool) -> Array:
+    """The squares of the quantities, and where ``plain`` they themselves after those."""
     given, at, shape = load.at(x, which, 0)
     here = look(load.kinds, given, at, signs).instant
-    out = np.empty((2 * len(load.names), *shape[::-1])).swapaxes(1, 2)
+    count = len(load.names)
+    out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
     for i, name in enumerate(load.names):
         value = QUANTITIES[name](here).value.c[0]
-        out[2 * i] = np.sqrt(abs(value)) if name in SQUARED else value
-        out[2 * i + 1] = square_of(value, name)
+        out[i] = square_of(value, name)
+        if plain:
+            out[count + i] = np.sqrt(abs(value)) if name in SQUARED else value
     return out
 
 

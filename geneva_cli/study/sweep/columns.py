@@ -101,8 +101,8 @@ def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
         for q in sized:
             values[f"loads.{q}.max"], values[f"loads.{q}.at_deg"] = greatest[SIZED[q]]
     if summed:
-        means = any(a[-1] in ("mean", "rms") for a in asked)
-        found = summaries_of_many(machine, list(summed), means)
+        told = {a[-1] for a in asked} & {"mean", "rms"}
+        found = summaries_of_many(machine, list(summed), told)
         for q, one in found.items():
             values |= {f"loads.{q}.{name}": one._asdict()[name] for name in SUMMED}
     if ["loads", "kinetic_power_W"] in asked:
