@@ -66,7 +66,24 @@ class Cycloidal(Law):
 
 
 @dataclass(frozen=True)
-class ModifiedTrapezoid(Law):
+class _InShares(Law):
+    """A law whose acceleration is a sine, constant and a cosine in fixed shares of the time."""
+
+    # of the sine and the cosine, and of constant velocity in the middle
+    SHARES: ClassVar[tuple[float, float, float]]
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the pieces meet."""
+        return breaks(*self.SHARES)
+
+    def first(self, u: Number, order: int) -> Jet:
+        """The half in which the wheel gains speed."""
+        return first_half(u, order, *self.SHARES)
+
+
+@dataclass(frozen=True)
+class ModifiedTrapezoid(_InShares):
     """Modified acceleration trapezoid: constant acceleration, joined by quarter sines.
 
     The least peak of acceleration of those here, 4.888.
@@ -77,19 +94,12 @@ class ModifiedTrapezoid(Law):
 
     NAME: ClassVar[str] = "modified-trapezoid"
     ABOUT: ClassVar[str] = "constant acceleration joined by sines; the lowest peak without a jump"
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """At eighths, where sines and constants meet."""
-        return breaks(0.25, 0.25, 0.0)
-
-    def first(self, u: Number, order: int) -> Jet:
-        """Quarter sine to u = 1/8, constant acceleration to 3/8, quarter sine to the middle."""
-        return first_half(u, order, 0.25, 0.25)
+    # a sine to u = 1/8, constant acceleration to 3/8, a cosine to the middle
+    SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.25, 0.0)
 
 
 @dataclass(frozen=True)
-class ModifiedSine(Law):
+class ModifiedSine(_InShares):
     """Modified sine line: sine acceleration of period 1/2 for u < 1/8, of period 3/2 between.
 
     The least peak of velocity, 1.760, of those here without a jump in acceleration.
@@ -100,19 +110,12 @@ class ModifiedSine(Law):
 
     NAME: ClassVar[str] = "modified-sine"
     ABOUT: ClassVar[str] = "sines of two periods; a low peak of velocity and of torque"
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Where the sines meet."""
-        return breaks(0.25, 0.75, 0.0)
-
-    def first(self, u: Number, order: int) -> Jet:
-        """The quick sine to u = 1/8, the slow one to the middle."""
-        return first_half(u, order, 0.25, 0.75)
+    # the quick sine to u = 1/8, the slow one to the middle
+    SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.0)
 
 
 @dataclass(frozen=True)
-class ModifiedConstantVelocity(Law):
+class ModifiedConstantVelocity(_InShares):
     """MCV50: the modified sine's acceleration in half the time, constant velocity between.
 
     The lowest top speed of the laws here, and the greatest jerk.
@@ -123,15 +126,8 @@ class ModifiedConstantVelocity(Law):
 
     NAME: ClassVar[str] = "mcv50"
     ABOUT: ClassVar[str] = "modified sine, at constant velocity for half the time between"
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Where the sines meet, and both ends of the constant velocity."""
-        return breaks(0.25, 0.75, 0.5)
-
-    def first(self, u: Number, order: int) -> Jet:
-        """The quick sine to u = 1/16, the slow one to 1/4, constant velocity to the middle."""
-        return first_half(u, order, 0.25, 0.75, 0.5)
+    # the quick sine to u = 1/16, the slow one to 1/4, constant velocity to the middle
+    SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.5)
 
 
 @dataclass(frozen=True)

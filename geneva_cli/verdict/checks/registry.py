@@ -41,14 +41,14 @@ LIMITS: Checks = {
     "input_torque_max_Nm": "load_limits:greatest",
     "pressure_angle_deg": "pressure:as_asked",
     "contact_stress_max_MPa": "load_limits:greatest",
-    "pv_max_W_m2": "strength:pv",
-    "roller_life_min_h": "strength:roller_life",
-    "pin_stress_MPa": "strength:pin",
-    "horn_stress_MPa": "strength:horn",
-    "lock_horn_stress_MPa": "strength:lock_horn",
-    "lock_stress_max_MPa": "strength:lock",
-    "wheel_shaft_stress_MPa": "strength:wheel_shaft",
-    "crank_shaft_stress_MPa": "strength:crank_shaft",
+    "pv_max_W_m2": "strength:borne",
+    "roller_life_min_h": "strength:borne",
+    "pin_stress_MPa": "strength:borne",
+    "horn_stress_MPa": "strength:borne",
+    "lock_horn_stress_MPa": "strength:borne",
+    "lock_stress_max_MPa": "strength:borne",
+    "wheel_shaft_stress_MPa": "strength:borne",
+    "crank_shaft_stress_MPa": "strength:borne",
 }
 # Of flat parts as they stand.
 STANDING: Checks = {
