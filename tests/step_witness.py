@@ -120,6 +120,28 @@ def references(values):
             yield from references(value)
 
 
+def de_boor(poles, knots, t):
+    """A cubic B-spline's point and its derivative, by de Boor's triangle."""
+    k = max(i for i in range(3, len(poles)) if knots[i] <= t)
+    d = [poles[j] for j in range(k - 3, k + 1)]
+    for r in (1, 2, 3):
+        if r == 3:
+            rate = [3.0 * (q - p) / (knots[k + 1] - knots[k]) for p, q in zip(*d, strict=True)]
+        d = [mixed(d[i : i + 2], t, *knots_of(knots, k, r, i)) for i in range(len(d) - 1)]
+    return d[0], rate
+
+
+def knots_of(knots, k, r, i):
+    """The knots between which a step of de Boor's mixes."""
+    j = k - 3 + r + i
+    return knots[j], knots[j + 4 - r]
+
+
+def mixed(pair, t, low, high):
+    share = (t - low) / (high - low)
+    return tuple((1.0 - share) * p + share * q for p, q in zip(*pair, strict=True))
+
+
 def dot(a, b):
     return sum(x * y for x, y in zip(a, b, strict=True))
 
@@ -195,11 +217,19 @@ class Solid:
             self.off = max(self.off, math.dist(poles[0], ends[0]), math.dist(poles[-1], ends[1]))
 
     def poles(self, curve):
+        return self.spline(curve)[0]
+
+    def spline(self, curve):
+        """Poles and knots, each as often as it counts."""
         _, degree, poles, _, closed, crosses, counts, knots, _ = self.file.values(
             curve, "B_SPLINE_CURVE_WITH_KNOTS"
         )
-        assert (degree, closed, crosses, counts, knots) == (3, ".F.", ".F.", [4, 4], [0.0, 1.0])
-        return poles
+        assert (degree, closed, crosses) == (3, ".F.", ".F.")
+        assert counts == [4, *[2] * (len(knots) - 2), 4]  # once differentiable between
+        assert (knots[0], knots[-1]) == (0.0, 1.0)
+        assert all(a < b for a, b in zip(knots, knots[1:], strict=False))
+        assert len(poles) == sum(counts) - 4
+        return poles, [k for k, n in zip(knots, counts, strict=True) for _ in range(int(n))]
 
     def swept(self, edge, sense):
         """Integral of x dy along an edge that is run forwards or not."""
@@ -218,15 +248,13 @@ class Solid:
                 turn = 2.0 * math.asin(0.5 * math.dist((x0, y0), (x1, y1)) / r)
             whole = 0.5 * (x0 + x1) * (y1 - y0) + way * 0.5 * r * r * less_sine(turn)
             return sign * whole
-        p = [self.file.point(n)[:2] for n in self.poles(curve)]
+        poles, knots = self.spline(curve)
+        p = [self.file.point(n)[:2] for n in poles]
         total = 0.0
-        for node, weight in [(s * n, w) for n, w in GAUSS for s in (-1.0, 1.0)]:
-            t = 0.5 + 0.5 * node
-            u = 1.0 - t
-            at = (u**3, 3 * u * u * t, 3 * u * t * t, t**3)
-            by = (-3 * u * u, 3 * u * u - 6 * u * t, 6 * u * t - 3 * t * t, 3 * t * t)
-            x = sum(b * q[0] for b, q in zip(at, p, strict=True))
-            total += 0.5 * weight * x * sum(b * q[1] for b, q in zip(by, p, strict=True))
+        for a, b in zip(knots, knots[1:], strict=False):
+            for node, weight in [(s * n, w) for n, w in GAUSS for s in (-1.0, 1.0)] * (a < b):
+                (x, _), (_, dy) = de_boor(p, knots, 0.5 * (a + b) + 0.5 * (b - a) * node)
+                total += 0.5 * (b - a) * weight * x * dy
         return sign * total
 
     def volumes(self):
@@ -277,7 +305,13 @@ class Solid:
             assert sign == forwards  # a circle's right is away from its centre
             self.off = max(self.off, abs(math.hypot(x - cx, y - cy) - values[2]))
         else:
-            assert kind == "SURFACE_OF_LINEAR_EXTRUSION"
-            assert values[1] == curve
-            assert self.file.direction(self.file.values(values[2])[1]) == (0.0, 0.0, 1.0)
+            assert kind == "B_SPLINE_SURFACE_WITH_KNOTS"
+            (_, along, up, rows, *_, counts, levels, knots, heights, _) = values
+            _, degree, poles, *_, own_counts, own_knots, _ = self.file.values(curve)
+            assert (along, counts, knots) == (degree, own_counts, own_knots)
+            assert (up, levels, heights) == (1, [2, 2], [0.0, 1.0])
+            for low, (foot, head) in zip(poles, rows, strict=True):
+                assert foot == low
+                assert self.file.point(foot)[:2] == self.file.point(head)[:2]
+                assert self.file.point(foot)[2] < self.file.point(head)[2]
             assert sign == forwards

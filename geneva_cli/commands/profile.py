@@ -20,6 +20,7 @@ from geneva_cli.output import (
     is_drawn,
     sheet_as,
     show,
+    usual_curves,
 )
 from geneva_cli.parts.catalogue import PARTS, is_sheet
 
@@ -51,13 +52,13 @@ def run(
         int | None, typer.Option(metavar="N", help="This many rows instead, evenly (tables).")
     ] = None,
     curves: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="KIND",
-            help="Curved walls as arcs, or as spline for CAD.",
+            help="Curved walls as arcs, or as spline for CAD (of .step; else arcs).",
             autocompletion=completion.words(lambda: ("arcs", "spline")),
         ),
-    ] = "arcs",
+    ] = None,
     kerf: Annotated[
         float | None,
         typer.Option(metavar="MM", help="Paths for a cut so wide: half of it beside the part."),
@@ -110,6 +111,7 @@ def run(
     from geneva_cli.curves.pieces import UNITS
     from geneva_cli.design import CURVES, load
 
+    curves = curves or usual_curves(output, format)
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     if not tolerance > 0.0:

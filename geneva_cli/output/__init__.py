@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 # of drawings only; they are written in FORMATS as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
+SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs
 SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
 MOVING = (".html", ".htm", ".gif")  # of scenes only
 PICTURES = ("png", "pdf")  # of figures only
@@ -99,6 +100,16 @@ def draw(
         return
     module = cast(DrawnFormat, importlib.import_module(f"geneva_cli.output.{DRAWN[name]}"))
     _put(module.chunks(drawing, units, **own), output, inputs)
+
+
+def usual_curves(output: str, format: str) -> str:
+    """How curved walls are written unless a user says: as ``spline`` in solids, ``arcs`` elsewhere.
+
+    >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
+    ('spline', 'arcs')
+    """
+    extension = os.path.splitext(output)[1].lower().lstrip(".")
+    return "spline" if (format or EXTENSIONS.get(extension)) in SMOOTH else "arcs"
 
 
 def draw_sheet(

@@ -218,9 +218,11 @@ def test_a_wheel_thinner_than_its_line_of_contact_is_refused():
         Design(External(6), size=size).mechanism  # noqa: B018
 
 
-def test_small_and_quick():
+@pytest.mark.parametrize("name", ["", "press-curved"])
+def test_small_and_quick(name):
     """A wheel: at most 60 kB, 30 ms (the least of some runs, of the processor)."""
-    drawing = Design(External(6)).drawing("wheel")
+    design = load(str(repo.DESIGNS / f"{name}.toml")) if name else Design(External(6))
+    drawing = design.drawing("wheel", curves="spline")
     took = []
     for _ in range(5):
         start = time.process_time()

@@ -1,4 +1,4 @@
-"""A plate as a closed solid: planes, cylinders and drawn-out cubics between its two faces.
+"""A plate as a closed solid: planes, cylinders and drawn-out splines between its two faces.
 
 All contours run with the material on their left. Then, seen from outside, each wall is bounded
 counterclockwise by the lower edge, up at its end, the upper edge back, and down at its start.
@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Plate, with_material_left
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Segment
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.step.entities import Entities, listed, real
+from geneva_cli.output.step.entities import SHARE, Entities, listed, real
+from geneva_cli.output.step.splines import Piece, Spline, pieces
 
 
 class Wall(NamedTuple):
@@ -68,12 +69,10 @@ def _level(file: Entities, z: float) -> str:
 
 
 def _walls(file: Entities, plate: Plate, contour: Contour) -> list[Wall]:
-    places = [_place(file, plate, segment.start) for segment in contour.segments]
+    found = pieces(contour.segments)
+    places = [_place(file, plate, piece.start) for piece in found]
     pairs = zip(places, [*places[1:], places[0]], strict=True)
-    return [
-        _wall(file, plate, segment, *ends)
-        for segment, ends in zip(contour.segments, pairs, strict=True)
-    ]
+    return [_wall(file, plate, piece, *ends) for piece, ends in zip(found, pairs, strict=True)]
 
 
 def _place(file: Entities, plate: Plate, at: Point) -> Place:
@@ -82,14 +81,14 @@ def _place(file: Entities, plate: Plate, at: Point) -> Place:
     return Place(low, high, _edge(file, low, high, f"LINE('',{points[0]},{file.rise})", True))
 
 
-def _wall(file: Entities, plate: Plate, segment: Segment, start: Place, end: Place) -> Wall:
-    curves = [_curve(file, segment, z) for z in (plate.low, plate.high)]
-    along = not isinstance(segment, Arc) or segment.bulge > 0.0
+def _wall(file: Entities, plate: Plate, piece: Piece, start: Place, end: Place) -> Wall:
+    curves = [_curve(file, piece, z) for z in (plate.low, plate.high)]
+    along = not isinstance(piece, Arc) or piece.bulge > 0.0
     low = _edge(file, start.low, end.low, curves[0], along)
     high = _edge(file, start.high, end.high, curves[1], along)
     loop = _loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal leads away from its axis, and that of the rest to the right
-    face = _face(file, [loop], _surface(file, segment, plate.low), along)
+    face = _face(file, [loop], _surface(file, piece, plate), along)
     return Wall(face, low, high, True)
 
 
@@ -106,29 +105,48 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> Wall:
     return Wall(_face(file, [_loop(file, sides)], surface, outside), low, high, outside)
 
 
-def _curve(file: Entities, segment: Segment, z: float) -> str:
-    """The text of the curve that a segment is on."""
-    if isinstance(segment, Line):
-        vector = file.shared(f"VECTOR('',{file.direction(*_way(segment))},1.)")
-        return f"LINE('',{file.point(segment.start, z)},{vector})"
-    if isinstance(segment, Arc):
-        return _circle(file, segment.centre, segment.radius, z)
-    poles = listed([file.point(p, z) for p in segment])
+def _curve(file: Entities, piece: Piece, z: float) -> str:
+    """The text of the curve that a piece is on."""
+    if isinstance(piece, Line):
+        vector = file.shared(f"VECTOR('',{file.direction(*_way(piece))},1.)")
+        return f"LINE('',{file.point(piece.start, z)},{vector})"
+    if isinstance(piece, Arc):
+        return _circle(file, piece.centre, piece.radius, z)
+    return _spline(file, piece, z)
+
+
+def _spline(file: Entities, spline: Spline, z: float) -> str:
+    poles = listed([file.point(p, z) for p in spline.poles])
+    count, knots = _knots(spline)
     return (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{poles},.UNSPECIFIED.,.F.,.F.,(4,4),(0.,1.),.UNSPECIFIED.)"
+        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{poles},.UNSPECIFIED.,.F.,.F.,{count},{knots},"
+        ".UNSPECIFIED.)"
     )
 
 
-def _surface(file: Entities, segment: Segment, z: float) -> str:
-    """The surface over a segment."""
-    if isinstance(segment, Line):
-        x, y = _way(segment)
+def _knots(spline: Spline) -> tuple[str, str]:
+    """How often each knot counts, two where a cubic is once differentiable; and where they are."""
+    count = listed(["4", *["2"] * (len(spline.knots) - 2), "4"])
+    return count, listed([real(knot / spline.knots[-1], SHARE) for knot in spline.knots])
+
+
+def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
+    """The surface over a piece."""
+    if isinstance(piece, Line):
+        x, y = _way(piece)
         axis, ahead = file.direction(y, -x), file.direction(x, y)
-        return file.add(f"PLANE('',{file.placement(segment.start, z, axis, ahead)})")
-    if isinstance(segment, Arc):
-        return _cylinder(file, segment.centre, segment.radius, z)
-    curve = file.shared(_curve(file, segment, z))
-    return file.add(f"SURFACE_OF_LINEAR_EXTRUSION('',{curve},{file.rise})")
+        return file.add(f"PLANE('',{file.placement(piece.start, plate.low, axis, ahead)})")
+    if isinstance(piece, Arc):
+        return _cylinder(file, piece.centre, piece.radius, plate.low)
+    # As a spline too: there kernels look for knots when they integrate, and not where a curve is
+    # drawn out.
+    levels = plate.low, plate.high
+    poles = listed([listed([file.point(p, z) for z in levels]) for p in piece.poles])
+    count, knots = _knots(piece)
+    return file.add(
+        f"B_SPLINE_SURFACE_WITH_KNOTS('',3,1,{poles},.UNSPECIFIED.,.F.,.F.,.F.,{count},(2,2),"
+        f"{knots},(0.,1.),.UNSPECIFIED.)"
+    )
 
 
 def _way(line: Line) -> Point:

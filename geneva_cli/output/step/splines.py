@@ -1,0 +1,83 @@
+"""Cubics that go on in each other's direction as one B-spline, and so one face over all of them.
+
+Where two meet with a common tangent, a parameter that runs over each in proportion to its handles
+makes the whole once differentiable. Then no pole is needed where they meet: of n cubics there are
+2 n + 2, and the curve is the same.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple, TypeAlias
+
+from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
+
+# mm: by which the place where two meet may be moved, as the poles beside it give it again: rounding
+SAME = 1e-11
+UNEVEN = 1e3  # between neighbours' shares of the parameter; more than that is two splines
+
+
+class Spline(NamedTuple):
+    """A cubic B-spline: its poles, and where its pieces end on the parameter, from 0 up."""
+
+    poles: tuple[Point, ...]
+    knots: tuple[float, ...]
+
+    @property
+    def start(self) -> Point:
+        """Where it begins."""
+        return self.poles[0]
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.poles[-1]
+
+
+Piece: TypeAlias = Line | Arc | Spline
+
+
+def pieces(segments: Iterable[Segment]) -> list[Piece]:
+    """The segments, with cubics as few splines, of the same curve.
+
+    >>> first = Cubic((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 1.0))
+    >>> after = Cubic((3.0, 1.0), (5.0, 3.0), (6.0, 3.0), (7.0, 3.0))
+    >>> pieces([first, after])[0].knots  # handles of the second are twice as long there
+    (0.0, 1.0, 3.0)
+    """
+    found: list[Piece] = []
+    run: list[Cubic] = []
+    shares: list[float] = []
+    for segment in segments:
+        share = _share(run[-1], segment, shares[-1]) if run else 0.0
+        if run and not share:
+            found.append(_spline(run, shares))
+            run, shares = [], []
+        if isinstance(segment, Cubic):
+            run.append(segment)
+            shares.append(share or 1.0)
+        else:
+            found.append(segment)
+    return [*found, _spline(run, shares)] if run else found
+
+
+def _share(before: Cubic, after: Segment, share: float) -> float:
+    """How much of the parameter the next one has, by the one before it; 0 if it is no part."""
+    if not isinstance(after, Cubic):
+        return 0.0
+    back, on = math.dist(before.second, before.end), math.dist(after.start, after.first)
+    if not back < UNEVEN * on < UNEVEN * UNEVEN * back:
+        return 0.0
+    between = tuple(
+        (p * on + q * back) / (back + on) for p, q in zip(before.second, after.first, strict=True)
+    )
+    return share * on / back if math.dist(between, after.start) < SAME else 0.0
+
+
+def _spline(run: list[Cubic], shares: list[float]) -> Spline:
+    poles = [pole for cubic in run for pole in (cubic.first, cubic.second)]
+    knots = [0.0]
+    for share in shares:
+        knots.append(knots[-1] + share)
+    return Spline((run[0].start, *poles, run[-1].end), tuple(knots))
