@@ -2,27 +2,56 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
+from geneva_cli.commands import completion
+from geneva_cli.commands.options import Given, Output, SpecPath, one_of, say
+from geneva_cli.output import DOCUMENTS, FORMATS
 
 EXAMPLES = (
     "geneva report spec.toml",
+    "geneva report spec.toml -o report.html",
+    "geneva report spec.toml -o report.pdf",
     "geneva report spec.toml -o report.json",
 )
+WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 
-def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
+def run(
+    spec: SpecPath,
+    given: Given = None,
+    output: Output = "-",
+    format: Annotated[
+        str,
+        typer.Option(
+            metavar="FORMAT",
+            help=one_of(WRITTEN),
+            autocompletion=completion.words(lambda: WRITTEN),
+        ),
+    ] = "",
+) -> None:
     """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.
+
+    As html, pdf or md, what is handed over: the verdict first, the machine drawn, all inputs with
+    their defaults, curves, every check, what is not known and which key would give it. As table,
+    csv and json the values alone.
 
     Exit status 1 where `check` has it: where a check fails.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show
+    from geneva_cli.output import hand_over, is_document, show
 
+    is_whole = is_document(output, format)
     design = load(spec, given or ())
     found = design.report
-    show(found.table, output, format, design.spec.files)
+    if is_whole:
+        from geneva_cli.study.document import document
+
+        hand_over(document(design), output, format, design.spec.files)
+    else:
+        show(found.table, output, format, design.spec.files)
     say(design.spec.path, found.cautions)
     if not found.passes:
         raise typer.Exit(1)

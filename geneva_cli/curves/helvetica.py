@@ -1,7 +1,7 @@
-"""How wide a text in Helvetica is: one of the fonts that every PDF reader has by itself.
+"""How wide a text in Helvetica, or its bold, is: that every PDF reader has by itself.
 
 Arial and Liberation Sans, which stand for it elsewhere, have the same widths. Source: Adobe's font
-metrics, Core 14 AFM, Helvetica, in thousandths of the font's size.
+metrics, Core 14 AFM, Helvetica and Helvetica-Bold, in thousandths of the font's size.
 """
 
 from __future__ import annotations
@@ -16,15 +16,26 @@ _ASCII = (  # from the space on
     *(222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500),
     *(500, 334, 260, 334, 584),
 )
-_OTHERS = {"°": 400, "±": 584, "×": 584, "Ø": 778}
+_BOLD = (
+    *(278, 333, 474, 556, 556, 889, 722, 238, 333, 333, 389, 584, 278, 333, 278, 278),
+    *(556,) * 10,
+    *(333, 333, 584, 584, 584, 611, 975, 722, 722, 722, 722, 667, 611, 778, 722, 278),
+    *(556, 722, 611, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667),
+    *(611, 333, 278, 333, 584, 556, 333, 556, 611, 556, 611, 556, 333, 611, 611, 278),
+    *(278, 556, 278, 889, 611, 611, 611, 611, 389, 556, 333, 611, 556, 778, 556, 556),
+    *(500, 389, 280, 389, 584),
+)
+# the same in both, but for the dot
+_OTHERS = {"°": 400, "±": 584, "×": 584, "Ø": 778, "²": 333, "³": 333, "·": 278, "–": 556}
 WIDEST = 1000  # of letters beyond these
 
 
-def width(text: str) -> float:
+def width(text: str, bold: bool = False) -> float:
     """A text's width over the height of its capitals; of letters not listed, the widest there are.
 
     >>> round(width("20 H7"), 3)
     3.716
     """
-    units = sum(_ASCII[ord(c) - 32] if " " <= c <= "~" else _OTHERS.get(c, WIDEST) for c in text)
+    known = _BOLD if bold else _ASCII
+    units = sum(known[ord(c) - 32] if " " <= c <= "~" else _OTHERS.get(c, WIDEST) for c in text)
     return units / (1000.0 * CAPITALS)

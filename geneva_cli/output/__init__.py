@@ -14,6 +14,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
     from geneva_cli.curves.sheet import Sheet
+    from geneva_cli.document import Document
     from geneva_cli.figure import Figure
     from geneva_cli.scene import Scene
 
@@ -25,9 +26,11 @@ SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hu
 SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
 MOVING = (".html", ".htm", ".gif")  # of scenes only
 PICTURES = ("png", "pdf")  # of figures only
+# of documents; the other formats of tables get their values
+DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
 PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
-EXTENSIONS["stp"] = "step"
+EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 # what ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and read by all
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 # how plates are shown in .svg
@@ -55,6 +58,13 @@ class SheetFormat(Protocol):
 
     def chunks(self, sheet: Sheet, **own: Any) -> Iterator[str]:
         """The text, in pieces; ``own`` are the format's own options."""
+
+
+class DocumentFormat(Protocol):
+    """What the module of a document's format offers."""
+
+    def chunks(self, document: Document) -> Iterator[str]:
+        """The text, in pieces."""
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -196,6 +206,35 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     from geneva_cli.output import page
 
     _put(page.chunks(scene), output, inputs)
+
+
+def is_document(output: str, format: str) -> bool:
+    """Whether this file or format takes a document, and no table.
+
+    Raises GenevaError where it is neither.
+    """
+    formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(
+            f"--format {cut(name)}: of a report it must be one of {', '.join(formats)}"
+        )
+    return name in DOCUMENTS
+
+
+def hand_over(
+    document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
+) -> None:
+    """Print the document, or write it to the file ``output``; ``inputs`` are never overwritten.
+
+    Raises GenevaError where the format is none of DOCUMENTS, or the file cannot be written.
+    """
+    name = format or format_of(output, DOCUMENTS)
+    if name not in DOCUMENTS:
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(DOCUMENTS)}")
+    path = f"geneva_cli.output.document.{DOCUMENTS[name]}"
+    module = cast(DocumentFormat, importlib.import_module(path))
+    _put(module.chunks(document), output, inputs)
 
 
 def plotted_as(output: str, format: str) -> str:

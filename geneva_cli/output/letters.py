@@ -1,7 +1,8 @@
-"""How wide a text is that a reader's program draws, in a font that we do not know."""
+"""Letters: how wide they are in a font that we do not know, and those that some fonts have not."""
 
 from __future__ import annotations
 
+import re
 import unicodedata
 
 LETTER = 0.62  # width of a letter beside the height, with some to spare
@@ -10,3 +11,41 @@ LETTER = 0.62  # width of a letter beside the height, with some to spare
 def width(text: str) -> float:
     """A text's width beside its height, rather too great than too small."""
     return sum(1.1 if unicodedata.east_asian_width(c) in "WF" else LETTER for c in text)
+
+
+RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+POWER = re.compile("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+SPELLED = {"≥": ">=", "≤": "<=", "−": "-", "→": "->", "√": "sqrt", "∞": "infinite"}
+
+
+def western(text: str) -> str:
+    """The text in letters that Windows' western fonts have; others are spelled in words or ASCII.
+
+    >>> western("d²ψ/dθ² = 3 × 10⁻³"), western("Дα")
+    ('d²psi/dtheta² = 3 × 10^-3', '[U+0414]alpha')
+    """
+    return "".join(map(_spelled, POWER.sub(_power, text)))
+
+
+def _power(found: re.Match[str]) -> str:
+    raised = found[0]
+    return raised if all(map(_is_western, raised)) else f"^{raised.translate(RAISED)}"
+
+
+def _spelled(letter: str) -> str:
+    if _is_western(letter) or letter in SPELLED:
+        return SPELLED.get(letter, letter)
+    name = unicodedata.name(letter, "")
+    if name.startswith("GREEK ") and " LETTER " in name:
+        word = name.partition(" LETTER ")[2].partition(" WITH ")[0]
+        return word.capitalize() if "CAPITAL" in name else word.lower()
+    plain = "".join(filter(_is_western, unicodedata.normalize("NFKD", letter)))
+    return plain or f"[U+{ord(letter):04X}]"
+
+
+def _is_western(letter: str) -> bool:
+    try:
+        letter.encode("cp1252")
+    except UnicodeEncodeError:
+        return False
+    return True

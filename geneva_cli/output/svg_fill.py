@@ -24,8 +24,8 @@ Move = Callable[[Shape], Shape]
 
 def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     """All plates; ``unit`` is the file's in mm, ``mm`` a millimetre of lines in that."""
-    every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
-    here = dict.fromkeys(plate.layer for plate, _ in every)
+    every = rings(solid, unit)
+    here = dict.fromkeys(layer for layer, _ in every)
     layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
     if fill == "hatch":
         yield "<defs>\n"
@@ -39,18 +39,28 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
             )
         yield "</defs>\n"
     yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
-    for plate, move in every:
-        rings = [
-            _contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
-            for s in (plate.outline, *plate.holes)
-        ]
+    for layer, contours in every:
         if fill == "hatch":
-            how = f'fill="url(#hatch-{plate.layer})"'
+            how = f'fill="url(#hatch-{layer})"'
         else:
-            ink = inks(layers)[plate.layer]
-            how = f'fill="{ink.rgb}" fill-opacity="{TINTS.get(plate.layer, TINT)}"'
-        yield f'<path {how} d="{" ".join(map(path, rings))}"/>\n'
+            how = f'fill="{inks(layers)[layer].rgb}" fill-opacity="{TINTS.get(layer, TINT)}"'
+        yield f'<path {how} d="{" ".join(map(path, contours))}"/>\n'
     yield "</g>\n"
+
+
+def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:
+    """The outline and the holes of each plate, and its layer; the lowest first."""
+    every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
+    return [
+        (
+            plate.layer,
+            [
+                _contour(mapped(move(s), _divided(unit), lambda radius: radius / unit))
+                for s in (plate.outline, *plate.holes)
+            ],
+        )
+        for plate, move in every
+    ]
 
 
 def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:

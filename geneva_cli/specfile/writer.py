@@ -43,7 +43,7 @@ def written(spec: Spec) -> list[str]:
     lines: list[str] = []
     for name, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
         head = f"[[{name}]]" if name in LISTS else f"[{name}]"
-        for values in _values(spec, name):
+        for values in values_of(spec, name):
             block = [
                 (f"{key.key} = {quoted(values[key.key])}", key.meaning)
                 for key in keys
@@ -55,7 +55,7 @@ def written(spec: Spec) -> list[str]:
     return lines
 
 
-def _values(spec: Spec, table: str) -> list[dict[str, Any]]:
+def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     """The values by their keys of each table of a name: one, none, or those of a list."""
     if table == "motion":
         if spec.motion is None:  # straight slots

@@ -78,6 +78,9 @@ ROWS = [
     Row("report press-straight.toml", "tomli numpy"),
     Row("report spherical-z6.toml", "tomli numpy"),  # its loads
     Row("report press-curved.toml", "tomli numpy"),
+    Row("report press-straight.toml --format html", "tomli numpy"),
+    Row("report press-straight.toml --format pdf", "tomli numpy"),
+    Row("report spherical-z6.toml --format md", "tomli numpy"),
     # SciPy: its Sobol sequence, which brings json
     Row("tolerance tolerances.toml --samples 9", "tomli numpy scipy json"),
     Row("check limits.toml", "tomli numpy"),

@@ -16,7 +16,7 @@ from geneva_cli.curves.helvetica import CAPITALS, width
 from geneva_cli.curves.sheet import WIDTHS, Label
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import DXF_VERSIONS, draw_sheet, sheet_as
+from geneva_cli.output import DXF_VERSIONS, draw_sheet, pdf_file, sheet_as
 from geneva_cli.output.sheets import dxf, pdf, svg
 from geneva_cli.spec.tables import Size
 
@@ -36,10 +36,12 @@ def sheet():
     return Design.of(spec).sheet(0.05)
 
 
-def test_widths_are_those_of_the_font():
+@pytest.mark.parametrize("bold", [False, True], ids=["plain", "bold"])
+def test_widths_are_those_of_the_font(bold):
     """Against the metrics that Matplotlib ships, Adobe's own file."""
     folder = os.path.join(matplotlib.get_data_path(), "fonts", "pdfcorefonts")
-    with open(os.path.join(folder, "Helvetica.afm"), encoding="latin-1") as file:
+    name = "Helvetica-Bold.afm" if bold else "Helvetica.afm"
+    with open(os.path.join(folder, name), encoding="latin-1") as file:
         metrics = file.read()
     assert float(re.search(r"CapHeight (\d+)", metrics)[1]) == 1000.0 * CAPITALS
     known = {m[2]: int(m[1]) for m in re.finditer(r"WX (\d+) ; N (\w+)", metrics)}
@@ -47,8 +49,10 @@ def test_widths_are_those_of_the_font():
     letters = {chr(c): codes[c] for c in range(32, 127) if chr(c) not in "'`"}
     letters |= {"'": known["quotesingle"], "`": known["grave"], "°": known["degree"]}
     letters |= {"±": known["plusminus"], "×": known["multiply"], "Ø": known["Oslash"]}
+    letters |= {"²": known["twosuperior"], "³": known["threesuperior"], "–": known["endash"]}
+    letters |= {"·": known["periodcentered"]}
     for letter, units in letters.items():
-        assert 1000.0 * CAPITALS * width(letter) == pytest.approx(units, abs=1e-9), letter
+        assert 1000.0 * CAPITALS * width(letter, bold) == pytest.approx(units, abs=1e-9), letter
     assert max(known.values()) - 15 <= 1000  # one letter of all, @, is wider than what we take
 
 
@@ -97,7 +101,7 @@ def test_arcs_of_a_pdf_are_arcs():
 
     for sweep in (0.1, 1.0, 0.5 * math.pi, -0.5 * math.pi):
         arc = about((3.0, 4.0), 10.0, 0.7, sweep)
-        cubic = pdf._cubic(arc)
+        cubic = pdf_file._cubic(arc)
         for t in (0.1, 0.25, 0.5, 0.8):
             terms = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3]
             x, y = (sum(k * p[i] for k, p in zip(terms, cubic, strict=True)) for i in (0, 1))

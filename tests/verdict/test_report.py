@@ -75,7 +75,8 @@ def test_a_sound_design_passes_both(tmp_path: Path) -> None:
     page = run("report", spec, "--format", "md").stdout.splitlines()
     assert page[0].startswith("# ")
     assert "wheel" not in page[0]
-    assert page[2].startswith("An external wheel of 6 straight radial slots")
+    assert page[2] == "**Passes all 15 checks**"
+    assert page[4].startswith("An external wheel of 6 straight radial slots")
     assert not any("<b>" in line for line in page)
 
 

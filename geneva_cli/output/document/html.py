@@ -1,0 +1,119 @@
+"""A document as one page of HTML that needs nothing else: no script, no network, no font."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from html import escape
+
+from geneva_cli.document import (
+    BAD,
+    Block,
+    Curves,
+    Document,
+    Facts,
+    Grid,
+    Heading,
+    Listed,
+    Picture,
+    Prose,
+    Row,
+)
+from geneva_cli.errors import clean
+from geneva_cli.output import plot_svg, svg
+from geneva_cli.output.document.inline import inline
+from geneva_cli.output.document.values import is_number, shown
+
+WIDE = 4  # columns that a phone has room for
+SHORT = 12  # letters that are not broken into lines
+NUMBER, BRIEF, WORST = ' class="n"', ' class="s"', ' class="bad"'
+
+
+def chunks(document: Document) -> Iterator[str]:
+    """The page's text; the same document gives the same bytes."""
+    title = _text(document.title)
+    sign, name = ("✓", "passes") if document.passes else ("✗", "fails")
+    yield (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n<main>\n"
+        f'<h1>{title}</h1>\n<section class="verdict {name}" aria-label="Verdict">\n'
+        f'<p><span aria-hidden="true">{sign}</span> {_text(document.verdict)}</p>\n'
+    )
+    yield from _list(document.reasons)
+    yield "</section>\n"
+    is_open = 0  # facts side by side
+    for number, block in enumerate(document.blocks):
+        if isinstance(block, Facts) != bool(is_open):
+            yield "</div>\n" if is_open else '<div class="facts">\n'
+            is_open = 1 - is_open
+        yield from _block(block, number)
+    yield "</div>\n" if is_open else ""
+    yield "</main>\n</body>\n</html>\n"
+
+
+def _style() -> str:
+    path = os.path.join(os.path.dirname(__file__), "page.css")
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def _block(block: Block, number: int) -> Iterator[str]:
+    if isinstance(block, Heading):
+        yield f"<h2>{_text(block.text)}</h2>\n"
+    elif isinstance(block, Prose):
+        yield f"<p>{_text(block.text)}</p>\n"
+    elif isinstance(block, Listed):
+        yield from _list(block.texts)
+    elif isinstance(block, Facts):
+        yield f"<table>\n<caption>{_text(block.caption)}</caption>\n<tbody>\n"
+        for fact in block.facts:
+            value = _text(shown(fact.value, fact.unit))
+            side = "" if len(value) > 3 * SHORT else NUMBER
+            yield f'<tr><th scope="row">{_text(fact.name)}</th><td{side}>{value}</td></tr>\n'
+        yield "</tbody>\n</table>\n"
+    elif isinstance(block, Grid):
+        yield from _grid(block)
+    elif isinstance(block, Picture):
+        drawn = inline(svg.chunks(block.drawing, "mm"), f"drawing-{number}")
+        yield f'<figure class="drawing" tabindex="0">\n{drawn}</figure>\n'
+    else:
+        assert isinstance(block, Curves)
+        drawn = inline(plot_svg.chunks(block.figure), f"curves-{number}")
+        yield f'<figure class="curves" tabindex="0">\n{drawn}</figure>\n'
+
+
+def _grid(grid: Grid) -> Iterator[str]:
+    sides = [_side(column) for column in zip(*grid.rows, strict=True)]
+    heads = "".join(
+        f'<th scope="col"{side if side == NUMBER else ""}>{_text(head)}</th>'
+        for head, side in zip(grid.heads, sides, strict=True)
+    )
+    wide = " wide" if len(grid.heads) > WIDE else ""
+    yield (
+        f'<div class="grid{wide}" tabindex="0">\n'
+        f"<table>\n<caption>{_text(grid.caption)}</caption>\n<thead><tr>{heads}</tr></thead>\n"
+        "<tbody>\n"
+    )
+    for first, *rest in grid.rows:
+        yield f'<tr><th scope="row">{_text(shown(first))}</th>'
+        for value, side in zip(rest, sides[1:], strict=True):
+            yield f"<td{WORST if value == BAD else side}>{_text(shown(value))}</td>"
+        yield "</tr>\n"
+    yield "</tbody>\n</table>\n</div>\n"
+
+
+def _side(column: Row) -> str:
+    """How the cells of a column stand: numbers at its right, short words on a line."""
+    if all(map(is_number, column)):
+        return NUMBER
+    return BRIEF if all(len(shown(value)) <= SHORT for value in column) else ""
+
+
+def _list(texts: tuple[str, ...]) -> Iterator[str]:
+    if texts:
+        yield "<ul>\n" + "".join(f"<li>{_text(text)}</li>\n" for text in texts) + "</ul>\n"
+
+
+def _text(text: str) -> str:
+    return escape(clean(text))

@@ -1,0 +1,36 @@
+"""An SVG of ours inside a page: what it names and how it looks is its own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+STYLE = re.compile(r"<style>\n(.*?)</style>\n", re.DOTALL)
+RULE = re.compile(r"([^{}\n]+?) \{")
+# as files of their own they say so on any medium; a page is printed light
+DARK = re.compile(r"@media (?:screen and )?\(prefers-color-scheme: dark\)")
+
+
+def inline(chunks: Iterable[str], name: str) -> str:
+    """The element, its ids beginning with ``name`` and its styles meant for it alone."""
+    text = "".join(chunks)
+    text = text[text.index("<svg") :]
+    text = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', text)
+    text = text.replace("url(#", f"url(#{name}-")
+    text = STYLE.sub(lambda m: f"<style>\n{_scoped(m[1], name)}</style>\n", text)
+    return text.replace("<svg ", f'<svg id="{name}" ', 1)
+
+
+def _scoped(style: str, name: str) -> str:
+    style = style.replace("[id='", f"[id='{name}-")
+    style = re.sub(r"#(?=[A-Z])", f"#{name}-", style)  # an id; colours have small letters
+    style = DARK.sub("@media screen and (prefers-color-scheme: dark)", style)
+    lines = style.splitlines(keepends=True)
+    return "".join(
+        line if line.startswith("@") else RULE.sub(lambda m: f"{_all(m[1], name)} {{", line)
+        for line in lines
+    )
+
+
+def _all(selectors: str, name: str) -> str:
+    return ", ".join(f"#{name} {one.strip()}" for one in selectors.split(","))

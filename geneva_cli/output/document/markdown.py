@@ -1,0 +1,88 @@
+"""A document as Markdown: headings and tables; of its pictures what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.document import (
+    Block,
+    Curves,
+    Document,
+    Facts,
+    Grid,
+    Heading,
+    Listed,
+    Picture,
+    Prose,
+)
+from geneva_cli.errors import clean
+from geneva_cli.output.document.values import is_number, shown
+from geneva_cli.output.markdown import ESCAPES
+from geneva_cli.output.ticks import named, said
+
+
+def chunks(document: Document) -> Iterator[str]:
+    """The text, block by block."""
+    yield f"# {_text(document.title)}\n\n**{_text(document.verdict)}**\n\n"
+    yield from _list(document.reasons)
+    for block in document.blocks:
+        yield from _block(block)
+
+
+def _block(block: Block) -> Iterator[str]:
+    if isinstance(block, Heading):
+        yield f"## {_text(block.text)}\n\n"
+    elif isinstance(block, Prose):
+        yield f"{_text(block.text)}\n\n"
+    elif isinstance(block, Listed):
+        yield from _list(block.texts)
+    elif isinstance(block, Facts):
+        rows = tuple((f.name, shown(f.value, f.unit)) for f in block.facts)
+        yield from _grid(Grid(block.caption, ("Quantity", "Value"), rows), right=(False, True))
+    elif isinstance(block, Grid):
+        yield from _grid(block)
+    elif isinstance(block, Picture):
+        look = block.drawing.look
+        spans = [f"{s.name} = {_between(s.start[0], s.end[0])}" for s in look.spans] if look else []
+        yield from _list(tuple(spans))
+        yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
+    else:
+        assert isinstance(block, Curves)
+        yield from _grid(_peaks(block))
+        yield "The curves: `geneva plot SPEC -o FILE.svg`\n\n"
+
+
+def _between(a: float, b: float) -> str:
+    return shown(abs(b - a), "mm")
+
+
+def _peaks(curves: Curves) -> Grid:
+    """The marks of a figure, which is what of its curves can be said."""
+    rows = tuple(
+        (named(panel.y), said(mark))
+        for panel in curves.figure.panels
+        for curve in panel.curves
+        for mark in curve.marks
+    )
+    return Grid(curves.figure.title, ("Curve", "Peak"), rows)
+
+
+def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
+    columns = list(zip(*grid.rows, strict=True)) or [()] * len(grid.heads)
+    sides = right or tuple(bool(c) and all(map(is_number, c)) for c in columns)
+    yield f"**{_text(grid.caption)}**\n\n" if grid.caption else ""
+    yield "| " + " | ".join(map(_text, grid.heads)) + " |\n"
+    yield "| " + " | ".join("---:" if side else "---" for side in sides) + " |\n"
+    for row in grid.rows:
+        yield "| " + " | ".join(_text(shown(value)) for value in row) + " |\n"
+    yield "\n"
+
+
+def _list(texts: tuple[str, ...]) -> Iterator[str]:
+    if texts:
+        yield "".join(f"- {_text(text)}\n" for text in texts) + "\n"
+
+
+def _text(text: str) -> str:
+    """A text that means itself, whatever it looks like."""
+    return "".join(ESCAPES.get(c, c) for c in clean(text))

@@ -1,0 +1,130 @@
+"""A4 pages: items of a height, one below the other, and their page numbers. Millimetres, y up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
+
+from geneva_cli.curves import helvetica
+from geneva_cli.output import pdf_file
+from geneva_cli.output.letters import western
+from geneva_cli.output.pdf_file import POINT, Page, number
+
+WIDTH, HEIGHT = 210.0, 297.0
+LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0
+WIDE = WIDTH - 2.0 * LEFT
+BODY, SMALL = 3.4, 2.8  # sizes of letters
+LEADING = 1.32  # from line to line, over the letters' size
+INK, SOFT, LINE, BAND = "0.1 0.12 0.14", "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
+RED, GREEN = "0.7 0.15 0.12", "0.1 0.42 0.2"
+
+
+class Item(NamedTuple):
+    """What stands on one page: ``draw(top)`` are the operators from a height downwards.
+
+    One that ``keeps`` is on the page of the one after it; ``head`` is repeated above it where a
+    page begins with it.
+    """
+
+    high: float
+    draw: Callable[[float], str]
+    keeps: bool = False
+    head: Item | None = None
+
+
+def pages(items: Iterable[Item], foot: str) -> list[Page]:
+    """Items on as many pages as they need."""
+    found: list[str] = []
+    content, y = "", TOP
+    for group in _groups(items):
+        high = sum(item.high for item in group)
+        if content and y - high < BOTTOM:
+            found.append(content)
+            content, y = "", TOP
+            head = group[0].head
+            if head:
+                content, y = head.draw(y), y - head.high
+        for item in group:
+            if content and y - item.high < BOTTOM:  # a group higher than a page
+                found.append(content)
+                content, y = "", TOP
+            content += item.draw(y)
+            y -= item.high
+    found.append(content)
+    return [_page(text, f"{i} / {len(found)}", foot) for i, text in enumerate(found, 1)]
+
+
+def _groups(items: Iterable[Item]) -> Iterator[list[Item]]:
+    group: list[Item] = []
+    for item in items:
+        group.append(item)
+        if not item.keeps:
+            yield group
+            group = []
+    if group:
+        yield group
+
+
+def _page(content: str, which: str, foot: str) -> Page:
+    begin = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"
+    low = 11.0
+    name = fitting(foot, SMALL, WIDE - 30.0)
+    end = words(name, LEFT, low, SMALL, ink=SOFT)
+    end += words(which, LEFT + WIDE - wide(which, SMALL), low, SMALL, ink=SOFT)
+    return Page(WIDTH, HEIGHT, begin + content + end, fonts=2)
+
+
+def words(
+    text: str, x: float, y: float, size: float, bold: bool = False, ink: str = INK, turn: float = 0
+) -> str:
+    """A text in a colour, from x on along the base line y."""
+    return f"{ink} rg\n" + pdf_file.text(western(text), (x, y), size, turn, 2 if bold else 1)
+
+
+def rule(x: float, y: float, long: float, width: float = 0.15, ink: str = LINE) -> str:
+    """A level line."""
+    ends = f"{number(x)} {number(y)} m {number(x + long)} {number(y)} l"
+    return f"{ink} RG {number(width)} w [] 0 d {ends} S\n"
+
+
+def box(x: float, y: float, long: float, high: float, ink: str) -> str:
+    """A filled rectangle up from its lower left corner."""
+    return f"{ink} rg {number(x)} {number(y)} {number(long)} {number(high)} re f\n"
+
+
+def wide(text: str, size: float, bold: bool = False) -> float:
+    """A text's width."""
+    return helvetica.width(western(text), bold) * helvetica.CAPITALS * size
+
+
+def lines(text: str, size: float, room: float, bold: bool = False) -> list[str]:
+    """A text broken into lines that fit a width; a word that is longer than one is cut."""
+    out: list[str] = []
+    line = ""
+    for word in text.split():
+        whole = f"{line} {word}" if line else word
+        if wide(whole, size, bold) <= room:
+            line = whole
+            continue
+        if line:
+            out.append(line)
+        while wide(word, size, bold) > room and len(word) > 1:
+            fits = _fits(word, size, room, bold)
+            out.append(word[:fits])
+            word = word[fits:]
+        line = word
+    return [*out, line] if line or not out else out
+
+
+def fitting(text: str, size: float, room: float) -> str:
+    """As much of a text as fits a width."""
+    return text if wide(text, size) <= room else text[: _fits(text, size, room, False) - 1] + "…"
+
+
+def _fits(word: str, size: float, room: float, bold: bool) -> int:
+    """How many letters fit, after an underscore or a point if there is one among the last."""
+    many = 1
+    while many < len(word) and wide(word[: many + 1], size, bold) <= room:
+        many += 1
+    place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
+    return place if place > 0.4 * many else many

@@ -1,0 +1,111 @@
+"""A drawing on paper, as large as it may be: plates in tints, lines in inks, its distances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+from geneva_cli.curves.measure import bounds, extent, mapped
+from geneva_cli.curves.shapes import Arc, Contour, Drawing, Look, Point, Shape
+from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
+from geneva_cli.output.inks import CENTRE_LINES, inks
+from geneva_cli.output.pdf_file import number, outline, point
+from geneva_cli.output.svg_fill import TINT, TINTS, rings
+from geneva_cli.output.svg_look import round_length
+
+HIGH = 105.0  # at the most, of the shapes
+ROOM = 3.0  # around them
+STROKE, THIN = 0.3, 0.16
+DASHES = "4 0.8 0.8 0.8"
+SPAN = 6.0  # from one distance to the next
+ARROW = 2.6, 0.45
+
+Move: TypeAlias = Callable[[Shape], Shape]
+Put: TypeAlias = Callable[[Point], Point]
+
+
+def drawing(made: Drawing) -> Item:
+    """The drawing in the middle of the page, below it distances and a scale bar."""
+    box = extent(made)
+    turns = [bounds(Contour("", (t,), closed=False)) for t in made.look.turns] if made.look else []
+    x0, x1 = min(b.x0 for b in (box, *turns)), max(b.x1 for b in (box, *turns))
+    y0, y1 = min(b.y0 for b in (box, *turns)), max(b.y1 for b in (box, *turns))
+    scale = min((WIDE - 2.0 * ROOM) / (x1 - x0), HIGH / (y1 - y0))
+    left = LEFT + 0.5 * (WIDE - scale * (x1 - x0))
+    spans = len(made.look.spans) if made.look else 0
+    high = scale * (y1 - y0) + 2.0 * ROOM
+
+    def draw(top: float) -> str:
+        def at(p: Point) -> Point:
+            return left + scale * (p[0] - x0), top - ROOM + scale * (p[1] - y1)
+
+        def placed(shape: Shape) -> Shape:
+            return mapped(shape, at, lambda radius: radius * scale)
+
+        out = "".join(_fills(made, placed)) + "".join(_lines(made, placed))
+        if made.look:
+            out += "".join(_look(made.look, at, placed, top - high))
+        bar = round_length(0.25 * (x1 - x0))
+        y = top - high - spans * SPAN - SPAN
+        out += rule(LEFT, y, scale * bar, 0.5, INK)
+        return out + words(f"{bar:g} mm", LEFT + scale * bar + 2.0, y - 0.35 * SMALL, SMALL)
+
+    return Item(high + (spans + 1) * SPAN + 5.0, draw)
+
+
+def _fills(made: Drawing, placed: Move) -> Iterator[str]:
+    if made.solid is None:
+        return
+    every = rings(made.solid)
+    inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
+    for layer, contours in every:
+        share = TINTS.get(layer, TINT)
+        yield f"{_ink(inked[layer].rgb, share)} rg\n"
+        yield "".join(outline(placed(contour)) for contour in contours) + "f*\n"
+
+
+def _lines(made: Drawing, placed: Move) -> Iterator[str]:
+    for layer, ink in inks(made.layers).items():
+        is_thin = layer in CENTRE_LINES
+        yield f"{_ink(ink.rgb)} RG {THIN if is_thin else STROKE} w"
+        yield f" [{DASHES if is_thin else ''}] 0 d\n"
+        for shape in made.shapes:
+            if shape.layer == layer:
+                yield f"{outline(placed(shape))}S\n"
+    yield "[] 0 d\n"
+
+
+def _look(look: Look, at: Put, placed: Move, bottom: float) -> Iterator[str]:
+    """Arrows of rotation, and distances below the shapes."""
+    yield f"{SOFT} RG {THIN} w\n"
+    for turn in look.turns:
+        arc = Arc(at(turn.start), at(turn.end), turn.bulge)
+        yield f"{outline(Contour('', (arc,), closed=False))}S\n"
+        (x, y), (cx, cy) = arc.end, arc.centre
+        side = math.copysign(0.5 * math.pi - 0.5 * ARROW[0] / arc.radius, arc.bulge)
+        yield _arrow(arc.end, math.atan2(y - cy, x - cx) + side)
+    for number_, span in enumerate(look.spans, 1):
+        a, b = sorted((at(span.start), at(span.end)))
+        y = bottom - number_ * SPAN + 1.5
+        text = f"{span.name} = {round(abs(span.end[0] - span.start[0]), 3):g} mm"
+        yield f"{SOFT} RG {THIN} w\n"
+        for p in (a, b):
+            yield f"{point(p)} m {point((p[0], y - 1.0))} l S\n"
+        yield rule(a[0], y, b[0] - a[0], THIN, SOFT)
+        yield _arrow((a[0], y), math.pi) + _arrow((b[0], y), 0.0)
+        yield words(text, 0.5 * (a[0] + b[0] - wide(text, SMALL)), y + 0.9, SMALL)
+
+
+def _arrow(tip: Point, way: float) -> str:
+    long, half = ARROW
+    c, s = math.cos(way), math.sin(way)
+    x, y = tip[0] - long * c, tip[1] - long * s
+    b, d = (point((x - k * half * s, y + k * half * c)) for k in (1, -1))
+    return f"{SOFT} rg {point(tip)} m {b} l {d} l f\n"
+
+
+def _ink(rgb: str, share: float = 1.0) -> str:
+    """A colour, or so much of it on white."""
+    parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return " ".join(number(1.0 - share * (1.0 - p)) for p in parts)

@@ -1,0 +1,139 @@
+"""Tables on paper: columns as wide as they need to be, rows that break into lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from geneva_cli.document import BAD, Facts, Grid
+from geneva_cli.output.document.paper import (
+    BAND,
+    INK,
+    LEADING,
+    LEFT,
+    LINE,
+    RED,
+    SMALL,
+    SOFT,
+    WIDE,
+    Item,
+    box,
+    lines,
+    rule,
+    wide,
+    words,
+)
+from geneva_cli.output.document.values import is_number, shown
+
+WORD = 42.0  # the longest word that stays whole
+PAD = 1.3  # beside a cell's text
+SPACE = 0.55  # above and below it
+AFTER = 4.0  # below a table
+STEP = LEADING * SMALL
+NAMED = 0.62  # of a fact's width, for its name
+HEAD = 30.0  # what a head may want for itself, before it breaks
+GAP = 6.0  # between facts side by side
+
+
+def grid(table: Grid) -> Iterator[Item]:
+    """A table with a head, which is repeated on each page."""
+    rows = [[shown(value) for value in row] for row in table.rows]
+    right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
+    room = _widths(table.heads, rows)
+    head = _row(table.heads, right, room, bold=True)
+    yield from _caption(table.caption)
+    yield head._replace(keeps=True)
+    for row in rows:
+        yield _row(row, right, room)._replace(head=head)
+    yield _space()
+
+
+def facts(table: Facts) -> Iterator[Item]:
+    """Names and values, in two columns read downwards."""
+    texts = [(fact.name, shown(fact.value, fact.unit)) for fact in table.facts]
+    half = (len(texts) + 1) // 2
+    yield from _caption(table.caption)
+    long = 0.5 * (WIDE - GAP)
+    for i in range(half):
+        pair = [(LEFT, texts[i])]
+        pair += [(LEFT + long + GAP, texts[half + i])] if half + i < len(texts) else []
+        item = _pair(pair, long)
+        yield item._replace(keeps=i == 0 and half > 1)
+    yield _space()
+
+
+def _caption(text: str) -> Iterator[Item]:
+    if text:
+        yield Item(
+            STEP + 1.4,
+            lambda top: words(text, LEFT, top - SMALL, SMALL, bold=True, ink=SOFT),
+            keeps=True,
+        )
+
+
+def _space() -> Item:
+    return Item(AFTER, lambda top: "")
+
+
+def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
+    """What each column gets: all that it wants, or a share of it above its longest word."""
+    needs, wants = [], []
+    for head, *cells in zip(heads, *rows, strict=True):
+        longest = [max((wide(w, SMALL, True) for w in head.split()), default=0.0)]
+        least = longest + [wide(w, SMALL) for cell in cells for w in cell.split()]
+        most = [min(wide(head, SMALL, True), HEAD), *longest, *(wide(c, SMALL) for c in cells)]
+        needs.append(min(max(least), WORD) + 2.0 * PAD)
+        wants.append(max(max(most) + 2.0 * PAD, needs[-1]))
+    more = sum(wants) - sum(needs)
+    left = WIDE - sum(needs)
+    if left < 0.0:
+        return [need * WIDE / sum(needs) for need in needs]
+    share = min(1.0, left / more) if more > 0.0 else 0.0
+    return [need + share * (want - need) for need, want in zip(needs, wants, strict=True)]
+
+
+def _row(
+    texts: Sequence[str], right: Sequence[bool], room: Sequence[float], bold: bool = False
+) -> Item:
+    cells = [
+        lines(text, SMALL, wide_ - 2.0 * PAD + 1e-6, bold)
+        for text, wide_ in zip(texts, room, strict=True)
+    ]
+    high = max(map(len, cells)) * STEP + 2.0 * SPACE
+
+    def draw(top: float) -> str:
+        out = box(LEFT, top - high, sum(room), high, BAND) if bold else ""
+        x = LEFT
+        for cell, is_right, long in zip(cells, right, room, strict=True):
+            out += _cell(cell, x + PAD, top, long - 2.0 * PAD, is_right, bold)
+            x += long
+        return out + rule(LEFT, top - high, sum(room), ink=LINE)
+
+    return Item(high, draw)
+
+
+def _cell(texts: list[str], x: float, top: float, room: float, right: bool, bold: bool) -> str:
+    out = ""
+    ink, bold = (RED, True) if texts == [BAD] else (INK, bold)
+    for i, text in enumerate(texts):
+        at = x + room - wide(text, SMALL, bold) if right else x
+        out += words(text, at, top - SPACE - 0.95 * SMALL - i * STEP, SMALL, bold, ink)
+    return out
+
+
+def _pair(pair: list[tuple[float, tuple[str, str]]], long: float) -> Item:
+    cells = []
+    for x, (name, value) in pair:
+        needs = min(wide(value, SMALL), (1.0 - 0.5 * NAMED) * long)
+        room = long - 2.0 * PAD - needs
+        cells.append((x, lines(name, SMALL, room), lines(value, SMALL, needs + 1e-6)))
+    high = max(max(len(a), len(b)) for _, a, b in cells) * STEP + 2.0 * SPACE
+
+    def draw(top: float) -> str:
+        out = ""
+        for x, name, value in cells:
+            out += _cell(name, x, top, long, False, False)
+            out += _cell(value, x, top, long, True, False)
+            out += rule(x, top - high, long, ink=LINE)
+        return out
+
+    return Item(high, draw)

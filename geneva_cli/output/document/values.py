@@ -1,0 +1,48 @@
+"""Values as people write them: six significant digits, powers of ten, and their unit."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.document import Row, Value
+from geneva_cli.errors import GenevaError, clean
+
+DIGITS = 6
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def shown(value: Value | Row, unit: str = "") -> str:
+    """A value with its unit. Raises GenevaError for a number that is none, a fault of ours.
+
+    >>> shown(182.612895, "°"), shown(5.3173e7, "W/m²"), shown(None), shown(True)
+    ('182.613°', '5.3173 × 10⁷ W/m²', '–', 'yes')
+    """
+    if isinstance(value, tuple):
+        return ", ".join(shown(one, unit) for one in value) or "none"
+    text = _bare(value)
+    if not unit or value is None or not is_number(value):
+        return text
+    return f"{text}°" if unit == "°" else f"{text} {unit}"
+
+
+def is_number(value: object) -> bool:
+    """Whether it stands at the right of its column."""
+    return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
+
+
+def _bare(value: Value) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, float):
+        return clean(str(value))
+    if math.isnan(value):
+        raise GenevaError(
+            "a value of the report is not a number, which is a fault of this program; please "
+            "report it with the spec"
+        )
+    if math.isinf(value):
+        return "no bound"
+    digits, _, power = f"{value + 0.0:.{DIGITS}g}".partition("e")
+    return f"{digits} × 10{str(int(power)).translate(RAISED)}" if power else digits

@@ -1,0 +1,131 @@
+"""PDF 1.4: pages of lines, filled shapes and texts, and nothing else.
+
+The fonts are Helvetica and its bold, which every reader has; letters beyond Windows' western ones,
+which these have not, are question marks: ``western`` in output/letters.py spells them before. Plain
+ASCII, and the same bytes on every run.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from geneva_cli.curves.measure import halves
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, Shape, about
+from geneva_cli.errors import clean
+
+POINT = 72.0 / 25.4  # of PDF, in a millimetre
+QUARTER = 0.415  # bulge of an arc of 90 degrees, and a little: what one cubic stands for
+FONTS = ("Helvetica", "Helvetica-Bold")  # F1 and F2
+
+
+class Page(NamedTuple):
+    """A page of a size in millimetres, and the operators that fill it."""
+
+    width: float
+    height: float
+    content: str
+    fonts: int = 1  # of FONTS, how many it uses
+
+
+def written(title: str, pages: Sequence[Page]) -> Iterator[str]:
+    """The file's text."""
+    fonts = FONTS[: max(page.fonts for page in pages)]
+    first = 3 + 2 * len(pages)  # the number of the first font
+    known = " ".join(f"/F{i + 1} {first + i} 0 R" for i in range(len(fonts)))
+    kids = " ".join(f"{3 + 2 * i} 0 R" for i in range(len(pages)))
+    objects = [
+        "<< /Type /Catalog /Pages 2 0 R >>",
+        f"<< /Type /Pages /Kids [{kids}] /Count {len(pages)} >>",
+    ]
+    for i, page in enumerate(pages):
+        box = f"0 0 {number(POINT * page.width)} {number(POINT * page.height)}"
+        objects += [
+            f"<< /Type /Page /Parent 2 0 R /MediaBox [{box}] /Contents {4 + 2 * i} 0 R"
+            f" /Resources << /Font << {known} >> >> >>",
+            f"<< /Length {len(page.content)} >>\nstream\n{page.content}endstream",
+        ]
+    objects += [
+        f"<< /Type /Font /Subtype /Type1 /BaseFont /{font} /Encoding /WinAnsiEncoding >>"
+        for font in fonts
+    ]
+    objects.append(f"<< /Title <feff{clean(title).encode('utf-16-be', 'replace').hex()}> >>")
+    text = "%PDF-1.4\n"
+    places = []
+    for i, body in enumerate(objects, 1):
+        places.append(len(text))
+        text += f"{i} 0 obj\n{body}\nendobj\n"
+    count = len(objects) + 1
+    table = "".join(f"{place:010d} 00000 n \n" for place in places)
+    yield text
+    yield f"xref\n0 {count}\n0000000000 65535 f \n{table}"
+    yield f"trailer\n<< /Size {count} /Root 1 0 R /Info {count - 1} 0 R >>\n"
+    yield f"startxref\n{len(text)}\n%%EOF\n"
+
+
+def outline(shape: Shape) -> str:
+    """The operators that run along a shape; what is closed is closed."""
+    if isinstance(shape, Circle):
+        pieces = tuple(
+            about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi)
+        )
+        shape = Contour(shape.layer, pieces)
+    words = [f"{point(shape.segments[0].start)} m\n"]
+    words += [_piece(part) for segment in shape.segments for part in _quarters(segment)]
+    return "".join(words) + ("h\n" if shape.closed else "")
+
+
+def _quarters(segment: Segment) -> list[Segment]:
+    if isinstance(segment, Arc) and abs(segment.bulge) > QUARTER:
+        return [part for half in halves(segment) for part in _quarters(half)]
+    return [segment]
+
+
+def _piece(segment: Segment) -> str:
+    if isinstance(segment, Arc):
+        segment = _cubic(segment)
+    if isinstance(segment, Cubic):
+        return " ".join(map(point, segment[1:])) + " c\n"
+    return f"{point(segment.end)} l\n"
+
+
+def _cubic(arc: Arc) -> Cubic:
+    """The cubic with the arc's ends, tangents and middle: at 90 degrees off by 3e-4 of its radius.
+
+    Its handles are 4/3 tan(sweep/4) of the radius long, which with the bulge b is (1 + b²)/3 of
+    the chord.
+    """
+    (x0, y0), (x1, y1) = arc.start, arc.end
+    long = (1.0 + arc.bulge * arc.bulge) / 3.0
+    half = 0.5 * arc.sweep
+    c, s = long * math.cos(half), long * math.sin(half)
+    x, y = x1 - x0, y1 - y0
+    first = x0 + c * x + s * y, y0 + c * y - s * x
+    second = x1 - c * x + s * y, y1 - c * y - s * x
+    return Cubic(arc.start, first, second, arc.end)
+
+
+def text(words: str, at: Point, size: float, turn: float = 0.0, font: int = 1) -> str:
+    """A text from its first letter's base line on; ``turn`` is in radians."""
+    c, s = math.cos(turn), math.sin(turn)
+    matrix = " ".join(number(v) for v in (c, s, -s, c, *at))
+    return f"BT /F{font} {number(size)} Tf {matrix} Tm ({_escaped(words)}) Tj ET\n"
+
+
+def _escaped(words: str) -> str:
+    codes = clean(words).encode("cp1252", "replace")
+    return "".join(
+        chr(c) if 32 <= c < 127 and chr(c) not in "()\\" else f"\\{c:03o}" for c in codes
+    )
+
+
+def point(p: Point) -> str:
+    """A point's coordinates."""
+    return f"{number(p[0])} {number(p[1])}"
+
+
+def number(value: float) -> str:
+    """Five decimals at the most; no negative zero."""
+    found = f"{value:.5f}".rstrip("0").rstrip(".")
+    return "0" if found == "-0" else found

@@ -1,0 +1,45 @@
+"""A design as a document: its verdict, and then everything about it, in one order for all.
+
+Nothing is worked out here that a Design does not answer; what its report has and no section takes
+stands at the end.
+"""
+
+from __future__ import annotations
+
+from geneva_cli.design import Design
+from geneva_cli.document import Document, Prose
+from geneva_cli.study.document import answers, judged, pictures
+from geneva_cli.study.document.given import inputs
+from geneva_cli.study.document.left import Left
+
+
+def document(design: Design) -> Document:
+    """What is handed over of a design. Raises GenevaError for a spec that makes no machine.
+
+    >>> from geneva_cli.study.document import document
+    >>> page = document(Design(External(6)))
+    >>> page.title, page.passes, page.verdict
+    ('Geneva wheel of 6 slots', True, 'Passes all 14 checks')
+    """
+    report = design.report
+    table = report.table
+    left = Left(dict(zip(table.names, next(table.rows()), strict=True)))
+    title = left.one("title") or f"Geneva wheel of {design.spec.wheel.z} slots"
+    left.one("spec")
+    left.take("inputs")  # all of them, and more, are in the spec
+    verdict, reasons = judged.verdict(design, left)
+    blocks = (
+        Prose(table.prose),
+        *pictures.drawn(design),
+        *inputs(design.spec),
+        *answers.timing(left, design.spec.drive.n_rpm),
+        *pictures.curves(design),
+        *answers.loads(design, left),
+        *answers.sizes(left),
+        *answers.strength(left),
+        *judged.checks(design),
+        *answers.swinging(left),
+        *answers.parts(left),
+        *judged.said(design, left),
+    )
+    return Document(title, report.passes, verdict, reasons, blocks)

@@ -1,0 +1,52 @@
+"""The values of a report as they are taken, section by section, so that none is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from geneva_cli.document import Block, Grid
+from geneva_cli.study.document.named import capital, facts, is_known, unit_of, words_of
+from geneva_cli.table import Table
+
+
+class Left:
+    """What has not been shown yet."""
+
+    def __init__(self, values: dict[str, Any]) -> None:
+        self.values = values
+
+    def one(self, name: str) -> Any:
+        """A single value, which is shown with this."""
+        return self.values.pop(name, None)
+
+    def take(self, group: str) -> dict[str, Any]:
+        """The values of a group by the rest of their names, which are shown with this."""
+        begin = f"{group}."
+        found = {n: v for n, v in self.values.items() if n.startswith(begin)}
+        self.values = {n: v for n, v in self.values.items() if n not in found}
+        return {name.removeprefix(begin): value for name, value in found.items()}
+
+    def rest(self) -> Iterator[Block]:
+        """Everything that no section has taken, as a section that is new may be."""
+        groups = dict.fromkeys(name.rpartition(".")[0] for name in self.values)
+        for group in groups:
+            own = {n: v for n, v in self.values.items() if n.rpartition(".")[0] == group}
+            for name in [n for n, v in own.items() if isinstance(v, Table)]:
+                yield grid(capital(name.rpartition(".")[2]), own.pop(name))
+            plain = {n.rpartition(".")[2]: v for n, v in own.items()}
+            yield from facts(capital(group.replace(".", ", ")), plain)
+
+
+def grid(caption: str, table: Table) -> Grid:
+    """A table as it is, its columns with their units; those without a value are left out."""
+    rows = list(table.rows())
+    seen = [i for i in range(len(table.names)) if any(is_known(row[i]) for row in rows)]
+    heads = [head(table.names[i]) for i in seen]
+    return Grid(caption, tuple(heads), tuple(tuple(row[i] for i in seen) for row in rows))
+
+
+def head(name: str) -> str:
+    """The head of a column: its name and its unit."""
+    unit = unit_of(name)
+    return f"{capital(words_of(name))}, {unit}" if unit else capital(words_of(name))
