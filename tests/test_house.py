@@ -186,7 +186,8 @@ ANY = {
         "self.kept",
         "self.last",
     },
-    "numerics.signed_many": {"at", "look", "_look"},
+    "numerics.signed_many": {"_look"},
+    "numerics.turns_many": {"at", "look"},
     # one number, or as many as there are values
     "numerics.cells": {"number", "taken", "add", "self.known"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},

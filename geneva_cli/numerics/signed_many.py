@@ -4,13 +4,13 @@ A load jumps where the roller's sliding turns round, and has a kink where its to
 design's span is sampled; where a sign changes between two samples its zero is found and the span
 is cut there, and where a cubic does not predict a sample midway, or a pair of zeros may hide, it is
 halved. What is left are cells: between their ends every function is smooth, and as good as a cubic.
-Newton then works on those alone in which a function may pass what is known of it.
+Those in which a function may pass what is known of it are left to ``turns_many``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -31,46 +31,21 @@ from geneva_cli.numerics.cells import (
     turns_in,
     zero_of_cubic,
 )
-from geneva_cli.numerics.extrema_many import turn_of_cubic, unpredicted
+from geneva_cli.numerics.extrema_many import unpredicted
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
+from geneva_cli.numerics.turns_many import Signed, turn
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array
 
 BLOCK = 512  # designs sampled at a time: so many lie in the processor's cache
 CELLS = 8  # of a span, to begin with
 ENDED = 1e-9  # share of a cell: after so short a Newton step, what is left of a zero is rounding
-TURNED = 1e-6  # and of a turn's value, which goes with the square
-BESIDE = 0.01  # share of a cell: Newton begins no nearer to its ends
-BENT = 1e-7  # share of a function's range: a smaller bend over a cell may be rounding
 NARROW = 1e-9  # share of a place: a cell no wider is not halved
 NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
 _HALF = np.arange(CELLS // 2 + 1) / CELLS
-
-
-class Signed(Protocol):
-    """The functions of designs. The first are those whose signs count, each of them smooth while
-    those before it keep theirs; the others are wanted, and are smooth while all do.
-    """
-
-    signs: int  # how many of the functions have a sign that counts
-    wanted: int  # how many others are looked for
-
-    def at(self, x: Array, which: Which, order: int) -> Any:
-        """What the functions of some designs are made of, at places (m, k) in degrees."""
-
-    def look(
-        self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
-    ) -> tuple[Mask, list[Array]]:
-        """Which signs are positive, (signs, m, k), and Taylor coefficients (functions, m, k).
-
-        ``forced`` are signs that are known, 1.0 or -1.0; where it is NaN they are looked up. Of
-        the wanted functions only those ``asked`` are among the functions, if that is given. A
-        function without a bound is infinite, and its slope 0.
-        """
 
 
 class Found(NamedTuple):
@@ -122,7 +97,7 @@ class _Search:
         cells = joined(self.cells)
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
         self._settle(cells)
-        self._turn(joined(self.turns))
+        turn(self.f, self.range, self.tops, joined(self.turns))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
 
     def _sample(self, a: Array, b: Array, there: Mask, part: slice, number: int) -> None:
@@ -283,68 +258,6 @@ class _Search:
             some = turns_in(f.signs + k, k, closed, self.range)
             self.turns.append(self.tops.hopeful(some))
         return taken(halves[0], open_), taken(halves[1], open_)
-
-    def _turn(self, turns: Turns) -> None:
-        """Newton on every turn that may still be the greatest."""
-        tops = self.tops
-        turns = tops.hopeful(self._bent(tops.hopeful(turns)))
-        if not len(turns.row):
-            return
-
-        a, b = turns.left[0], turns.right[0]
-        tiny = np.finfo(float).tiny
-        at_a, at_b = (np.abs(end[2]) <= tiny for end in (turns.left, turns.right))
-
-        def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array]:
-            value, slope, bend = self._jet(x, turns, live)
-            slope, bend = slope * DEGREE, 2.0 * bend * DEGREE * DEGREE
-            # an end that is stationary itself is divided out of the slope that Newton sees
-            others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
-            return slope, bend - slope * np.nan_to_num(others), value
-
-        start = turn_of_cubic(turns.left, turns.right)
-        width = b - a
-        start = np.clip(start, a + BESIDE * width, b - BESIDE * width)
-        x, step, (slope, _, value) = newton_many(slope_of, a, b, start, turns.rises < 0.0, TURNED)
-        # on the parabola through the last place but one; a size that is zero has no slope
-        ahead = 0.5 * slope * step
-        value = value + np.where(np.isnan(ahead), 0.0, ahead)
-        top = np.abs(value) if tops.sized else turns.rises * value
-        x = np.where(np.isnan(x), start, x)
-        tops.add(tops.number(turns.row, turns.rises), turns.design, x, top)
-
-    def _bent(self, turns: Turns) -> Turns:
-        """Slopes of 0 replaced by the sign that they have within the cell.
-
-        The bend tells it; where that is 0 too, the cell is taken to have a turn. If it has none
-        Newton ends at the stationary end, whose value is known.
-        """
-        row, design = self.f.signs + turns.row, turns.design
-        span = (self.range.high - self.range.low)[row, design]
-        width = (turns.right[0] - turns.left[0]) * DEGREE
-        for end, other, way in (
-            (turns.left, turns.right, 1.0),
-            (turns.right, turns.left, -1.0),
-        ):
-            here = np.flatnonzero(end[2] == 0.0)
-            if len(here):
-                bend = self._jet(end[0, here], turns, here)[2]
-                clear = np.abs(bend) * width[here] ** 2 > BENT * span[here]
-                sign = np.where(clear, way * np.sign(bend), -np.sign(other[2, here]))
-                end[2, here] = sign * np.finfo(float).tiny
-        return turns
-
-    def _jet(self, x: Array, turns: Turns, live: Whole) -> list[Array]:
-        """Taylor coefficients of the functions of some turns, each at its place."""
-        forced = np.where(turns.positive[:, live], 1.0, -1.0)[..., None]
-        row, out = turns.row[live], np.empty((3, len(live)))
-        for k in range(self.f.wanted):
-            here = np.flatnonzero(row == k)
-            if len(here):
-                at = self.f.at(x[here, None], turns.design[live[here]], 2)
-                _, c = self.f.look(at, forced[:, here], (k,))
-                out[:, here] = [one[-1, :, 0] for one in c]
-        return list(out)
 
 
 def _cuts(before: Cells, after: Cells, where: Whole) -> Cuts:

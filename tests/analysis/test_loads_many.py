@@ -109,7 +109,11 @@ def test_no_peak_is_missed(name):
 
 @pytest.mark.parametrize("name", ["crank", "internal", "side-crank", "offset", "elliptical gears"])
 def test_greatest_against_bodies_cut_free(name):
-    """At its place the witness has that size, and nowhere a greater one: 64 units."""
+    """At its place the witness has that size, and nowhere a greater one by 64 units.
+
+    A greatest force at the entry is compared a share of 1e-12 inwards, where it is less by some
+    times as much.
+    """
     spec, varied, found = loaded(name, 4, 8, friction=0.1, efficiency=1.0)
     greatest = greatest_of_many(found.machine, ("pin_force_N", "input_torque_Nm"))
     i = int(found.which[0])
@@ -125,7 +129,7 @@ def test_greatest_against_bodies_cut_free(name):
     dense = np.array([true(x) for x in places]).max(axis=0)
     for k, one in enumerate(greatest.values()):
         inwards = 1.0 - 1e-12  # the witness knows no contact before the entry
-        assert true(one.at_deg[0] * inwards)[k] == pytest.approx(one.max[0], rel=1e-9)
+        assert true(one.at_deg[0] * inwards)[k] == pytest.approx(one.max[0], rel=1e-11)
         assert dense[k] <= one.max[0] * (1.0 + 64 * ULP)
 
 

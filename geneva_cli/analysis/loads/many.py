@@ -33,7 +33,7 @@ from geneva_cli.analysis.loads.loaded_many import (
 )
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
-from geneva_cli.analysis.loads.summary import ZERO, shares
+from geneva_cli.analysis.loads.summary import rounded, shares
 from geneva_cli.analysis.peaks_many import PeakOfMany
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
@@ -108,9 +108,11 @@ def summaries_of_many(
         one = best[name]
         bounded = np.isfinite(one.max) & np.isfinite(one.min)
         if name in SQUARED:
-            most, least = (np.sqrt(np.maximum(v, 0.0)) for v in (one.max, one.min))
-            least = np.where(np.isinf(most) | (least > ZERO * most), least, 0.0)
-            one = one._replace(max=most, min=least)
+            one = one._replace(
+                max=np.sqrt(np.maximum(one.max, 0.0)), min=np.sqrt(np.maximum(one.min, 0.0))
+            )
+        most, least = rounded(one.max, one.min)
+        one = one._replace(max=most, min=least)
         if sums is not None:
             square = np.where(bounded, sums[i] / period, np.inf)
             one = one._replace(rms=np.sqrt(square))

@@ -131,8 +131,7 @@ def _summary(name: str, ends: Extremes, means: Means | None) -> Summary:
     most, least = ends.max, ends.min
     if name in SQUARED:
         most, least = (_root(x) for x in (most, least))
-    size = max((abs(x) for x in (most, least) if math.isfinite(x)), default=0.0)
-    most, least = (x if abs(x) > ZERO * size else 0.0 for x in (most, least))
+    most, least = (float(x) for x in rounded(np.array(most), np.array(least)))
     mean, square = means or (None, None)
     return Summary(
         None if math.isinf(most) else most,
@@ -142,6 +141,14 @@ def _summary(name: str, ends: Extremes, means: Means | None) -> Summary:
         mean,
         None if square is None else math.sqrt(square),
     )
+
+
+def rounded(most: Array, least: Array) -> tuple[Array, Array]:
+    """Greatest and least value, of one design or of many; 0 where one is rounding of the other."""
+    sizes = [np.where(np.isfinite(x), np.abs(x), 0.0) for x in (most, least)]
+    level = ZERO * np.maximum(*sizes)
+    first, last = (np.where(np.abs(x) > level, x, 0.0) for x in (most, least))
+    return first, last
 
 
 def reversals_deg(cycle: Cycle) -> list[float]:
