@@ -1,16 +1,22 @@
-"""Velocity and acceleration peaks of very many designs of every machine, worked out together.
+"""Peaks and greatest loads of very many designs of every machine, worked out together.
 
 Beside them one design after the other, and a grid over all of them. In units of one sine and cosine
-a design, which take some 15 ns: 70 is a million designs a second, 700 a hundred thousand.
+a design, which take some 15 ns: 70 is a million designs a second, 700 a hundred thousand. Loads are
+pin force, input torque and contact stress, of an inertia alone and rubbed by friction.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.many import greatest_of_many
+from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.bench.method import Method, Subject, Task
@@ -27,7 +33,7 @@ from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
-from geneva_cli.spec.tables import Size
+from geneva_cli.spec.tables import Load, Size
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -37,6 +43,8 @@ LOOP = 5  # designs that are had one after the other
 CHECKED = 20  # designs whose error is measured
 GRID, BLOCK = 101, 512
 NAMES = ("velocity", "acceleration")
+LOADS = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
+LOADED = ("side-crank", "plain crank", "spherical", "elliptical gears")  # machines with loads too
 
 
 class Kind(NamedTuple):
@@ -99,45 +107,84 @@ KINDS = (
 
 
 def subject(quick: bool) -> Subject:
-    """A task a machine."""
+    """A task a machine, and two more of some for their loads."""
+    tasks = [_task(kind, QUICK if quick else kind.most) for kind in KINDS]
+    for kind in KINDS:
+        if kind.name in (LOADED[:1] if quick else LOADED):
+            tasks += [_loads_task(kind, QUICK if quick else kind.most, f) for f in (0.0, 0.1)]
     return Subject(
-        "Velocity and acceleration peaks of many designs of every machine",
+        "Peaks of velocity, acceleration and loads of many designs of every machine",
         f"greatest relative error of {CHECKED} designs' peaks, against the search of one design",
-        [_task(kind, QUICK if quick else kind.most) for kind in KINDS],
+        tasks,
         floor=1e-14,
     )
 
 
-def _task(kind: Kind, count: int) -> Task:
+def _drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
+    """The machine of many designs, how many were built, and the first of them one by one."""
     random = np.random.default_rng(12)
     values: Any = random.uniform(kind.low, kind.high, count)
     if kind.key == "wheel.z":
         values = np.floor(values).astype(int)
-    found = many(kind.spec, {kind.key: values})
-    machine = found.machine
-    assert machine is not None, kind.name
-    built = len(found.which)
+    found = many(spec, {kind.key: values})
+    assert found.machine is not None, kind.name
     some = values[found.which[:CHECKED]].tolist()
-    alone = [build(kind.spec.with_(kind.key, value)) for value in some]
-    truth = np.array([_one(m) for m in alone])
+    alone = [build(spec.with_(kind.key, value)) for value in some]
+    return found.machine, len(found.which), alone
+
+
+def _task(kind: Kind, count: int) -> Task:
+    machine, built, alone = _drawn(kind, kind.spec, count)
+    methods = [
+        _one_by_one(alone, built, _one),
+        Method("grid of all", GRID, partial(_grid, machine, built)),
+        Method("together", None, partial(_together, machine), True),
+    ]
+    return _beside(f"{built} {kind.name}", built, np.array([_one(m) for m in alone]), methods)
+
+
+def _loads_task(kind: Kind, count: int, friction: float) -> Task:
+    load = Load(inertia_kgm2=1.0, friction=friction)
+    spec = kind.spec.but(load=load, size=kind.spec.size.but(face_width_mm=10.0))
+    machine, built, alone = _drawn(kind, spec, count)
+    methods = [
+        _one_by_one(alone, built, _one_loaded),
+        Method("together", None, partial(_loaded_together, machine), True),
+    ]
+    truth = np.array([_one_loaded(m) for m in alone])
+    name = f"loads of {built} {kind.name}" + (" with friction" if friction else "")
+    return _beside(name, built, truth, methods)
+
+
+def _beside(name: str, built: int, truth: Array, methods: list[Method]) -> Task:
     angles = np.linspace(0.0, 1.0, built)
     return Task(
-        f"{built} {kind.name}",
+        name,
         f"one np.sin + np.cos over {built} numbers",
         lambda: (np.sin(angles), np.cos(angles)),
         lambda found: float(np.max(np.abs(np.array(found[:CHECKED]) / truth[: len(found)] - 1.0))),
-        [
-            Method(
-                f"one by one (extrapolated from {LOOP})",
-                None,
-                lambda: [_one(m) for m in alone[:LOOP]],
-                True,
-                times=built / LOOP,
-            ),
-            Method("grid of all", GRID, partial(_grid, machine, built)),
-            Method("together", None, partial(_together, machine), True),
-        ],
+        methods,
     )
+
+
+def _one_by_one(
+    alone: list[Mechanism], built: int, one: Callable[[Mechanism], list[float]]
+) -> Method:
+    name = f"one by one (extrapolated from {LOOP})"
+    return Method(name, None, lambda: [one(m) for m in alone[:LOOP]], True, times=built / LOOP)
+
+
+def _one_loaded(machine: Mechanism) -> list[float]:
+    """The greatest loads of one design, by the search for one."""
+    found = ends_of(Cycle(machine), *LOADS)
+    sizes = [max(one.max, -one.min) for one in found]
+    return [math.sqrt(v) if n in SQUARED else v for n, v in zip(LOADS, sizes, strict=True)]
+
+
+def _loaded_together(machine: Mechanism) -> Array:
+    found = greatest_of_many(machine, LOADS)
+    every: Array = np.column_stack([found[name].max for name in LOADS])
+    return every
 
 
 def _together(machine: Mechanism) -> Array:
