@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -331,7 +331,7 @@ class Design:
         return self._loads(for_people=True)
 
     @answer
-    def load_warnings(self) -> list[str]:
+    def load_warnings(self) -> list[Caution]:
         """What the loads' numbers alone would hide: what has no bound, and what is not known.
 
         >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
@@ -598,7 +598,7 @@ class Design:
         return self._located(lambda: histogram_table(self.mechanism, self.proof, samples, seed))
 
     @answer
-    def warnings(self) -> list[str]:
+    def warnings(self) -> list[Caution]:
         """What a number alone would hide of the motion and the slots.
 
         >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
@@ -610,7 +610,7 @@ class Design:
         return cautions(self.mechanism)
 
     @answer
-    def turn_warnings(self) -> list[str]:
+    def turn_warnings(self) -> list[Caution]:
         """What a whole turn of the parts shows that breaks no limit; none without flat parts.
 
         >>> Design(External(6)).turn_warnings

@@ -28,6 +28,26 @@ class GenevaError(Exception):
         self.key = key
 
 
+class Caution(str):
+    """What a designer must be told, under the name that ``geneva explain`` has it by.
+
+    >>> Caution("turns-back", "the wheel turns back").name
+    'turns-back'
+    """
+
+    name: str
+
+    def __new__(cls, name: str, text: str) -> Caution:
+        """The text, with its name."""
+        made = super().__new__(cls, text)
+        made.name = name
+        return made
+
+    def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]
+        """What a copy in another process is made of."""
+        return self.name, str(self)
+
+
 _MARKS: list[ContextVar[list[Any]]] = []  # one at most, and none before anyone marks
 
 

@@ -19,7 +19,7 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.quantities import known
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import Caution, GenevaError, cut, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -124,7 +124,7 @@ def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
     for name in names:
         reasons.setdefault(_why(cycle, name), []).append(name)
     for why, lacking in reasons.items():
-        yield f"no curve of {', '.join(lacking)}: {why}"
+        yield Caution("not-known", f"no curve of {', '.join(lacking)}: {why}")
 
 
 def _why(cycle: Cycle, name: str) -> str:

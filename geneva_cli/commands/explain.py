@@ -12,6 +12,7 @@ from geneva_cli.commands.options import Format, Output
 EXAMPLES = (
     "geneva explain",
     "geneva explain horn_mm",
+    "geneva explain turns-back",
     "geneva explain loads.pin_force_N.max --format json",
 )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.errors import clean
+from geneva_cli.errors import Caution, clean
 from geneva_cli.output import FORMATS
 
 if TYPE_CHECKING:
@@ -57,4 +57,9 @@ def warn(design: Design) -> None:
 def say(path: str, cautions: Iterable[str]) -> None:
     """Cautions about a spec, a line each."""
     for caution in cautions:
-        print(clean(f"{path}: warning: {caution}"), file=sys.stderr)
+        print(clean(f"{path}: warning: {told(caution)}"), file=sys.stderr)
+
+
+def told(caution: str) -> str:
+    """A caution with the name by which ``geneva explain`` has it."""
+    return f"{caution} [{caution.name}]" if isinstance(caution, Caution) else caution

@@ -9,6 +9,7 @@ import math
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
 from geneva_cli.curves.plates import Body
+from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Motor
@@ -19,13 +20,13 @@ FAR = 20.0  # centre distances to a body, beyond any table
 FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
 
 
-def carried_cautions(mechanism: Mechanism, plate: Body | None) -> list[str]:
+def carried_cautions(mechanism: Mechanism, plate: Body | None) -> list[Caution]:
     """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
     spec = mechanism.spec
     return [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_for_nothing(spec)]
 
 
-def _itself(spec: Spec, plate: Body | None) -> list[str]:
+def _itself(spec: Spec, plate: Body | None) -> list[Caution]:
     given = inertia_kgm2(spec)
     if plate is None or not given or any(mass.name == NAME for mass in spec.mass):
         return []
@@ -40,48 +41,60 @@ def _itself(spec: Spec, plate: Body | None) -> list[str]:
         else f"{own:.4g} on inertia_kgm2 in [load]"
     )
     return [
-        f"the wheel's own inertia, {own:.4g} kg m2 of a plate as thick as the wheel, is "
-        f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it out, "
-        f"add {helps}"
+        Caution(
+            "wheel-left-out",
+            f"the wheel's own inertia, {own:.4g} kg m2 of a plate as thick as the wheel, is "
+            f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it "
+            f"out, add {helps}",
+        )
     ]
 
 
-def _to_one_side(spec: Spec) -> list[str]:
+def _to_one_side(spec: Spec) -> list[Caution]:
     """On a horizontal axis a body to one side takes a torque of gravity, which is not counted."""
     if spec.support.axis != "horizontal":
         return []
-    out = []
+    out: list[Caution] = []
     for mass in spec.mass:
         if mass.radius_mm and mass.count < FULL_CIRCLE:
             torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
             out.append(
-                f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal axis: "
-                f"its weight takes up to {torque:.4g} N m at the wheel, one way and the other as "
-                "it turns, which is not counted; set a body against it (count = 2), or add the "
-                "torque to torque_Nm in [load]"
+                Caution(
+                    "weight-to-one-side",
+                    f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
+                    f"axis: its weight takes up to {torque:.4g} N m at the wheel, one way and the "
+                    "other as it turns, which is not counted; set a body against it (count = 2), "
+                    "or add the torque to torque_Nm in [load]",
+                )
             )
     return out
 
 
-def _far(mechanism: Mechanism) -> list[str]:
+def _far(mechanism: Mechanism) -> list[Caution]:
     """A body where no table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     share = far / mechanism.center_distance_mm
     if share <= FAR:
         return []
     return [
-        f"radius_mm = {far:g} of a [[mass]] is {share:.3g} centre distances from the wheel's axis, "
-        "out of its reach: is it in mm?"
+        Caution(
+            "far-mass",
+            f"radius_mm = {far:g} of a [[mass]] is {share:.3g} centre distances from the wheel's "
+            "axis, out of its reach: is it in mm?",
+        )
     ]
 
 
-def _for_nothing(spec: Spec) -> list[str]:
+def _for_nothing(spec: Spec) -> list[Caution]:
     """Keys that have nothing to act on."""
-    out = []
+    out: list[Caution] = []
     if not spec.is_loaded and spec.motor != Motor():
         out.append(
-            "[motor] has nothing to drive: without inertia_kgm2 or torque_Nm in [load], or a "
-            "[[mass]], neither service factor nor flywheel has a torque to go by"
+            Caution(
+                "nothing-to-act-on",
+                "[motor] has nothing to drive: without inertia_kgm2 or torque_Nm in [load], or a "
+                "[[mass]], neither service factor nor flywheel has a torque to go by",
+            )
         )
     support = spec.support
     if bool(support.friction) != bool(support.radius_mm):
@@ -89,11 +102,17 @@ def _for_nothing(spec: Spec) -> list[str]:
             ("friction", "radius_mm") if support.friction else ("radius_mm", "friction")
         )
         out.append(
-            f"{given} in [support] takes no torque without {lacking}: set it, or remove both"
+            Caution(
+                "nothing-to-act-on",
+                f"{given} in [support] takes no torque without {lacking}: set it, or remove both",
+            )
         )
     elif support.friction and not (spec.mass or support.force_N):
         out.append(
-            "friction in [support] takes no torque: nothing presses on it; set force_N there, or "
-            "give the weight as [[mass]]"
+            Caution(
+                "nothing-to-act-on",
+                "friction in [support] takes no torque: nothing presses on it; set force_N there, "
+                "or give the weight as [[mass]]",
+            )
         )
     return out

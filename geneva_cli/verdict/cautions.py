@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.analysis.peaks import QUANTITIES, peak
+from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
@@ -13,16 +14,24 @@ SHOWN_DOUBT = 0.01  # share of the greatest jerk
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
-def cautions(mechanism: Mechanism) -> list[str]:
+def cautions(mechanism: Mechanism) -> list[Caution]:
     """Everything that a number alone would hide."""
-    out = []
+    out: list[Caution] = []
     z = mechanism.spec.wheel.z
     if z > Z_USUAL:
-        out.append(f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them")
+        out.append(
+            Caution(
+                "many-slots",
+                f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them",
+            )
+        )
     if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
         out.append(
-            "nothing holds the wheel in the dwell: there is no locking disc, and the spec names "
-            'nothing else (held_by = "brake", "detent" or "pin" in [wheel])'
+            Caution(
+                "nothing-holds",
+                "nothing holds the wheel in the dwell: there is no locking disc, and the spec "
+                'names nothing else (held_by = "brake", "detent" or "pin" in [wheel])',
+            )
         )
     engagement = mechanism.engagements[0]
     out.extend(_rounded_points(mechanism))
@@ -32,19 +41,29 @@ def cautions(mechanism: Mechanism) -> list[str]:
     back = turns_back(mechanism)
     if back:
         out.append(
-            f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; {law.TURNS_BACK}"
+            Caution(
+                "turns-back",
+                f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; "
+                f"{law.TURNS_BACK}",
+            )
         )
     if engagement.slot.curved and not retraces(engagement):
         out.append(_off_the_mid_condition(mechanism))
     if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
         out.append(
-            f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock at '
-            "both ends"
+            Caution(
+                "soft-shock-at-ends",
+                f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock '
+                "at both ends",
+            )
         )
     if abs(law.first(0.5, 2).scalars()[2] + law.second(0.5, 2).scalars()[2]) > 1e-9:
         out.append(
-            f'the law "{law.NAME}" goes from speeding up to slowing down in a jump: a soft shock '
-            "at mid-motion"
+            Caution(
+                "soft-shock-at-mid",
+                f'the law "{law.NAME}" goes from speeding up to slowing down in a jump: a soft '
+                "shock at mid-motion",
+            )
         )
     if engagement.slot.curved:
         out.extend(_loose(mechanism))
@@ -56,7 +75,7 @@ def _no_lock(mechanism: Mechanism) -> bool:
     return mechanism.spec.size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS
 
 
-def _rounded_points(mechanism: Mechanism) -> list[str]:
+def _rounded_points(mechanism: Mechanism) -> list[Caution]:
     """What the points of a file, as rounded as they are, leave unknown of the jerk."""
     engagement, law = mechanism.engagements[0], mechanism.law
     top = peak(engagement.motion, "velocity")  # of a ratio, the crank's jerk counts there most
@@ -73,8 +92,12 @@ def _rounded_points(mechanism: Mechanism) -> list[str]:
     if share < SHOWN_DOUBT:
         return []
     return [
-        f"the points are given to {decimals} decimals; jerk is known to about "
-        f"{float(f'{100.0 * share:.2g}'):g} %: more decimals, or fewer points, make it better known"
+        Caution(
+            "rounded-points",
+            f"the points are given to {decimals} decimals; jerk is known to about "
+            f"{float(f'{100.0 * share:.2g}'):g} %: more decimals, or fewer points, make it "
+            "better known",
+        )
     ]
 
 
@@ -99,21 +122,22 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     return (value, at_deg) if value < -noise else None
 
 
-def _off_the_mid_condition(mechanism: Mechanism) -> str:
+def _off_the_mid_condition(mechanism: Mechanism) -> Caution:
     matched = mechanism.matched_ratio
     helps = (
         f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
         if matched is not None
         else "no R/L avoids it with this law and motion angle"
     )
-    return (
+    return Caution(
+        "off-mid-condition",
         f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
         "condition, so without friction the pin force there has no bound unless the torque is "
-        f"zero; {helps}"
+        f"zero; {helps}",
     )
 
 
-def _loose(mechanism: Mechanism) -> list[str]:
+def _loose(mechanism: Mechanism) -> list[Caution]:
     from geneva_cli.analysis.positive_drive import positive_drive
 
     drive = positive_drive(mechanism)
@@ -121,14 +145,17 @@ def _loose(mechanism: Mechanism) -> list[str]:
         return []
     where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in drive.loose_deg)
     return [
-        f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): the "
-        "wall that the torque needs there is cut away by the slot's other branch, up to "
-        f'{drive.loose_gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, and '
-        "less torque_Nm against the inertia makes the interval shorter"
+        Caution(
+            "not-positively-driven",
+            f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): "
+            "the wall that the torque needs there is cut away by the slot's other branch, up to "
+            f'{drive.loose_gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, '
+            "and less torque_Nm against the inertia makes the interval shorter",
+        )
     ]
 
 
-def _undercut(mechanism: Mechanism) -> list[str]:
+def _undercut(mechanism: Mechanism) -> list[Caution]:
     from geneva_cli.analysis.undercut import undercut
 
     found = undercut(mechanism)
@@ -142,7 +169,11 @@ def _undercut(mechanism: Mechanism) -> list[str]:
         else f"a roller radius below {free:.4g} mm avoids it"
     )
     return [
-        f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} deg: "
-        f"the roller's {r:.4g} mm exceed the radius of curvature, {found.radius_mm:.4g} mm at "
-        f"{found.at_deg:.4g} deg, and cut the wall back by {found.depth_mm:.3g} mm; {helps}"
+        Caution(
+            "undercut",
+            f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} "
+            f"deg: the roller's {r:.4g} mm exceed the radius of curvature, {found.radius_mm:.4g} "
+            f"mm at {found.at_deg:.4g} deg, and cut the wall back by {found.depth_mm:.3g} mm; "
+            f"{helps}",
+        )
     ]

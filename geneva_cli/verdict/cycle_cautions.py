@@ -9,6 +9,7 @@ from collections.abc import Mapping
 
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.summary import Summary
+from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 
 SOUND_M_S = 343.0
@@ -20,7 +21,7 @@ BRIEF = 1e-4  # share of a motion: at rest, before and after it, signs are round
 ROUNDING = 1e-9  # share of the greatest torque
 
 
-def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[str]:
+def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     """The cautions, for the summaries of a cycle's loads."""
     return [*_back_driven(cycle, loads), *_heavy(cycle), *_fast(cycle.mechanism, loads)]
 
@@ -40,7 +41,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[str]:
+def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     torque, alpha = loads["input_torque_Nm"], loads["alpha_rad_s2"]
     least, most = torque.min, torque.max
     if least is None or alpha.min is None or not least < -ROUNDING * abs(most or least):
@@ -50,14 +51,17 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[str]:
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min
     return [
-        f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the input: "
-        "the play of slot and reducer changes sides there, and a self-locking worm jams; it takes "
-        "a brake or a motor that brakes, or a drag on the wheel: with a resisting torque of "
-        f"{drag:.4g} N m in all the input always drives"
+        Caution(
+            "drives-the-motor",
+            f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the "
+            "input: the play of slot and reducer changes sides there, and a self-locking worm "
+            "jams; it takes a brake or a motor that brakes, or a drag on the wheel: with a "
+            f"resisting torque of {drag:.4g} N m in all the input always drives",
+        )
     ]
 
 
-def _heavy(cycle: Cycle) -> list[str]:
+def _heavy(cycle: Cycle) -> list[Caution]:
     L = cycle.given.L
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     # a disc's J = pi rho h D^4 / 32
@@ -65,14 +69,17 @@ def _heavy(cycle: Cycle) -> list[str]:
     if not inertia > most:
         return []
     return [
-        f"an inertia of {inertia:.4g} kg m2 is more than that of a solid steel table "
-        f"{1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} thick ({most:.3g} kg m2), on "
-        f"a wheel of {1e3 * L:.4g} mm centre distance: {inertia:.4g} kg cm2 would be "
-        f"{1e-4 * inertia:.4g} kg m2"
+        Caution(
+            "heavy-inertia",
+            f"an inertia of {inertia:.4g} kg m2 is more than that of a solid steel table "
+            f"{1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} thick ({most:.3g} kg m2), "
+            f"on a wheel of {1e3 * L:.4g} mm centre distance: {inertia:.4g} kg cm2 would be "
+            f"{1e-4 * inertia:.4g} kg m2",
+        )
     ]
 
 
-def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[str]:
+def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[Caution]:
     engagement = mechanism.engagements[0]
     x, y = engagement.path(engagement.entry_deg, 0)
     rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
@@ -81,6 +88,9 @@ def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[str]:
         return []
     n = mechanism.spec.drive.n_rpm
     return [
-        f"the wheel's rim runs at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} m/s): "
-        f"n_rpm = {n:g} is meant in turns of the input a minute"
+        Caution(
+            "faster-than-sound",
+            f"the wheel's rim runs at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} "
+            f"m/s): n_rpm = {n:g} is meant in turns of the input a minute",
+        )
     ]

@@ -7,12 +7,13 @@ import math
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
 from geneva_cli.analysis.loads.quantities import STRESS, ends_of, known
+from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 
 
-def load_cautions(mechanism: Mechanism) -> list[str]:
+def load_cautions(mechanism: Mechanism) -> list[Caution]:
     """Cautions that need the loads, which are looked for only where they are shown."""
-    out = []
+    out: list[Caution] = []
     if mechanism.spec.is_loaded:
         cycle = cycle_of(mechanism)
         out = [*_jammed(cycle), *_on_an_edge(cycle)]
@@ -21,7 +22,7 @@ def load_cautions(mechanism: Mechanism) -> list[str]:
     return out
 
 
-def _jammed(cycle: Cycle) -> list[str]:
+def _jammed(cycle: Cycle) -> list[Caution]:
     (force,) = ends_of(cycle, "pin_force_N")
     friction = cycle.mechanism.spec.load.friction
     endless = [
@@ -32,30 +33,38 @@ def _jammed(cycle: Cycle) -> list[str]:
     if not friction or not endless:
         return []
     return [
-        f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg: it takes as much "
-        "torque from the wheel as the wall gives, however hard the roller presses; a smaller "
-        "roller or less friction avoids it"
+        Caution(
+            "friction-holds-the-wheel",
+            f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg: it takes as much "
+            "torque from the wheel as the wall gives, however hard the roller presses; a smaller "
+            "roller or less friction avoids it",
+        )
     ]
 
 
-def _on_an_edge(cycle: Cycle) -> list[str]:
+def _on_an_edge(cycle: Cycle) -> list[Caution]:
     if STRESS not in known(cycle):
         return []
     stress, force = ends_of(cycle, STRESS, "pin_force_N")
     if math.isfinite(stress.max) or math.isinf(force.max) or math.isinf(force.min):
         return []
     return [
-        f"contact stress without bound at {stress.max_at_deg:.4g} deg: the wall that bears there "
-        "is as sharp as the roller, undercut towards mid-motion, and ends in an edge; less of it "
-        'bears with a smaller roller, and none in straight slots (kind = "cam" for any law)'
+        Caution(
+            "sharp-wall",
+            f"contact stress without bound at {stress.max_at_deg:.4g} deg: the wall that bears "
+            "there is as sharp as the roller, undercut towards mid-motion, and ends in an edge; "
+            'less of it bears with a smaller roller, and none in straight slots (kind = "cam" for '
+            "any law)",
+        )
     ]
 
 
-def _no_speed(mechanism: Mechanism) -> str:
+def _no_speed(mechanism: Mechanism) -> Caution:
     keys = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")
     limits = loads.load_limits(mechanism.spec.limits)
     given = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
-    return (
+    return Caution(
+        "no-speed",
         f"no speed keeps {given}, so there is no shortest motion: the resisting torque alone takes "
-        "more, or nothing bounds the load; a larger machine or less torque_Nm helps"
+        "more, or nothing bounds the load; a larger machine or less torque_Nm helps",
     )

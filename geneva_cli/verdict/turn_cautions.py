@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.verdict.checks.play import motion_play_max
 
 
-def turn_cautions(proof: Proof) -> list[str]:
+def turn_cautions(proof: Proof) -> list[Caution]:
     """Cautions of the parts' whole turn; none where there is no such turn."""
     if not proof.mechanism.spec.is_flat:
         return []
@@ -24,6 +24,10 @@ def turn_cautions(proof: Proof) -> list[str]:
     way, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
     helps = "a load that overruns the roller" if first else "a load that holds back"
     return [
-        f"in its slot the wheel is free {way} by {free:.4g} deg at {at_deg:.4g} deg, where one "
-        f"wall alone drives it: {helps} meets a corner; friction or a brake keeps it on that wall"
+        Caution(
+            "driven-by-one-wall",
+            f"in its slot the wheel is free {way} by {free:.4g} deg at {at_deg:.4g} deg, where one "
+            f"wall alone drives it: {helps} meets a corner; friction or a brake keeps it on that "
+            "wall",
+        )
     ]

@@ -18,6 +18,7 @@ WITHOUT_SPEC = {
     "new",
     "synth",
     "bench",
+    "explain",
     "keys",
     "help",
     "schema",

@@ -2,6 +2,7 @@
 
 import ast
 import json
+import pickle
 import re
 from functools import cache
 
@@ -16,8 +17,9 @@ from geneva_cli.analysis.loads.sizing import Sizing
 from geneva_cli.analysis.vibration import answers
 from geneva_cli.analysis.vibration.vibration import Avoid, Station
 from geneva_cli.app import app
+from geneva_cli.commands.options import say
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.parts import gear_curves, groove, parts_list, slot_profile
@@ -58,6 +60,20 @@ def test_every_check_has_an_entry_and_no_entry_names_none():
     made = named_in_calls("Check")
     assert made >= {"parts", "full_turn"}
     assert explained("check") == {*MOTION, *LIMITS, *STANDING, *TURNING, *made}
+
+
+def test_every_warning_has_an_entry_and_no_entry_names_none():
+    made = named_in_calls("Caution")
+    assert explained("warning") == made
+
+
+def test_a_warning_is_told_with_its_name(capsys):
+    say("a.toml", [Caution("turns-back", "the wheel turns back"), "other"])
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == "a.toml: warning: the wheel turns back [turns-back]"
+    assert told[1] == "a.toml: warning: other"
+    copied = pickle.loads(pickle.dumps(Caution("undercut", "text")))
+    assert (copied, copied.name) == ("text", "undercut")
 
 
 def test_every_kind_and_law_has_an_entry_and_no_entry_names_none():
@@ -178,6 +194,7 @@ def test_a_file_has_nothing_besides_its_entries():
         ("max", ["quantity"]),
         ("side-crank", ["kind"]),
         ("cycloidal", ["law"]),
+        ("turns-back", ["warning"]),
         ("inputs.drive.n_rpm", ["key"]),
         ("wheel.steps_deg", ["key"]),
         ("A", ["key", "key"]),

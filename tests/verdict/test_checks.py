@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 import repo
 from typer.testing import CliRunner
-from words import Drive, Keys, Motion, Spec, Wheel, load
+from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine import spec as machine_spec
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.outlines import outlines
@@ -53,6 +54,14 @@ def test_a_sound_design_passes() -> None:
 )
 def test_cautions(spec: Spec, said: str) -> None:
     assert any(said in text for text in cautions(build(spec)))
+
+
+def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
+    said = cautions(build(CURVED.but(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0)))))
+    assert [c.name for c in said if "soft shock" in c] == [
+        "soft-shock-at-ends",
+        "soft-shock-at-mid",
+    ]
 
 
 @pytest.mark.parametrize("shape", [-0.125, 0.0, 0.125])

@@ -15,12 +15,17 @@ from geneva_cli.analysis.loads.means import Means, means_of, plain_of
 from geneva_cli.analysis.loads.quantities import PRESSED, PV, SQUARED, STRESS, ends_of, known
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
+from geneva_cli.errors import Caution
 from geneva_cli.table import Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 PLACES = ("time_s", "input_deg", "wheel_deg")
+UNLOADED = (
+    "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
+    "a [[mass]]"
+)
 ZERO = 1e-15  # share of a peak that is rounding
 SHOWN = (
     "omega_rad_s",
@@ -192,13 +197,10 @@ def loads_table(
     return record_table(values)
 
 
-def missing(cycle: Cycle) -> list[str]:
+def missing(cycle: Cycle) -> list[Caution]:
     """What keys would give the quantities that are None."""
     if not cycle.is_loaded:
-        return [
-            "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in "
-            "[load], or a [[mass]]"
-        ]
+        return [Caution("not-known", UNLOADED)]
     wide = cycle.given.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
@@ -209,7 +211,8 @@ def missing(cycle: Cycle) -> list[str]:
     for name, (_, share, needs) in shares(cycle).items():
         if share is None:
             unknown.setdefault(needs, []).append(name)
-    return out + [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
+    out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
+    return [Caution("not-known", text) for text in out]
 
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:

@@ -21,6 +21,7 @@ from geneva_cli.analysis.vibration.vibration import (
     steady,
     worst_residuals,
 )
+from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table, record_table, rows_table
 
@@ -38,7 +39,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values, the same for every machine; all None where no inertia is known."""
     if load is None:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
-            "warnings": (f"all is null: {NO_INERTIA}",)
+            "warnings": (Caution("not-known", f"all is null: {NO_INERTIA}"),)
         }
     each = stations(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)
@@ -85,25 +86,31 @@ UNDAMPED = (
 )
 
 
-def _warnings(mechanism: Mechanism, load: Oscillator, each: list[Station]) -> list[str]:
+def _warnings(mechanism: Mechanism, load: Oscillator, each: list[Station]) -> list[Caution]:
     out = []
     least = min(s.period_ratio for s in each)
     if least < 1.0:
         out.append(
-            f"a motion takes only {least:.4g} natural periods of the load, which cannot follow it: "
-            "a stiffer shaft, less inertia or a lower speed helps"
+            Caution(
+                "short-motion",
+                f"a motion takes only {least:.4g} natural periods of the load, which cannot follow "
+                "it: a stiffer shaft, less inertia or a lower speed helps",
+            )
         )
     law = mechanism.law
     tuned = law.tuned_to if law else None
     if tuned and not math.isclose(load.ratio, tuned, rel_tol=OFF):
         n_rpm = mechanism.spec.drive.n_rpm * load.ratio / tuned
         out.append(
-            f"the law is tuned to a period ratio of {tuned:g}, and this is {load.ratio:.6g}: "
-            f"n_rpm = {n_rpm:.6g} would meet it, or {(tuned / load.ratio) ** 2:.4g} times the "
-            "stiffness"
+            Caution(
+                "off-tune",
+                f"the law is tuned to a period ratio of {tuned:g}, and this is {load.ratio:.6g}: "
+                f"n_rpm = {n_rpm:.6g} would meet it, or {(tuned / load.ratio) ** 2:.4g} times the "
+                "stiffness",
+            )
         )
     if not load.damping:
-        out.append(UNDAMPED)
+        out.append(Caution("not-known", UNDAMPED))
     return out
 
 

@@ -12,7 +12,7 @@ from geneva_cli.analysis.tolerance.drawn import draw
 from geneva_cli.analysis.tolerance.entered import entered
 from geneva_cli.analysis.tolerance.led import led
 from geneva_cli.analysis.tolerance.spread import Spread, spread
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.tolerance.needed import Needed, needed
@@ -44,7 +44,7 @@ class Study(NamedTuple):
     entry: Entry | None
     clearances: Needed
     jams: float | None  # share of the machines that do not go together
-    warnings: tuple[str, ...]
+    warnings: tuple[Caution, ...]
 
 
 def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
@@ -74,23 +74,37 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         dwell = spread(lambda by: held(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
         told.append(
-            "dwell_position is not known: no locking disc that is drawn holds the wheel at rest"
+            Caution(
+                "not-known",
+                "dwell_position is not known: no locking disc that is drawn holds the wheel at "
+                "rest",
+            )
         )
     if lead:
         one, worst, at, side = lead
         motion = spread(lambda by: one(by, at, side) * side, sizes, worst, drawn.motion)
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
     else:
-        told.append("motion_play is not known: the slots are curved, and solved for a true path")
+        told.append(
+            Caution(
+                "not-known",
+                "motion_play is not known: the slots are curved, and solved for a true path",
+            )
+        )
     if comes:
         jump = drawn.jump
         entry = Entry(_most(comes(ends)[0]), float(jump.mean()), float(jump.std()), drawn.missed)
     else:
-        told.append("entry_jump is not known: the law, not the path, sets how the roller enters")
+        told.append(
+            Caution(
+                "not-known",
+                "entry_jump is not known: the law, not the path, sets how the roller enters",
+            )
+        )
     clearances = needed(mechanism, proof, use, yields)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
-        told.append(f"{what}: {clearances.why}")
+        told.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(told))
 
 
@@ -131,9 +145,9 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
 
 def _applicable(
     mechanism: Mechanism, given: dict[str, float]
-) -> tuple[dict[str, float], list[str]]:
+) -> tuple[dict[str, float], list[Caution]]:
     """The tolerances that move something in this machine, the others 0; and why they do not."""
-    use, told = dict(given), []
+    use, told = dict(given), list[Caution]()
     why = {}
     if not mechanism.spec.drive.ONE_ARM:
         why["crank_radius_mm"] = "no crank's arm carries the roller"
@@ -142,17 +156,17 @@ def _applicable(
     for name, reason in why.items():
         if use[name]:
             use[name] = 0.0
-            told.append(f"{name} is left out: {reason}")
+            told.append(Caution("tolerance-left-out", f"{name} is left out: {reason}"))
     return use, told
 
 
-def _locks(mechanism: Mechanism, proof: Proof, told: list[str]) -> list[Lock]:
+def _locks(mechanism: Mechanism, proof: Proof, told: list[Caution]) -> list[Lock]:
     if not mechanism.spec.is_flat:
         return []
     try:
         return locks(proof.found)
     except GenevaError as error:
-        told.append(f"no parts: {error}")
+        told.append(Caution("not-known", f"no parts: {error}"))
         return []
 
 
