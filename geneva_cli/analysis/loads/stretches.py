@@ -18,6 +18,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, is_straight
 from geneva_cli.analysis.loads.forces import Setting, gain, sliding, value
 from geneva_cli.analysis.loads.zeros import columns, inside, zeros
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
+COARSE = 1e-10  # share of a step that may lie between two neighbouring angles
 CLOSE = 1e-14  # share of an angle that is rounding
 
 
@@ -69,11 +71,25 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     if given.inertia_Nm:
         functions.append(torque)
     signs = Signs(engagement, [piece[:2] for piece in cut], functions)
+    _refuse_rounding(engagement, signs.fastest)
     if given.inertia_Nm:
         cut = signs.cut(cut, lambda piece: -1, "drives")
     cut = signs.cut(cut, lambda piece: ways.index(piece.drives), "slides")
     first = len(ways)
     return tuple(signs.cut(cut, lambda piece: first + pairs.index(piece[2:4]), "pays"))
+
+
+def _refuse_rounding(engagement: Engagement, fastest: float) -> None:
+    """Raise GenevaError where angles are too coarse for the motion: no load has digits then."""
+    furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
+    share = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
+    if share > COARSE:
+        raise GenevaError(
+            f"the wheel moves {fastest:.2g} times as fast as the input, {share:.1g} of its step "
+            "while the input's angle changes by its last digit: such loads would be rounding; a "
+            "drive that hurries less has some (elliptical gears, an eccentricity up to 0.999999)",
+            ("drive", "kind"),
+        )
 
 
 class Signs:
@@ -86,9 +102,11 @@ class Signs:
         functions: Sequence[Signed],
     ) -> None:
         self.engagement, self.functions = engagement, functions
+        self.fastest = 0.0  # of the samples, the wheel's greatest speed over the input's
 
         def sampled(x: Array, _: Whole) -> tuple[Array, Array]:
             at = contact(engagement, x, 1, joints=False)
+            self.fastest = float(np.max(abs(at.velocity.arrays()[0]), initial=self.fastest))
             return columns([of(at) for of in functions], x)
 
         self.found = found = scan(sampled, spans)
