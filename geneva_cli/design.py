@@ -283,7 +283,7 @@ class Design:
         life = self.strength.life  # what it needs is known once it has been looked for
         # without a load all need one, and that is said already
         needed = self.strength.missing(LIFE[:7]) if self.cycle.is_loaded else []
-        said = (*self.warnings, *self.load_warnings, *needed)
+        said = (*self.warnings, *self.load_warnings, *self.strength.cautions(), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         return loads_table(self.cycle, life, own, said, for_people)
 

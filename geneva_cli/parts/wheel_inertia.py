@@ -12,14 +12,15 @@ from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
 
-FINE = 2e-6  # of the centre distance: what walls may hide there is not felt in a mass
+FINE = 2e-6  # of the centre distance: slivers between walls as narrow as this are not looked for
 
 
 def wheel_body(mechanism: Mechanism) -> Body | None:
     """The wheel's mass and inertia about its axis, hubs left out; None where no thickness is given.
 
     J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem:
-    exact for lines and arcs, and to a millionth for curved walls. Raises GenevaError where the
+    exact for lines and arcs; for curved walls to some millionths, and to so many more of a wheel as
+    thin as they are finely told (FINE of the centre distance). Raises GenevaError where the
     machine has no flat parts, or its sizes leave none.
     """
     spec = mechanism.spec

@@ -16,7 +16,7 @@ from geneva_cli.spec.tables import Motor
 
 NAME = "wheel"  # of the [[mass]] that is the wheel itself
 SHOWN = 0.01  # share of the inertia that is given
-FAR = 20.0  # centre distances to a body, beyond any table
+FAR = 5.0  # centre distances to a body, beyond most tables
 FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
 
 

@@ -126,6 +126,20 @@ class Strength:
         assert width is not None
         return horn.horn(self.mechanism, found.half_width, found.recess, width)
 
+    def cautions(self) -> list[str]:
+        """What a stress that is known leaves out."""
+        found = self.sizes
+        if self.horn is None or found is None:
+            return []
+        stout = horn.stoutness(self.mechanism, found.half_width, found.recess)
+        if stout <= horn.THICK:
+            return []
+        return [
+            f"horn_stress_MPa is that of a slender beam, and this wheel's horns are {stout:.3g} "
+            f"times as thick at the mouth as their recess's radius ({found.recess:.4g} mm): it is "
+            "7 % too small at half of that radius, and more beyond"
+        ]
+
     @cached_property
     def lock(self) -> lock.Held | None:
         """The lock under the torque that it holds in the dwell."""

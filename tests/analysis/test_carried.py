@@ -10,6 +10,7 @@ from geneva_cli.analysis.loads.carried import (
     support_torque_Nm,
     weight_kg,
 )
+from geneva_cli.design import Design
 from geneva_cli.machine.spec import Spec
 
 
@@ -57,3 +58,11 @@ def test_gears_to_the_table_count_twice_for_inertia_and_once_for_friction():
     geared = straight.with_("support.gear_ratio", 0.5)
     assert inertia_kgm2(geared) == pytest.approx(0.25 * inertia_kgm2(straight), rel=1e-15)
     assert support_torque_Nm(geared) == pytest.approx(0.5 * support_torque_Nm(straight), rel=1e-15)
+
+
+def test_a_body_beyond_the_reach_of_the_table():
+    """Five centre distances out is a large table still; farther a unit is asked about."""
+    for radius, said in ((490.0, False), (900.0, True)):
+        body = Mass(shape="point", mass_kg=2.0, count=2, radius_mm=radius)
+        warnings = Design(External(6), mass=(body,)).load_warnings
+        assert any("9 centre distances" in text for text in warnings) is said

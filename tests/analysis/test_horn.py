@@ -7,7 +7,7 @@ import pytest
 from plane_stress import horn as in_plane_stress
 from words import Motion, Spec, Wheel
 
-from geneva_cli.analysis.strength.horn import horn
+from geneva_cli.analysis.strength.horn import horn, stoutness
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -73,6 +73,26 @@ def test_plane_stress_agrees_with_the_beam(z, L, r, h):
     force = 10000.0 / (L * math.cos(b))  # at the mouth
     assert h < wall / 6.0
     assert abs(along[inside]).max() == pytest.approx(found.stress_MPa / force, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("z", "L", "r", "h", "low", "high"),
+    [
+        (6, 100.0, 5.0, 2.0, 0.99, 1.02),
+        (8, 250.0, 12.0, 10.0, 0.99, 1.02),
+        (6, 100.0, 5.0, 15.0, 1.05, 1.08),  # half of the recess's radius: what its warning says
+    ],
+)
+def test_plane_stress_agrees_on_internal_wheels(z, L, r, h, low, high):
+    """The body is on the other side of the slots' mouths: outside, between slots that diverge."""
+    b = math.pi / z
+    wall, depth = L * math.sin(b) - r, L + L * math.sin(b) - L * math.cos(b)
+    s, along, _ = in_plane_stress(wall, wall - h, depth, math.pi + 2.0 * b, 0.15 * h)
+    inside = (s > 0.8 * h) & (s < 0.75 * depth)
+    mechanism = build(Spec(Wheel(z, "internal"), size=Size(L, r), load=LOAD))
+    beam = horn(mechanism, r, wall - h, 1.0).stress_MPa / (10000.0 / (L * math.cos(b)))
+    assert low < abs(along[inside]).max() / beam < high
+    assert stoutness(mechanism, r, wall - h) == pytest.approx(h / (wall - h), rel=1e-12)
 
 
 def test_a_thick_horn_is_no_beam():

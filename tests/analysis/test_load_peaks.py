@@ -11,6 +11,8 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.peaks import worst
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.scan import hopeful, scan
 from geneva_cli.spec.tables import Limits, Load, Size
@@ -237,3 +239,15 @@ def test_a_scan_sees_narrow_peaks(width):
 
 def test_a_setting_knows_no_stress_without_a_width():
     assert setting(build(Spec(Wheel(6)))).hertz is None
+
+
+def test_a_motion_between_two_angles_has_no_loads():
+    """At 1 - 1e-6 the travel is 2 L (cos b - (1 - l)) still; nearer to 1 the reason is told."""
+    b = math.pi / 6.0
+    known = Design.of(elliptical(6, 1.0 - 1e-6, "external")).loads_table.to_dict()[
+        "life.slot_travel_m"
+    ]
+    assert known == pytest.approx(0.2 * (math.cos(b) - (1.0 - math.sin(b))), rel=1e-9)
+    for near in (1.0 - 1e-7, 1.0 - 1e-9, 1.0 - 1e-12):
+        with pytest.raises(GenevaError, match="by its last digit: such loads would be rounding"):
+            Design.of(elliptical(6, near, "external")).loads  # noqa: B018

@@ -7,6 +7,10 @@ the section at s then carries, over the face width b, the bending stress 6 N (s 
 middle of a section shear adds 3/2 N/(b t), at its faces nothing. The stress is the greatest over
 all places of the roller and all sections, to half-way along the recess: past it another horn
 begins. The body that the horn stands on is taken as rigid, and no notch is counted.
+
+Plane stress (finite elements, in the tests), of external and internal wheels with straight slots:
+0.7 % less to 2 % more where h < R/6, 4 % more at h = 2 R/7, 7 % more at R/2; beyond that it is no
+beam. Of curved walls only the formula is tested.
 """
 
 from __future__ import annotations
@@ -26,6 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
+THICK = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
 GRID = 61  # places and sections looked at first
 FINER = 33  # and around the best of them, time and again
 ROUNDS = 4
@@ -90,6 +95,11 @@ class Side(NamedTuple):
         """Input angles from the mouth inwards."""
         return self.mouth_deg * np.linspace(1.0, NEAR, count)
 
+    @property
+    def stoutness(self) -> float:
+        """Thickness at the mouth over the recess's radius."""
+        return float(self.thickness(self.wall(np.array([self.mouth_deg]))[0])[0]) / self.recess
+
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Side]:
     """Both horns of each kind of slot."""
@@ -107,6 +117,11 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
                 Side(engagement, L, half_width_mm, recess_mm, end, centre, inwards, across)
             )
     return found
+
+
+def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> float:
+    """Of the stoutest horn: its thickness at the mouth over the recess's radius."""
+    return max(side.stoutness for side in horns(mechanism, half_width_mm, recess_mm))
 
 
 def horn(
