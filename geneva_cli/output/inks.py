@@ -20,6 +20,8 @@ INKS = {
     "LINK": Ink(134, "#007f7f"),
     "ROLLER": Ink(200, "#bf00ff"),
     "BORE": Ink(1, "#ff0000"),
+    "COUPON": Ink(124, "#007f5f"),
+    "ENGRAVE": Ink(233, "#a5527c"),
     "PITCH": Ink(8, "#808080"),
     "GROOVE": Ink(54, "#7f7f00"),
 }

@@ -40,6 +40,7 @@ PARTS = {
     "assembly": Part(drawing="drawings:assembly"),
     "gears": Part("gear_curves:gears_table"),
     "groove": Part("groove:groove_table", "drawings:groove"),
+    "coupon": Part(drawing="coupon:coupon", cut=True),
     "sheet": Part(sheet="sheet.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
