@@ -480,7 +480,8 @@ class Design:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
         ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove`` or ``coupon``;
-        millimetres. With a kerf, the paths of a cut so wide, and ``GenevaError`` where it does not fit in.
+        millimetres. With a kerf, the paths of a cut so wide, and ``GenevaError`` where it does not
+        fit in.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
