@@ -25,8 +25,11 @@ _BOLD = (
     *(278, 556, 278, 889, 611, 611, 611, 611, 389, 556, 333, 611, 556, 778, 556, 556),
     *(500, 389, 280, 389, 584),
 )
-# the same in both, but for the dot
-_OTHERS = {"°": 400, "±": 584, "×": 584, "Ø": 778, "²": 333, "³": 333, "·": 278, "–": 556}
+# the same in both; the first is the space at which no line is broken
+_OTHERS = {
+    **{"\u00a0": 278, "·": 278, "²": 333, "³": 333, "°": 400},
+    **{"–": 556, "±": 584, "×": 584, "Ø": 778},
+}
 WIDEST = 1000  # of letters beyond these
 
 

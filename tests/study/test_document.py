@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.document import Document, Fact, Facts, Grid, Picture
+from geneva_cli.document import Document, Fact, Facts, Grid, Listed, Picture
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import jsonfile
 from geneva_cli.output.document import html, markdown, pdf
@@ -118,7 +118,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     """Whether a value is in a cell, alone or before its unit; a text in any text."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value in told if isinstance(value, str) else shown(value) in cells
-    return shown(value if isinstance(value, int) else float(value)) in cells
+    return shown(value).replace("\u00a0", " ") in cells
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -140,7 +140,7 @@ def _parts(cell: str) -> list[str]:
     """A cell as it is, and without its unit."""
     bare = cell.removesuffix("°")
     head, _, _ = bare.rpartition(" ")
-    return [cell, bare, head, bare.split(" ")[0], *([" ".join(bare.split(" ")[:3])])]
+    return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -291,6 +291,12 @@ def test_inputs_say_what_is_a_default() -> None:
     assert "limits.jerk_max" in told  # not given
 
 
+def test_sources_are_those_of_the_machine() -> None:
+    for name, source in (("turret", "handbook no. 7"), ("cam-geneva", "law of sines")):
+        told = of(name)[1].blocks[-1]
+        assert isinstance(told, Listed) and any(source in text for text in told.texts[:2])
+
+
 def test_what_is_not_drawn_is_said_in_its_place() -> None:
     assert any(isinstance(block, Picture) for block in of("turret")[1].blocks)
     said_ = "".join(markdown.chunks(of("spherical-z6")[1]))
@@ -302,7 +308,7 @@ def test_a_value_that_is_none_of_a_number_is_never_shown() -> None:
         shown(math.nan)
     assert shown(math.inf) == "no bound"
     assert (shown(-0.0, "°"), shown((1.0, 2.5), "mm")) == ("0°", "1 mm, 2.5 mm")
-    assert shown(1.21353e-6, "kg m²") == "1.21353 × 10⁻⁶ kg m²"
+    assert shown(1.21353e-6, "kg m²") == "1.21353\u00a0×\u00a010⁻⁶ kg m²"
 
 
 def test_letters_beyond_the_western_ones_are_spelled() -> None:

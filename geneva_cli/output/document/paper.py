@@ -101,7 +101,7 @@ def lines(text: str, size: float, room: float, bold: bool = False) -> list[str]:
     """A text broken into lines that fit a width; a word that is longer than one is cut."""
     out: list[str] = []
     line = ""
-    for word in text.split():
+    for word in filter(None, text.split(" ")):
         whole = f"{line} {word}" if line else word
         if wide(whole, size, bold) <= room:
             line = whole

@@ -69,8 +69,9 @@ def _block(block: Block) -> Iterator[Item]:
     if isinstance(block, Heading):
         yield _heading(block.text)
     elif isinstance(block, Prose):
-        for text in _wrapped(block.text, WIDE):
-            yield _line(text, BODY)
+        found = _wrapped(block.text, WIDE)
+        for i, text in enumerate(found):  # no line of it alone on a page
+            yield _line(text, BODY)._replace(keeps=i in (0, len(found) - 2))
         yield _gap(2.5)
     elif isinstance(block, Listed):
         yield from _list(block.texts)

@@ -79,7 +79,7 @@ def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
     needs, wants = [], []
     for head, *cells in zip(heads, *rows, strict=True):
         longest = [max((wide(w, SMALL, True) for w in head.split()), default=0.0)]
-        least = longest + [wide(w, SMALL) for cell in cells for w in cell.split()]
+        least = longest + [wide(w, SMALL) for cell in cells for w in cell.split(" ")]
         most = [min(wide(head, SMALL, True), HEAD), *longest, *(wide(c, SMALL) for c in cells)]
         needs.append(min(max(least), WORD) + 2.0 * PAD)
         wants.append(max(max(most) + 2.0 * PAD, needs[-1]))

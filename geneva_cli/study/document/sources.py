@@ -1,18 +1,26 @@
-"""Where the formulas of a report come from, in short; the code names each in its place."""
+"""Where the formulas of a report come from, in short; `geneva explain` has them value by value."""
 
 from __future__ import annotations
 
-SOURCES = (
-    "Motion: pin path, slot and motion, any two of which give the third; derivatives by Taylor "
-    "coefficients that are carried along, peaks as roots of the next derivative. The closed forms "
-    "of the classic wheels are in the lecture Malteski mehanizmi and in handbook no. 7, Maltese "
-    "mechanisms.",
-    "Curved slots and times of motion: F. Krasniqi, Improvements of kinetic properties and "
-    "lifespan of Maltic cross through curved canal, University of Prishtina; geneva help numbers "
-    "says where our numbers differ.",
-    "Side-cranks: Polyudov and Kandyak, Kinematics of the Maltese cross mechanism with a "
-    "side-crank drive, Ukrainian Academy of Printing.",
-    "Motion laws: VDI 2143; R. L. Norton, Cam Design and Manufacturing Handbook.",
-    "Contact stress: H. Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
-    "for transmission shafting. Pins: bending and shear by von Mises.",
+from geneva_cli.machine.spec import Spec
+from geneva_cli.manual.explained import entries
+
+CITED = (
+    "Cited: Malteski mehanizmi, a lecture; handbook no. 7, Maltese mechanisms; F. Krasniqi, "
+    "Improvements of kinetic properties and lifespan of Maltic cross through curved canal, "
+    "University of Prishtina; Polyudov and Kandyak, Kinematics of the Maltese cross mechanism with "
+    "a side-crank drive, Ukrainian Academy of Printing. Where our numbers differ, and why: "
+    "geneva help numbers.",
+    "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next derivative.",
+    "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code for "
+    "transmission shafting (B17c). Pins: bending and shear by von Mises.",
+    "Formula, source and proof of each value and check: geneva explain NAME.",
 )
+
+
+def sources(spec: Spec) -> tuple[str, ...]:
+    """Those of the machine's kinds and its law, and what all share."""
+    names = [spec.wheel.NAME, spec.drive.NAME, *([spec.motion.law.NAME] if spec.motion else [])]
+    known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
+    own = [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
+    return (*own, *CITED)
