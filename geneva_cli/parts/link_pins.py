@@ -6,7 +6,7 @@ Pins that stand in the frame are the frame's, as shafts are.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,13 +15,16 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.parts.link_sizes import LinkSizes, places
 
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
 LAYER, ROLLER = "LINK", "ROLLER"
 
 
 class Joined(NamedTuple):
-    """Links that share a joint at all input angles: their names and planes, and where at 0."""
+    """Links that share a joint at all input angles: its way, their names and planes."""
 
-    at: complex
+    way: Array  # complex
     names: tuple[str, ...]
     planes: tuple[int, ...]
 
@@ -40,14 +43,15 @@ def joined(links: Iterable[Link], near: float) -> list[Joined]:
         if others:
             both = sorted((link, *others), key=lambda one: one.plane)
             names, planes = zip(*((one.name, one.plane) for one in both), strict=True)
-            found.append(Joined(complex(at[len(at) // 2]), names, planes))
+            found.append(Joined(at, names, planes))
     return found
 
 
 def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
     """Each pin that joins links, and what keeps their planes apart on it."""
     for one in joined(links, near):
-        where = one.at.real, one.at.imag
+        z = complex(one.way[len(one.way) // 2])  # at input angle 0
+        where = z.real, z.imag
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
         pin = Circle(LAYER, origin, sizes.pin)

@@ -163,6 +163,5 @@ def _beside_hub(mechanism: Mechanism, links: Iterable[Link]) -> float:
     if not near:
         return math.inf
     w = mechanism.roller_radius_mm * 1.05 + size.slot_clearance_mm
-    given = [d for d in (size.wheel_hub_mm, size.wheel_bore_mm) if d is not None]
-    hub = 0.5 * max(given) if given else 0.75 * (min(near) - w)
+    hub = 0.75 * (min(near) - w) if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
     return min(near) - hub

@@ -47,6 +47,8 @@ APART = (
 GAPS = ("gap_mm", "idle_roller_mm")
 # A roller that does not find its slot, or meets the rim beside it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
+# Below the wheel's plane: the wheel can be cut all the same.
+BELOW = ("link_wall_mm", "link_gap_mm")
 # Checks that only a whole turn can answer.
 TURNED = (*JAMS, "dwell_hold", "dwell_play_deg", "motion_play_deg")
 
@@ -76,7 +78,10 @@ def verdict(proof: Proof) -> tuple[str, list[str]]:
         if c.name == "full_turn":
             refused.append(c.nearest)
         elif c.name in JAMS or (
-            c.must_be == "at least" and c.name.endswith("_mm") and (c.value or 0.0) < 0.0
+            c.name not in BELOW
+            and c.must_be == "at least"
+            and c.name.endswith("_mm")
+            and (c.value or 0.0) < 0.0
         ):
             turn = turn or proof.turn
             refused.append(said(c, turn.smallest.parts))

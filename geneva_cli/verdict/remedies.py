@@ -263,6 +263,15 @@ _WAYS: dict[str, tuple[Way, ...]] = {
         Way("size", "crank_keyway", lambda now: [None]),
     ),
     "arm_to_hub_mm": (_times("size", "arm_eye_mm", 0.2),),
+    "link_wall_mm": tuple(
+        Way("size", key, lambda now: [None])
+        for key in ("link_bore_mm", "link_pin_mm", "link_width_mm", "pin_mm")
+    ),
+    "link_gap_mm": (
+        *(Way("size", key, lambda now: [None]) for key in ("link_width_mm", "link_pin_mm")),
+        _times("size", "wheel_hub_mm", 0.5),
+        _set("size", "wheel_hub_mm", 0.0),
+    ),
     "outer_wall_mm": (Way("size", "wheel_outer_radius_mm", lambda now: [None]),),
     "branches_apart_mm": _WIDER,
     "branches_crossed_mm": _WIDER,

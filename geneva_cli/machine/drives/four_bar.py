@@ -54,7 +54,7 @@ class FourBar(Linkage):
                 "point_deg": -36.13836508095113,
                 "entry_deg": 123.3,
             },
-            "size": {"roller_radius_mm": 2.0},
+            "size": {"roller_radius_mm": 2.0, "wheel_hub_mm": 0.0},
         },
     )
     crank_mm: Annotated[float, POSITIVE, "crank a"]

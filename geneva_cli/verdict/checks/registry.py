@@ -62,6 +62,8 @@ STANDING: Checks = {
     "wheel_shaft_mm": "shafts:wheel_shaft",
     "arm_wall_mm": "arm:arm_wall",
     "arm_to_hub_mm": "arm:arm_to_hub",
+    "link_wall_mm": "links:wall",
+    "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
 }

@@ -1,0 +1,48 @@
+"""Do the links keep their walls, and clear what passes through their planes?"""
+
+from __future__ import annotations
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.links import drawn_links, link_wall
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.turn.planes import planes
+from geneva_cli.verdict.checks.check import Check, held
+
+KEYS = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
+
+
+def wall(name: str, found: Outlines) -> Check | None:
+    """The least wall round the links' holes, where a key of theirs is given."""
+    given = vars(found.plane.mechanism.spec.size)
+    if not any(given[key] for key in KEYS):
+        return None
+    try:
+        made = drawn_links(found.plane.given, found)
+    except GenevaError as error:
+        return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
+    least = min(map(link_wall, made.plates), default=None)
+    return None if least is None else held(name, least, "at least", found.sizes.wall_min)
+
+
+def gap(name: str, found: Outlines) -> Check | None:
+    """Between links and what passes through their planes, in a whole turn: hub, shaft, pins."""
+    try:
+        seen = planes(found)
+    except GenevaError as error:
+        return Check(name, None, "at least", 0.0, None, str(error))
+    given = found.plane.given
+    if seen.way_out is not None:
+        one = seen.way_out
+        return Check(
+            name,
+            one.gap,
+            "at least",
+            0.0,
+            None,
+            f"not proved: {one.passing} would meet the {one.link}: it needs an eccentric in a "
+            "hollow input shaft, or another way out",
+            given.shown_deg(one.input_deg),
+        )
+    if seen.nearest is None:
+        return None
+    return held(name, seen.nearest.gap, "at least", 0.0, given.shown_deg(seen.nearest.input_deg))
