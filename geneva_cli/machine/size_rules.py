@@ -89,6 +89,8 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
         ("arm_bore_mm", 2.0 * short, "twice the roller's way"),
         ("arm_hub_mm", 2.0 * L, "twice the centre distance"),
         ("arm_eye_mm", 2.0 * L, "twice the centre distance"),
+        ("dial_bolt_mm", 2.0 * L, "twice the centre distance"),
+        ("dial_bolt_circle_mm", 4.0 * L, "four times the centre distance"),
         ("link_pin_mm", 2.0 * L, "twice the centre distance"),
         ("link_bore_mm", 2.0 * L, "twice the centre distance"),
         ("link_width_mm", 2.0 * L, "twice the centre distance"),

@@ -146,7 +146,7 @@ def _title(found: Outlines, part: str) -> str:
     return f"{name}: {part}" if part else name
 
 
-def _wheel(found: Outlines, tolerance: float, curves: str) -> tuple[Contour, *tuple[Circle, ...]]:
+def _wheel(found: Outlines, tolerance: float, curves: str) -> tuple[Contour, *tuple[Shape, ...]]:
     plane, sizes = found.plane, found.sizes
     return (_outline(found, tolerance, curves), *wheel_circles(plane, sizes))
 

@@ -46,11 +46,12 @@ DIN_6885_1 = [
         (200, 230, 50, 28, 17.0, 11.4),
     )
 ]
+BORES = {"crank": "crank_bore_mm or arm_bore_mm", "wheel": "wheel_bore_mm"}
 TABLES = {"DIN 6885-1": DIN_6885_1}
 
 
-def key(standard: str | None, radius: float) -> Key | None:
-    """The key of a bore by a standard's name; None for no standard.
+def key(standard: str | None, radius: float, part: str = "crank") -> Key | None:
+    """The key of a part's bore by a standard's name; None for no standard.
 
     Raises GenevaError for a bore that the table does not have.
 
@@ -64,10 +65,10 @@ def key(standard: str | None, radius: float) -> Key | None:
         if row.above < diameter <= row.up_to:
             return row
     raise GenevaError(
-        f'crank_keyway = "{standard}": its table has shafts above {table[0].above:g} mm and up to '
-        f"{table[-1].up_to:g}, and the crank's bore is {diameter:g}; give crank_bore_mm or "
-        "arm_bore_mm there, or remove crank_keyway",
-        ("size", "crank_keyway"),
+        f'{part}_keyway = "{standard}": its table has shafts above {table[0].above:g} mm and up '
+        f"to {table[-1].up_to:g}, and the {part}'s bore is {diameter:g}; give {BORES[part]} there, "
+        f"or remove {part}_keyway",
+        ("size", f"{part}_keyway"),
     )
 
 

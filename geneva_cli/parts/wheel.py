@@ -6,10 +6,11 @@ import math
 from typing import NoReturn
 
 from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, about, closed
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
@@ -36,12 +37,37 @@ def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Engagement, Contour]) 
     return closed(LAYER, found)
 
 
-def wheel_circles(plane: Plane, sizes: Sizes) -> list[Circle]:
-    """Bore and hub, and the outside of an internal wheel."""
-    found = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
-    if sizes.wheel_bore:
-        found.append(Circle("BORE", (0.0, 0.0), sizes.wheel_bore))
-    return found
+def wheel_circles(plane: Plane, sizes: Sizes) -> list[Shape]:
+    """The outside of an internal wheel, the bore, which may have a keyway, the dial's bolts.
+
+    Raises GenevaError for a keyway without a bore, or one that its standard does not have.
+    """
+    found: list[Shape] = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
+    standard = plane.mechanism.spec.size.wheel_keyway
+    if sizes.wheel_bore or standard:
+        fitted = key(standard, sizes.wheel_bore, "wheel")
+        found.append(bore("BORE", sizes.wheel_bore, fitted, plane.rests[0]))
+    return [*found, *dial_bolts(plane, sizes)]
+
+
+def dial_bolts(plane: Plane, sizes: Sizes) -> list[Circle]:
+    """The holes for the dial on the wheel, evenly from between two slots on.
+
+    As a rule on a circle amid what neither bore nor slots and recesses take.
+    """
+    size, count = plane.mechanism.spec.size, plane.mechanism.spec.size.dial_bolts
+    if sizes.outer:
+        low, high = max(sizes.slot_end, plane.L + sizes.recess), sizes.outer
+    else:
+        low, high = sizes.wheel_bore, sizes.slot_end
+        fitted = key(size.wheel_keyway, low, "wheel") if low else None
+        low += fitted.in_hub if fitted else 0.0
+    far, room = 0.5 * (low + high), 0.5 * (high - low)
+    if size.dial_bolt_circle_mm is not None:
+        far = 0.5 * size.dial_bolt_circle_mm
+    r = min(plane.L / 80.0, 0.5 * room) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
+    turns = [plane.rests[0] + math.tau * k / count for k in range(count)]
+    return [Circle("BORE", _on(far, turn), r) for turn in turns]
 
 
 def _between(plane: Plane, start: float, end: float) -> float:

@@ -93,6 +93,12 @@ class Size(Table):
     crank_keyway: Annotated[
         str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
     ] = None
+    wheel_keyway: Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the wheel's bore"] = None
+    dial_bolts: Annotated[int, Range(0, 100), "bolts that fix the dial on the wheel, evenly"] = 0
+    dial_bolt_mm: Annotated[float | None, POSITIVE, "diameter of their holes; L/40 at most"] = None
+    dial_bolt_circle_mm: Annotated[
+        float | None, POSITIVE, "diameter of the circle they stand on; amid bore and slots"
+    ] = None
     lock_bolts: Annotated[
         int, Range(0, 100), "bolts or dowels through each sector of the locking disc and the arm"
     ] = 0

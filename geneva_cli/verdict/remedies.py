@@ -272,6 +272,13 @@ _WAYS: dict[str, tuple[Way, ...]] = {
         _times("size", "wheel_hub_mm", 0.5),
         _set("size", "wheel_hub_mm", 0.0),
     ),
+    "dial_wall_mm": (
+        Way("size", "dial_bolt_circle_mm", lambda now: [None]),
+        _times("size", "dial_bolt_mm", 0.2),
+        Way("size", "dial_bolt_mm", lambda now: [None]),
+        _times("size", "wheel_bore_mm", 0.3),
+        Way("size", "wheel_keyway", lambda now: [None]),
+    ),
     "outer_wall_mm": (Way("size", "wheel_outer_radius_mm", lambda now: [None]),),
     "branches_apart_mm": _WIDER,
     "branches_crossed_mm": _WIDER,

@@ -42,6 +42,7 @@ WORDED = {
     "relief": ("arc", "sector"),
     "pin_held": ("cantilever", "supported", "fixed"),
     "crank_keyway": ("DIN 6885-1",),
+    "wheel_keyway": ("DIN 6885-1",),
 }
 TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
 
@@ -63,7 +64,7 @@ def usual(rng, key, z, L, r, outside):
         return clearance(rng, r)
     if key in WORDED:
         return rng.choice(WORDED[key])
-    if key == "lock_bolts":
+    if key in ("lock_bolts", "dial_bolts"):
         return rng.choice([0, 1, 2, 3])
     of = {
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
@@ -93,6 +94,13 @@ def usual(rng, key, z, L, r, outside):
         "wheel_thickness_mm": L / 4.0,
         "lock_thickness_mm": L / 10.0,
         "arm_thickness_mm": L / 10.0,
+        "dial_bolt_mm": L / 40.0,
+        "dial_bolt_circle_mm": L / 2.0,
+        "link_pin_mm": L / 20.0,
+        "link_bore_mm": L / 10.0,
+        "link_width_mm": L / 10.0,
+        "link_thickness_mm": L / 10.0,
+        "washer_mm": L / 100.0,
     }
     return near(rng, of[key])
 

@@ -9,9 +9,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
-from geneva_cli.parts.keyways import key
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, radius_of
 from geneva_cli.parts.sheet.view import View, number, times
 
 SAME = 1e-6  # mm
@@ -27,9 +27,9 @@ def draw_disc(view: View, found: Outlines) -> None:
     bores = [c for c in crank_circles(plane, sizes) if c.layer == "BORE" and whole]
     for shape in (*screwed, *bores):
         view.draw(shape, OUTLINE)
-    _circle_of(view, screwed)
+    circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if whole else 0.2 * sizes.lock)
-    _bored(view, found, bores, sizes.crank_bore)
+    bored(view, bores, sizes.crank_bore, plane.mechanism.spec.size.crank_keyway)
     arcs = [s for contour in found.crank for s in contour.segments if isinstance(s, Arc)]
     locking = [a for a in arcs if math.hypot(*a.centre) < SAME and _is(a.radius, sizes.lock)]
     view.of_arcs(locking, sized.lock(plane.mechanism, sizes.lock), whole=True)
@@ -48,7 +48,7 @@ def draw_disc(view: View, found: Outlines) -> None:
             turn = math.atan2(middle[1], middle[0])
             view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
     _gaps(view, found, locking)
-    _bolted(view, screwed)
+    bolted(view, screwed)
 
 
 def _gaps(view: View, found: Outlines, locking: list[Arc]) -> None:
@@ -88,7 +88,7 @@ def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
     view.cross((0.0, 0.0), made.hub)
     for pin in made.pins:
         view.cross(pin.centre, made.eye, math.atan2(pin.centre[1], pin.centre[0]))
-    _circle_of(view, made.bolts)
+    circle_of(view, made.bolts)
     mechanism = found.plane.mechanism
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown: dict[str, list[Circle]] = {}
@@ -100,7 +100,7 @@ def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
         turn = math.atan2(centre[1], centre[0])
         view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
     _between(view, made)
-    _bored(view, found, [made.bore], _radius(made.bore))
+    bored(view, [made.bore], radius_of(made.bore), mechanism.spec.size.crank_keyway)
     view.diameter(made.pins, times(len(made.pins), sized.bore(made.pins[0].radius)))
     radii: dict[str, list[Arc]] = {}
     for arc in made.outline.segments:
@@ -108,7 +108,7 @@ def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
             radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
     for text, arcs in radii.items():
         view.of_arcs(arcs, times(len(arcs), text))
-    _bolted(view, made.bolts)
+    bolted(view, made.bolts)
 
 
 def _between(view: View, made: CrankArm) -> None:
@@ -172,42 +172,6 @@ def draw_groove(view: View, shapes: tuple[Shape, ...], half: float) -> None:
 def carried(found: Outlines) -> int:
     """How many rollers there are on the crank."""
     return len(roller_centres(found.plane))
-
-
-def _bored(view: View, found: Outlines, bores: list[Shape], radius: float) -> None:
-    """A bore's diameter, and its keyway's size."""
-    if not bores:
-        return
-    view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
-    standard = found.plane.given.spec.size.crank_keyway
-    fitted = key(standard, radius)
-    if fitted and isinstance(bores[0], Contour):
-        top = bores[0].segments[3]
-        text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
-        view.note(at(top, 0.5), f"{text} ({standard})")
-
-
-def _radius(bore: Shape) -> float:
-    if isinstance(bore, Circle):
-        return bore.radius
-    return math.hypot(*bore.segments[0].start)
-
-
-def _circle_of(view: View, screwed: list[Circle]) -> None:
-    """The circles that bolts stand on, as centre lines."""
-    for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
-        view.draw(Circle("", (0.0, 0.0), far), CENTRE)
-
-
-def _bolted(view: View, screwed: list[Circle]) -> None:
-    """Diameters of the bolts' holes and of the circle on which they are."""
-    if not screwed:
-        return
-    far = math.hypot(*screwed[0].centre)
-    text = times(len(screwed), f"{sized.bore(screwed[0].radius)} on Ø {number(2.0 * far)}")
-    view.diameter(screwed, text)
-    ways = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
-    view.notes.append("holes at " + ", ".join(f"{number(way, 2)}°" for way in ways))
 
 
 def _is(a: float, b: float) -> bool:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts import drawings
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.bores import bolted, bored, circle_of
 from geneva_cli.parts.sheet.view import View, number, times
+from geneva_cli.parts.wheel import dial_bolts
 
 SAME = 1e-6  # mm
 
@@ -20,7 +22,6 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     """The wheel with all its dimensions; curved slots have theirs in a table."""
     plane, sizes = found.plane, found.sizes
     made = drawings.wheel(found, tolerance, curves)
-    circles = [s for s in made.shapes if isinstance(s, Circle)]
     contour = next(s for s in made.shapes if isinstance(s, Contour))
     for shape in made.shapes:
         view.draw(shape, OUTLINE)
@@ -30,7 +31,9 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     if sizes.recess:
         view.cross(_recess_centre(found), 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
-    bores = [c for c in circles if c.layer == "BORE"]
+    screwed = dial_bolts(plane, sizes)
+    bores = [s for s in made.shapes if s.layer == "BORE" and s not in screwed]
+    circle_of(view, screwed)
     _recesses(view, found, arcs)
     for engagement in plane.kinds:
         number_of = sum(1 for one, _ in plane.slots if one is engagement)
@@ -40,8 +43,8 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, found, reach)
     _rims(view, arcs, reach)
-    if bores:
-        view.diameter(bores, sized.bore(sizes.wheel_bore))
+    bored(view, bores, sizes.wheel_bore, plane.mechanism.spec.size.wheel_keyway)
+    bolted(view, screwed)
 
 
 def _axes(view: View, found: Outlines, reach: float) -> None:

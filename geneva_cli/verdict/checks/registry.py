@@ -56,6 +56,7 @@ STANDING: Checks = {
     "horn_mm": "walls:horn",
     "wheel_bore_wall_mm": "walls:wheel_bore",
     "outer_wall_mm": "walls:outside",
+    "dial_wall_mm": "dial:wall",
     "crank_bore_wall_mm": "walls:crank_bore",
     "crank_shaft_mm": "shafts:crank_shaft",
     "crank_hub_mm": "shafts:crank_hub",

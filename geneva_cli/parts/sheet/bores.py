@@ -1,0 +1,50 @@
+"""Bores with their keyways, and bolts on their circles, in the sheet's views."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.shapes import Circle, Contour, Shape
+from geneva_cli.curves.sheet import CENTRE
+from geneva_cli.parts.keyways import key
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.view import View, number, times
+
+
+def bored(view: View, bores: Sequence[Shape], radius: float, standard: str | None) -> None:
+    """A bore's diameter, and its keyway's size by a standard."""
+    if not bores:
+        return
+    view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
+    if isinstance(bores[0], Contour):
+        fitted = key(standard, radius)
+        assert fitted is not None  # or it were a circle
+        top = bores[0].segments[3]
+        text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
+        view.note(at(top, 0.5), f"{text} ({standard})")
+
+
+def radius_of(bore: Shape) -> float:
+    """A bore's radius, without its keyway."""
+    if isinstance(bore, Circle):
+        return bore.radius
+    return math.hypot(*bore.segments[0].start)
+
+
+def circle_of(view: View, screwed: Sequence[Circle]) -> None:
+    """The circles that bolts stand on, as centre lines."""
+    for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
+        view.draw(Circle("", (0.0, 0.0), far), CENTRE)
+
+
+def bolted(view: View, screwed: Sequence[Circle]) -> None:
+    """Diameters of the bolts' holes and of the circle on which they are."""
+    if not screwed:
+        return
+    far = math.hypot(*screwed[0].centre)
+    text = times(len(screwed), f"{sized.bore(screwed[0].radius)} on Ø {number(2.0 * far)}")
+    view.diameter(screwed, text)
+    ways = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
+    view.notes.append("holes at " + ", ".join(f"{number(way, 2)}°" for way in ways))

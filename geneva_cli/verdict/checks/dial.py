@@ -1,0 +1,29 @@
+"""Does the wheel keep its walls round keyway and bolts? Asked where the spec names them."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Circle, backwards
+from geneva_cli.parts.hole_walls import apart, beyond
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.wheel import wheel_circles
+from geneva_cli.verdict.checks.check import Check, held
+
+
+def wall(name: str, found: Outlines) -> Check | None:
+    """The least wall round the bore with its keyway and round the dial's bolts."""
+    size = found.plane.mechanism.spec.size
+    if not (size.wheel_keyway or size.dial_bolts):
+        return None
+    inside = found.plane.sign < 0.0  # the contour is that of the opening
+    edge = Polyarc([backwards(found.wheel) if inside else found.wheel])
+    holes = [s for s in wheel_circles(found.plane, found.sizes) if s.layer == "BORE"]
+    walls = [-beyond(edge, hole) for hole in holes]
+    walls += [apart(one, two) for one, two in combinations(holes, 2)]
+    for hole in holes if inside else ():
+        assert isinstance(hole, Circle)  # an internal wheel has no bore
+        x, y = hole.centre
+        walls.append(found.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
+    return held(name, min(walls), "at least", found.sizes.wall_min)
