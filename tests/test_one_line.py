@@ -29,7 +29,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import Pose, Step
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.output import FORMATS
+from geneva_cli.output.formats import FORMATS
 from geneva_cli.parts.catalogue import PARTS, Part
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.rules import Range

@@ -36,8 +36,9 @@ def run(
 
     from geneva_cli.bench.run import bench_table, measure, names
     from geneva_cli.errors import GenevaError, cut
-    from geneva_cli.output import format_of, show
+    from geneva_cli.output import show
     from geneva_cli.output.files import write
+    from geneva_cli.output.formats import format_of
 
     if plots:
         from geneva_cli.bench.plot import require, svg

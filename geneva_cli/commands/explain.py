@@ -30,7 +30,8 @@ def run(
     format: Format = "",
 ) -> None:
     """What a word of the output means: formula, unit, source, what to do, which test proves it."""
-    from geneva_cli.output import format_of, show, show_markdown, show_text
+    from geneva_cli.output import show, show_markdown, show_text
+    from geneva_cli.output.formats import format_of
     from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
     from geneva_cli.table import rows_table
 

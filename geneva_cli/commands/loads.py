@@ -45,7 +45,8 @@ def run(
     pin; one that turns (friction_at) rolls as fast instead.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import format_of, show
+    from geneva_cli.output import show
+    from geneva_cli.output.formats import format_of
 
     design = load(spec, given or ())
     name = format or format_of(output)

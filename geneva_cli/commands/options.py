@@ -10,7 +10,7 @@ import typer
 
 from geneva_cli.commands import completion
 from geneva_cli.errors import Caution, clean
-from geneva_cli.output import FORMATS
+from geneva_cli.output.formats import FORMATS
 
 if TYPE_CHECKING:
     from geneva_cli.design import Design

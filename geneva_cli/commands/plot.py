@@ -59,7 +59,8 @@ def run(
     Of a csv, --y by --x: over a varied key of `geneva sweep` a curve for each combination of the
     others; the rows of a --pareto as points, joined; the spectrum of `geneva vibration`.
     """
-    from geneva_cli.output import plot, plotted_as
+    from geneva_cli.output import plot
+    from geneva_cli.output.formats import plotted_as
     from geneva_cli.study.figures import of_specs, of_table
 
     plotted_as(output, format)  # what cannot be written is not worked out

@@ -10,16 +10,14 @@ import typer
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.output import (
+from geneva_cli.output import draw, draw_sheet, show
+from geneva_cli.output.formats import (
     DRAWN,
     DXF_VERSIONS,
     FILLS,
     FORMATS,
-    draw,
-    draw_sheet,
     is_drawn,
     sheet_as,
-    show,
     usual_curves,
 )
 from geneva_cli.parts.catalogue import PARTS, is_sheet

@@ -8,7 +8,7 @@ import typer
 
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Given, Output, SpecPath, one_of, say
-from geneva_cli.output import DOCUMENTS, FORMATS
+from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
 EXAMPLES = (
     "geneva report spec.toml",
@@ -41,7 +41,8 @@ def run(
     Exit status 1 where `check` has it: where a check fails.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import hand_over, is_document, show
+    from geneva_cli.output import hand_over, show
+    from geneva_cli.output.formats import is_document
 
     is_whole = is_document(output, format)
     design = load(spec, given or ())

@@ -81,7 +81,7 @@ def run(
     --resume. The rows of all shares, one after the other, are those of one run: the first alone has
     the header. With --random and --best a key may vary between LOW:HIGH.
     """
-    from geneva_cli.output import FORMATS
+    from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.request import request
 
     if format and format not in FORMATS:

@@ -155,7 +155,8 @@ def _frame(path: str, given: Sequence[str]) -> Spec:
 
 
 def _show(wish: Wish, checked: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import format_of, show
+    from geneva_cli.output import show
+    from geneva_cli.output.formats import format_of
     from geneva_cli.study.synthesis.shown import for_people
     from geneva_cli.study.synthesis.table import synthesis_table
 

@@ -32,7 +32,8 @@ def run(
     maximum; `avoid` says where they move with stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import format_of, show
+    from geneva_cli.output import show
+    from geneva_cli.output.formats import format_of
 
     design = load(spec, given or ())
     if (format or format_of(output)) == "csv":

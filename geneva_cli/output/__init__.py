@@ -5,10 +5,23 @@ from __future__ import annotations
 import importlib
 import os
 import sys
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output.formats import (
+    DOCUMENTS,
+    DRAWN,
+    FORMATS,
+    MOVING,
+    PLOTTED,
+    drawn_as,
+    format_of,
+    plotted_as,
+    require_own,
+    sheet_as,
+    table_as,
+)
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -17,26 +30,6 @@ if TYPE_CHECKING:
     from geneva_cli.document import Document
     from geneva_cli.figure import Figure
     from geneva_cli.scene import Scene
-
-# --format -> module; the extension of a file names a format too
-FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
-# of drawings only; they are written in FORMATS as tables
-DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
-SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs
-SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
-MOVING = (".html", ".htm", ".gif")  # of scenes only
-PICTURES = ("png", "pdf")  # of figures only
-# of documents; the other formats of tables get their values
-DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
-PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
-EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
-EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
-# what ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and read by all
-DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
-# how plates are shown in .svg
-FILLS = ("none", "tint", "hatch")
-# options that one format of drawings and sheets has -> as a user knows it, and the format
-OPTIONS = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
 
 
 class Format(Protocol):
@@ -72,11 +65,7 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
     Raises GenevaError where the format is none of a table's or the file cannot be written.
     """
-    name = format or format_of(output)
-    if name not in FORMATS:
-        raise GenevaError(
-            f"--format {cut(name)}: {_wrong(name)}it must be one of {', '.join(FORMATS)}"
-        )
+    name = table_as(output, format)
     from geneva_cli.output.finite import checked
 
     table = checked(table, _progress)
@@ -98,11 +87,8 @@ def draw(
     one format, of OPTIONS. Raises GenevaError where a format or a unit is unknown, an option is
     another format's, nothing is drawn or the file cannot be written.
     """
-    formats = {**DRAWN, **FORMATS}
-    name = format or format_of(output, formats)
-    if name not in formats:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
-    _require_own(own, name)
+    name = drawn_as(output, format)
+    require_own(own, name)
     if name in FORMATS:
         from geneva_cli.curves.pieces import pieces_table
 
@@ -110,16 +96,6 @@ def draw(
         return
     module = cast(DrawnFormat, importlib.import_module(f"geneva_cli.output.{DRAWN[name]}"))
     _put(module.chunks(drawing, units, **own), output, inputs)
-
-
-def usual_curves(output: str, format: str) -> str:
-    """How curved walls are written unless a user says: as ``spline`` in solids, ``arcs`` elsewhere.
-
-    >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
-    ('spline', 'arcs')
-    """
-    extension = os.path.splitext(output)[1].lower().lstrip(".")
-    return "spline" if (format or EXTENSIONS.get(extension)) in SMOOTH else "arcs"
 
 
 def draw_sheet(
@@ -131,31 +107,9 @@ def draw_sheet(
     file cannot be written.
     """
     name = sheet_as(output, format)
-    _require_own(own, name)
+    require_own(own, name)
     module = cast(SheetFormat, importlib.import_module(f"geneva_cli.output.sheets.{name}"))
     _put(module.chunks(sheet, **own), output, inputs)
-
-
-def sheet_as(output: str, format: str) -> str:
-    """The format of a drawing sheet. Raises GenevaError where it is none."""
-    if not format and output == "-":
-        raise GenevaError(
-            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, say, or --format"
-        )
-    name = format or format_of(output, SHEETS)
-    if name not in SHEETS:
-        raise GenevaError(
-            f"--format {cut(name)}: of a drawing sheet it must be one of {', '.join(SHEETS)}"
-        )
-    return name
-
-
-def _require_own(own: dict[str, Any], name: str) -> None:
-    """Raise GenevaError for an option of another format than the one that is written."""
-    for key in own:
-        option, of = OPTIONS[key]
-        if name != of:
-            raise GenevaError(f"{option} is for .{of}, and this is {name}; leave it out")
 
 
 def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -208,20 +162,6 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     _put(page.chunks(scene), output, inputs)
 
 
-def is_document(output: str, format: str) -> bool:
-    """Whether this file or format takes a document, and no table.
-
-    Raises GenevaError where it is neither.
-    """
-    formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
-    name = format or format_of(output, formats)
-    if name not in formats:
-        raise GenevaError(
-            f"--format {cut(name)}: of a report it must be one of {', '.join(formats)}"
-        )
-    return name in DOCUMENTS
-
-
 def hand_over(
     document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
@@ -237,15 +177,6 @@ def hand_over(
     _put(module.chunks(document), output, inputs)
 
 
-def plotted_as(output: str, format: str) -> str:
-    """The format of a figure. Raises GenevaError where it is none."""
-    formats = dict.fromkeys((*PLOTTED, *FORMATS))
-    name = format or format_of(output, formats)
-    if name not in formats:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
-    return name
-
-
 def _terminal(output: str) -> tuple[int, bool]:
     """Columns of a chart, and whether it may have letters beyond ASCII: only where one looks."""
     if output != "-" or not sys.stdout.isatty():
@@ -253,18 +184,6 @@ def _terminal(output: str) -> tuple[int, bool]:
     import shutil
 
     return shutil.get_terminal_size().columns, "utf" in (sys.stdout.encoding or "").lower()
-
-
-def is_drawn(output: str, format: str) -> bool:
-    """Whether this file or format takes a drawing as lines and arcs, and no table.
-
-    Raises GenevaError where it is neither.
-    """
-    formats = {**DRAWN, **FORMATS}
-    name = format or format_of(output, formats)
-    if name not in formats:
-        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
-    return name in DRAWN
 
 
 def show_text(text: str, output: str = "-") -> None:
@@ -281,30 +200,6 @@ def show_markdown(text: str) -> None:
     from rich.markdown import Markdown
 
     Console().print(Markdown(text))
-
-
-def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
-    """The format that a file's extension names; for standard output, the one for people.
-
-    Raises GenevaError where that is none of ``formats``, by default a table's.
-    """
-    if output == "-":
-        return "table"
-    extension = os.path.splitext(output)[1].lower().lstrip(".")
-    name = EXTENSIONS.get(extension, "")
-    if name not in formats:
-        known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
-        if name:
-            wrong = _wrong(name) if formats is FORMATS else ""
-            raise GenevaError(f'-o "{cut(output)}": {wrong}it must end in {known}')
-        raise GenevaError(
-            f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
-        )
-    return name
-
-
-def _wrong(name: str) -> str:
-    return f"{name} holds a drawing, and this is a table; " if name in (*DRAWN, *PICTURES) else ""
 
 
 def _progress(done: int, rows: int) -> None:

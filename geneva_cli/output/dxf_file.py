@@ -6,8 +6,8 @@ import io
 from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.output import DXF_VERSIONS
 from geneva_cli.output.ezdxf_alone import Document, Modelspace, options
+from geneva_cli.output.formats import DXF_VERSIONS
 
 USUAL = "R2000"
 INSUNITS = {"mm": 4, "inch": 1}

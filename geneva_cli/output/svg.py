@@ -13,7 +13,7 @@ from geneva_cli.curves.measure import Box, extent
 from geneva_cli.curves.pieces import SUFFIX, UNITS, prepared
 from geneva_cli.curves.shapes import Drawing
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.output import FILLS
+from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.output.svg_fill import filled
 from geneva_cli.output.svg_look import notes, style

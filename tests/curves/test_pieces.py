@@ -12,7 +12,8 @@ from test_dxf import MANY, bow, of, smooth
 from geneva_cli.curves.pieces import pieces_table, prepared
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import draw, dxf, format_of, show, svg
+from geneva_cli.output import draw, dxf, show, svg
+from geneva_cli.output.formats import format_of
 from geneva_cli.table import rows_table
 
 

@@ -10,8 +10,8 @@ from test_dxf import MANY, SAME, bow, of, smooth
 
 from geneva_cli.curves.shapes import Arc, Circle, Line, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import DXF_VERSIONS
 from geneva_cli.output.dxf import chunks
+from geneva_cli.output.formats import DXF_VERSIONS
 
 NUMBERS = dict(
     zip(

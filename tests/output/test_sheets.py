@@ -16,7 +16,8 @@ from geneva_cli.curves.helvetica import CAPITALS, width
 from geneva_cli.curves.sheet import WIDTHS, Label
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import DXF_VERSIONS, draw_sheet, pdf_file, sheet_as
+from geneva_cli.output import draw_sheet, pdf_file
+from geneva_cli.output.formats import DXF_VERSIONS, sheet_as
 from geneva_cli.output.sheets import dxf, pdf, svg
 from geneva_cli.spec.tables import Size
 

@@ -15,7 +15,8 @@ from geneva_cli.app import app
 from geneva_cli.curves.plates import plates
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import FILLS, draw
+from geneva_cli.output import draw
+from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.strokes import DARK
 from geneva_cli.output.svg import chunks

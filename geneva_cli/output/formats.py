@@ -1,0 +1,135 @@
+"""The formats, and which one is meant: by its name, or by the extension of a file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection
+from typing import Any
+
+from geneva_cli.errors import GenevaError, cut
+
+# --format -> module; the extension of a file names a format too
+FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
+# of drawings only; they are written in FORMATS as tables
+DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
+SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs
+SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
+MOVING = (".html", ".htm", ".gif")  # of scenes only
+PICTURES = ("png", "pdf")  # of figures only
+# of documents; the other formats of tables get their values
+DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
+PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
+EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
+EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
+# what ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and read by all
+DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
+# how plates are shown in .svg
+FILLS = ("none", "tint", "hatch")
+# options that one format of drawings and sheets has -> as a user knows it, and the format
+OPTIONS = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
+
+
+def table_as(output: str, format: str) -> str:
+    """The format of a table. Raises GenevaError where it is none."""
+    name = format or format_of(output)
+    if name not in FORMATS:
+        raise GenevaError(
+            f"--format {cut(name)}: {_wrong(name)}it must be one of {', '.join(FORMATS)}"
+        )
+    return name
+
+
+def drawn_as(output: str, format: str) -> str:
+    """The format of a drawing, or of a table of it. Raises GenevaError where it is none."""
+    formats = {**DRAWN, **FORMATS}
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
+    return name
+
+
+def is_drawn(output: str, format: str) -> bool:
+    """Whether this file or format takes a drawing as lines and arcs, and no table.
+
+    Raises GenevaError where it is neither.
+    """
+    return drawn_as(output, format) in DRAWN
+
+
+def usual_curves(output: str, format: str) -> str:
+    """How curved walls are written unless a user says: as ``spline`` in solids, ``arcs`` elsewhere.
+
+    >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
+    ('spline', 'arcs')
+    """
+    extension = os.path.splitext(output)[1].lower().lstrip(".")
+    return "spline" if (format or EXTENSIONS.get(extension)) in SMOOTH else "arcs"
+
+
+def sheet_as(output: str, format: str) -> str:
+    """The format of a drawing sheet. Raises GenevaError where it is none."""
+    if not format and output == "-":
+        raise GenevaError(
+            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, say, or --format"
+        )
+    name = format or format_of(output, SHEETS)
+    if name not in SHEETS:
+        raise GenevaError(
+            f"--format {cut(name)}: of a drawing sheet it must be one of {', '.join(SHEETS)}"
+        )
+    return name
+
+
+def require_own(own: dict[str, Any], name: str) -> None:
+    """Raise GenevaError for an option of another format than the one that is written."""
+    for key in own:
+        option, of = OPTIONS[key]
+        if name != of:
+            raise GenevaError(f"{option} is for .{of}, and this is {name}; leave it out")
+
+
+def is_document(output: str, format: str) -> bool:
+    """Whether this file or format takes a document, and no table.
+
+    Raises GenevaError where it is neither.
+    """
+    formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(
+            f"--format {cut(name)}: of a report it must be one of {', '.join(formats)}"
+        )
+    return name in DOCUMENTS
+
+
+def plotted_as(output: str, format: str) -> str:
+    """The format of a figure. Raises GenevaError where it is none."""
+    formats = dict.fromkeys((*PLOTTED, *FORMATS))
+    name = format or format_of(output, formats)
+    if name not in formats:
+        raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(formats)}")
+    return name
+
+
+def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
+    """The format that a file's extension names; for standard output, the one for people.
+
+    Raises GenevaError where that is none of ``formats``, by default a table's.
+    """
+    if output == "-":
+        return "table"
+    extension = os.path.splitext(output)[1].lower().lstrip(".")
+    name = EXTENSIONS.get(extension, "")
+    if name not in formats:
+        known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
+        if name:
+            wrong = _wrong(name) if formats is FORMATS else ""
+            raise GenevaError(f'-o "{cut(output)}": {wrong}it must end in {known}')
+        raise GenevaError(
+            f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
+        )
+    return name
+
+
+def _wrong(name: str) -> str:
+    return f"{name} holds a drawing, and this is a table; " if name in (*DRAWN, *PICTURES) else ""
