@@ -118,3 +118,24 @@ def test_loads_together_as_alone(spec, vary, some):
         for name, a, b in zip(LOADS, one[len(keys) : -1], other[len(keys) : -1], strict=True):
             near = {"abs": PLACE} if name.endswith("at_deg") else {"rel": 1e-12, "abs": 1e-9}
             assert a == b or a == pytest.approx(b, **near), name
+
+
+PINS = [f"strength.pin.{name}" for name in ("diameter_mm", "stress_MPa", "least_diameter_mm")]
+PINS += ["strength.pin.bending_MPa", "strength.pin.shear_MPa"]
+
+
+@pytest.mark.parametrize("spec", ["side-crank-z6.toml", "modified-sine-matched.toml"])
+def test_pins_together_as_alone(spec):
+    """Formulas of the greatest force; a design without a load is asked by itself."""
+    vary = ["load.inertia_kgm2=0,1", "size.pin_mm=0,4", "size.face_width_mm=10,20"]
+    together, alone, found = rows(
+        spec, [*vary, "drive.n_rpm=30,60", "material.roller.stress_max_MPa=300"], PINS
+    )
+    keys = len(found.plan.axes)
+    every = found.plan.rows(0, len(alone))
+    names = [axis.key for axis in found.plan.axes]
+    assert batch.table(every, names, found.pick.names, found._spec)
+    for one, other in zip(together, alone, strict=True):
+        assert one[-1] == other[-1] is None
+        for name, a, b in zip(PINS, one[keys:-1], other[keys:-1], strict=True):
+            assert a == b or a == pytest.approx(b, rel=1e-14), name

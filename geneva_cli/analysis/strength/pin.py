@@ -21,6 +21,10 @@ class Pin(NamedTuple):
     bending: Number
     shear: Number
 
+    def under(self, force_N: Number) -> Pin:
+        """The stresses under a force, megapascals."""
+        return Pin(self.diameter_mm, self.bending * force_N, self.shear * force_N)
+
     @property
     def equivalent(self) -> Number:
         """The greatest von Mises stress of the section.

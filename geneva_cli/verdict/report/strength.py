@@ -29,17 +29,17 @@ def strong(proof: Proof) -> Values:
 def _pin(of: Strength) -> Values:
     allowed = of.spec.material_roller.stress_max_MPa
     stress, pin, force = of.pin_stress_MPa, of.pin, of.force_N
-    known = pin is not None and force is not None
+    under = pin.under(force) if pin and force is not None else None
     return {
         "diameter_mm": float(pin.diameter_mm) if pin else None,
-        "bending_MPa": float(pin.bending * force) if pin and force is not None else None,
-        "shear_MPa": float(pin.shear * force) if pin and force is not None else None,
+        "bending_MPa": float(under.bending) if under else None,
+        "shear_MPa": float(under.shear) if under else None,
         "stress_MPa": stress,
         "allowed_MPa": allowed,
         "margin": margin(stress, allowed),
         "least_diameter_mm": (
             float(pins.least_diameter_mm(pin, force, allowed))
-            if known and allowed and pin and force
+            if allowed and pin and force
             else None
         ),
     }
