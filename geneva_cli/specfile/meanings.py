@@ -110,8 +110,8 @@ def _found(word: str) -> list[Meaning]:
         of = [m for m in _found(base) if m.group == "quantity"]
         if of:
             return [_ended(ending, one, word) for one in of]
-    by_end = [(entry, name) for entry in some for name in entry.names if name.endswith(f".{word}")]
-    return [_of_entry(entry, name) for entry, name in by_end] + keys
+    by_end = {e: [name for name in e.names if name.endswith(f".{word}")] for e in some}
+    return [_of_entry(entry, named[0]) for entry, named in by_end.items() if named] + keys
 
 
 def _of_entry(entry: Entry, name: str) -> Meaning:
@@ -178,4 +178,4 @@ def _sentence(text: str) -> str:
 
 
 def _sentenced(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}."
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
