@@ -10,7 +10,7 @@ those of one design; all its stretches are found together, a block of designs af
     >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> found = many(spec, {"drive.A": np.array([0.0, 0.6])})
     >>> greatest_of_many(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
-    array([1956.0443,  680.6116])
+    array([1905.0702,  731.1404])
 """
 
 from __future__ import annotations
