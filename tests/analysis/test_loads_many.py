@@ -164,6 +164,17 @@ def test_blocks_of_designs_answer_as_each_does(name):
             assert np.array_equal(values, np.tile(first, n // few), equal_nan=True)
 
 
+@pytest.mark.parametrize("name", ["crank", "elliptical gears", "spherical", "gear sector"])
+def test_sizes_of_half_a_motion_are_those_of_the_whole(name):
+    """Without friction the second half has none greater, and greatest sizes do not look there."""
+    names = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
+    _, _, found = loaded(name, 30, 9, friction=0.0, torque_Nm=0.0)
+    sizes = greatest_of_many(found.machine, names)
+    for load, whole in summaries_of_many(found.machine, names, told=()).items():
+        most = np.maximum(whole.max, -whole.min)
+        assert sizes[load].max == pytest.approx(most, rel=32 * ULP), load
+
+
 def test_the_inertia_alone_against_the_theory():
     """theory-loads: the pin force's factor of the classic wheel of six slots, at -19.96 deg."""
     spec, _ = MACHINES["crank"]
