@@ -97,8 +97,9 @@ def run(
     """From wishes to machines that grant them all, the lowest peak acceleration first.
 
     Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
-    0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak; with bounds
-    and no wish for a motion, the one nearest to the plain crank that keeps them.
+    0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak, or with
+    the least of --sort; with bounds, no wish for a motion and no --sort, the one that keeps them
+    nearest to the plain crank (a four-bar: the gentlest, of the plain crank's motion if it can).
 
     Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
     tenth of the centre distance aside; a side-crank; equal elliptical gears; a planet gear (z 3, 4,
@@ -107,9 +108,11 @@ def run(
     while their parts can be built.
     Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the motion.
 
-    The four-bar has the lowest peak found among proportions whose crank turns all round and whose
-    joints keep to --space; a machine is named by its crank, ground, coupler, rocker and the
-    roller's distance on the coupler, in mm. Something else must hold its wheel at rest: "detent".
+    The four-bar is the best found among proportions whose crank turns all round, whose joints keep
+    to --space and whose roller passes the wheel on its way back; where --sort or a bound is not on
+    times, peaks or entries, the best of its gentlest seven. A machine is named by its crank,
+    ground, coupler, rocker and the roller's distance on the coupler, in mm. Something else must
+    hold its wheel at rest: "detent".
 
     Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
     they do; no, with the reason; maybe for those below the first twenty (--checked); nothing for

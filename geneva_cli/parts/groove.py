@@ -28,7 +28,7 @@ EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc
 
 def distance(groove: SolvedPath, input_deg: Array) -> Array:
     """The roller's distance from the crank's axis over a whole turn, in units of L."""
-    return _distances(groove, input_deg)[0]
+    return _distances(groove, input_deg, 0)[0]
 
 
 def groove_curve(
@@ -50,8 +50,9 @@ def groove_curve(
     return curve
 
 
-def _distances(groove: SolvedPath, input_deg: Array) -> list[Array]:
-    """The roller's distance from the crank's axis, with two derivatives by the input in radians.
+def _distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> list[Array]:
+    """The roller's distance from the crank's axis, with up to two derivatives by the input in
+    radians.
 
     In the dwell the slope fades over EASED_DEG beyond either end, and the groove is an arc about
     the crank's axis between; where the two ends lead to different arcs, a 3-4-5 curve joins them.
@@ -59,12 +60,12 @@ def _distances(groove: SolvedPath, input_deg: Array) -> list[Array]:
     """
     at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
     moving = at <= groove.motion.exit_deg
-    out = [np.empty(len(at)) for _ in range(3)]
+    out = [np.empty(len(at)) for _ in range(order + 1)]
     if moving.any():
-        found = groove.distances(at[moving], 2)[1].derivatives()
+        found = groove.distances(at[moving], order)[1].derivatives()
         for column, values in zip(out, found, strict=True):
             column[moving] = values
-    for column, values in zip(out, _back(groove, at[~moving]), strict=True):
+    for column, values in zip(out, _back(groove, at[~moving]), strict=False):
         column[~moving] = values
     return out
 

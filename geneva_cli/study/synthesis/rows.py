@@ -80,13 +80,14 @@ class Looked(NamedTuple):
     error: str = ""
 
 
-def looked(spec: Spec) -> Looked:
-    """A machine built, its parts looked at, and what its limits or its groove ask for checked."""
+def looked(spec: Spec, limited: bool) -> Looked:
+    """A machine built, its parts looked at, and what its groove asks for checked; ``limited``: its
+    limits too.
+    """
     try:
         machine, found = suited(spec)
     except GenevaError as error:
         return Looked(None, Parts(spec, None), str(error))
-    limited = any(value is not None for value in spec.limits.as_dict().values())
     if not found.why and (limited or machine.engagements[0].groove):
         sized = machine._replace(spec=found.spec)
         failed = _failing(sized) if limited else _wedged(machine)
@@ -115,13 +116,17 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
     out = []
-    for found, five in zip(map(looked, specs), own, strict=True):
+    # the limit that the wish itself is, ``search`` keeps
+    limits = wish.frame.limits.as_dict().values() if wish.frame else ()
+    limited = any(value is not None for value in limits)
+    for spec, five in zip(specs, own, strict=True):
+        found = looked(spec, limited)
         machine = found.machine
         if machine is None:
             errors.append(found.error)
             continue
-        spec = machine.spec
-        values = five if spec.motion is None else _law_costs(machine, spec.motion.law.NAME)
+        law = machine.spec.motion
+        values = five if law is None else _law_costs(machine, law.law.NAME)
         if values is not None:
             out.append(Row(found.parts.spec, _way(machine, wish, values, found.parts.said)))
     return out

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -16,12 +17,12 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import families
-from geneva_cli.study.synthesis.families.family import natural_deg
+from geneva_cli.study.synthesis.families.family import holds, natural_deg
+from geneva_cli.study.synthesis.families.straight import plain
 from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
 from geneva_cli.study.synthesis.rows import Row, Way, rows
+from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
-
-PEAK = "acceleration.max"
 
 
 class Found(NamedTuple):
@@ -38,14 +39,13 @@ def search(wish: Wish) -> Found:
     """
     reached: list[float] = []
     errors: list[str] = []
-    every = [*families(wish, reached)]
-    first = next((spec for f in every if (spec := _buildable(f.make, f.low))), None)
-    wanted = asked(wish, first) if first else Asked(None, (), "")
-    quick = [b for b in wanted.bounds if known([b.name])]
-    if wish.acceleration_max is not None:
-        quick.append(Constraint(PEAK, "<=", wish.acceleration_max))
-    one_each = best(every, quick, nearest=wish.any_motion)
-    specs = [_limited(wish, spec) for spec in dict.fromkeys(one_each)]
+    wanted = _asked(wish)
+    sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
+    wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
+    quick = [b for b in wish.limits if known([b.name])]
+    least = wish.sort if wanted.sort and known([wanted.sort]) else ""
+    one_each = best([*families(wish, reached)], quick, wish.any_motion, least)
+    specs = [_limited(wish, spec) for spec in _keeping(quick, [*dict.fromkeys(one_each)])]
     found = [row for row in rows(wish, specs, errors) if _kept(wish, row)]
     if not found:
         raise GenevaError(_out_of_reach(wish, reached, errors))
@@ -55,9 +55,35 @@ def search(wish: Wish) -> Found:
     return Found(found, wanted.names)
 
 
-def _buildable(make: Callable[[float], Spec], x: float) -> Spec | None:
+def _asked(wish: Wish) -> Asked:
+    """The quantities that a wish names, by their whole names; some plain crank has them."""
+    m = wish.rollers or 1
+    for gearing in wish.gearings:
+        for z in wish.z:
+            spec = _buildable(partial(plain, wish, registry.gearing(gearing)(z)), m)
+            if spec:
+                return asked(wish, spec)
+    return Asked(None, (), "")
+
+
+def _keeping(bounds: Sequence[Constraint], specs: list[Spec]) -> list[Spec]:
+    """The specs without those that break a bound, whatever roller they get; if all do, all."""
+    whatever = [b for b in bounds if not b.name.startswith("loads.")]
+    if not whatever:
+        return specs
+    values = numbers(specs, [b.name for b in whatever])
+    broken = [
+        own is not None and not all(b.kept(x) for b, x in zip(whatever, own, strict=True))
+        for own in values
+    ]
+    if not any(own and not out for own, out in zip(values, broken, strict=True)):
+        return specs
+    return [spec for spec, out in zip(specs, broken, strict=True) if not out]
+
+
+def _buildable(make: Callable[[int], Spec], m: int) -> Spec | None:
     try:
-        spec = make(x)
+        spec = make(m)
         build(spec)
     except GenevaError:
         return None
@@ -72,7 +98,10 @@ def _limited(wish: Wish, spec: Spec) -> Spec:
 
 
 def _kept(wish: Wish, row: Row) -> bool:
-    limit = wish.acceleration_max
+    """Whether the machine as built moves as wished: a linkage may drive another wheel as well."""
+    limit, motion = wish.acceleration_max, wish.motion_for(row.way.rollers)
+    if motion is not None and not holds(motion, row.way.motion_deg):
+        return False
     return limit is None or keeps(row.way.acceleration_max, "at most", limit)
 
 

@@ -24,6 +24,7 @@ GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Span(0.0, math.inf)
+PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take where nothing is said
 
 
@@ -55,6 +56,12 @@ class Wish(NamedTuple):
         """Whether any motion will do that keeps some bound."""
         bounded = bool(self.bounds) or self.acceleration_max is not None
         return bounded and self.asks_nothing(1)
+
+    @property
+    def limits(self) -> tuple[Constraint, ...]:
+        """All bounds, the one on the acceleration among them."""
+        most = self.acceleration_max
+        return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
 
     @property
     def only_acceleration(self) -> bool:

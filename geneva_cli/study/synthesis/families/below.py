@@ -18,6 +18,7 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.curved import cam, curved, law_costs, more_rollers
 from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
+from geneva_cli.study.synthesis.families.four_bars import four_bars
 from geneva_cli.study.synthesis.families.straight import driven, gears, plain, planets, side_crank
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -31,6 +32,7 @@ def below(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Family]:
         yield from driven(wish, wheel)
     if wish.rollers in (None, 1):
         yield from planets(wish, wheel, natural_deg(wheel))
+    yield from four_bars(wish, wheel)
 
 
 def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:

@@ -24,6 +24,10 @@ from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask
 
+BACK = 2  # places of the way back for one of the motion
+HALF_WALL = 1.0 / 400.0  # of the centre distance: half of what must stand between two slots
+TOUCH = 1e-6  # of a mouth's distance: a roller that leaves its slot stands this near to it
+
 
 class Links(NamedTuple):
     """Crank, ground, coupler and rocker; the coupler on the positive side. Shapes (n, 1)."""
@@ -57,12 +61,13 @@ class Drive(NamedTuple):
 
 
 class Judged(NamedTuple):
-    """Whether the wheel is driven, its peak acceleration, the centre distance, and how far from the
-    crank's axis a joint or the roller comes. Shapes (n,).
+    """What becomes of wheels: derivatives of their angles by the input angle at places of the
+    motion, (n, places) each; which are driven and let the roller pass on its way back, the centre
+    distance, and how far from the crank's axis a joint or the roller comes, (n,) each.
     """
 
+    derivatives: list[Array]  # the angle itself, velocity, acceleration, and jerk where asked for
     drives: Mask
-    peak: Array
     distance: Array
     reach: Array
 
@@ -105,10 +110,12 @@ def driving(links: Links, entry: Array, motion: Array, b: float, sense: Array) -
     return Drive(entry, motion, sense, foot + (total - at_rest) * way)
 
 
-def judged(links: Links, drive: Drive, b: float, inside: int, outside: int) -> Judged:
-    """What becomes of the wheel, looked at in so many places of the motion and of the way back."""
+def judged(links: Links, drive: Drive, b: float, roller: float, order: int, places: int) -> Judged:
+    """What becomes of the wheels, looked at in so many places of the motion and of the way back,
+    for a roller of that share of the centre distance, and derivatives up to that order.
+    """
     entry, motion, sense, w = drive
-    way = linked(links, entry + motion * (np.arange(inside + 1) / inside), 2)
+    way = linked(links, entry + motion * (np.arange(places + 1) / places), order)
     pins = [p + w * e for p, e in zip(way.pin, way.along, strict=True)]
     p, q, v = pins[0][:, :1], pins[0][:, -1:], pins[1][:, :1]
     t = v / np.abs(v)
@@ -116,17 +123,34 @@ def judged(links: Links, drive: Drive, b: float, inside: int, outside: int) -> J
     centre = p + rho * t
     rays = [pins[0] - centre, *pins[1:]]
     x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])
-    _, velocity, acceleration = (np.asarray(d) for d in atan2(y, x).derivatives())
-    back = entry + motion + (math.tau - motion) * (np.arange(1, outside) / outside)
-    rest = linked(links, back, 0)
+    derivatives = [np.asarray(d) for d in atan2(y, x).derivatives()]
+    away = np.arange(1, BACK * places) / (BACK * places)
+    rest = linked(links, entry + motion + (math.tau - motion) * away, 0)
     pin = rest.pin[0] + w * rest.along[0]
     # the chord runs from entry to exit, and the tangents meet there
     ahead = ((q - p) * t.conj() * np.exp(1j * sense * (0.5 * math.pi - b))).real > 0.0
-    drives = ahead[:, 0] & (velocity[:, 1:-1] * sense > 0.0).all(axis=1)
-    drives &= (np.abs(rays[0][:, 1:-1]) < rho).all(axis=1)
-    drives &= (np.abs(pin - centre) > rho).all(axis=1)
+    L, near = np.abs(centre), np.abs(rays[0])
+    drives = ahead[:, 0] & (derivatives[1][:, 1:-1] * sense > 0.0).all(axis=1)
+    drives &= (near[:, 1:-1] < rho).all(axis=1)
+    drives &= near.min(axis=1) * math.sin(b) >= (roller + HALF_WALL) * L[:, 0]
+    drives &= _passes((pin - centre) / (p - centre), roller * L / rho, b)
     joints = [way.pin[0] + links.b * way.along[0], rest.pin[0] + links.b * rest.along[0]]
     reach = np.maximum.reduce(
         [np.abs(z).max(axis=1) for z in (*joints, pins[0], pin)] + [links.g[:, 0]]
     )
-    return Judged(drives, np.abs(acceleration).max(axis=1), np.abs(centre[:, 0]), reach)
+    return Judged(derivatives, drives, L[:, 0], reach)
+
+
+def _passes(place: Complex, r: Array, b: float) -> Mask:
+    """Whether a roller passes the wheel at rest without a touch.
+
+    Lengths are over the distance of the slots' mouths from the wheel's axis, and a slot points
+    along the real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave
+    corners at (1, r): beside a slot the rim is nearest, before it a corner.
+    """
+    d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
+    along, aside, rim = d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r)
+    corner = np.hypot(along - 1.0, aside - r)
+    gap = np.where(aside * rim < r * d, corner, d - rim) - r
+    clear: Mask = np.all((gap >= -TOUCH) & (d > 1.0), axis=1)
+    return clear

@@ -45,7 +45,7 @@ def law_costs(law: str) -> Characteristic:
 
 def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     """Curved slots, and cams, with each law: of a range the longest motion, which is the gentlest,
-    and the plain crank's own; where the wish has bounds, any motion that keeps them.
+    and the plain crank's own; where the wish has bounds, or something else is to be least, any.
     """
     if not wheel.FLAT:
         return
@@ -72,8 +72,8 @@ def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 
 
 def _free(wish: Wish, make: Callable[[float], Spec], motion: Span, natural: float) -> Family:
-    """The machines of some motions, or without bounds the one of the longest."""
-    low = motion.low if wish.bounds else motion.high
+    """The machines of some motions, or the one of the longest where only its peak counts."""
+    low = motion.low if wish.bounds or wish.sort else motion.high
     return Family(make, low, motion.high, plain=natural)
 
 

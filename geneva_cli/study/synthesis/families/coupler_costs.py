@@ -1,0 +1,86 @@
+"""Quantities of four-bars that are searched for, from places of their motions."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.timing import Timing, timing
+from geneva_cli.study.sweep.columns import RATES
+from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synthesis.wish import Wish
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
+
+ORDERS = {"velocity": 1, "acceleration": 2, "power": 2, "jerk": 3}
+UNITS = {f"{told}_{unit}": power for power, unit in RATES.values() for told in ("max", "entry")}
+SPARE = 1e-4  # share by which bounds are kept, for what lies between the places
+
+
+class Costs(NamedTuple):
+    """Of n machines the derivatives at places of the motion, (n, places), and the motion angles,
+    degrees, (n,).
+    """
+
+    wish: Wish
+    index_deg: float
+    derivatives: list[Array]
+    motion_deg: Array
+
+    def of(self, name: str) -> Array:
+        """A quantity that ``known`` knows, (n,)."""
+        group, _, told = name.partition(".")
+        if group == "timing":
+            dwell = 360.0 - self.motion_deg
+            found = timing(self.motion_deg, dwell, self.index_deg, self._n_rpm())  # type: ignore[arg-type]
+            return np.broadcast_to(found._asdict()[told], self.motion_deg.shape)
+        value = self.derivatives[ORDERS[group]]
+        if group == "power":
+            value = value * self.derivatives[1]
+        size = np.abs(value[:, 0]) if told.startswith("entry") else top(np.abs(value))
+        if told in UNITS:
+            size = size * (self._n_rpm() * (math.pi / 30.0)) ** UNITS[told]
+        return size
+
+    def broken(self, bounds: tuple[Constraint, ...]) -> Array:
+        """By how much bounds are broken together, over their sizes, (n,)."""
+        total = np.zeros(len(self.motion_deg))
+        for b in bounds:
+            exact = b.name.startswith("timing.")
+            value = self.of(b.name)
+            room = (value - b.bound if b.sign == ">=" else b.bound - value) / (abs(b.bound) or 1.0)
+            total = total + np.maximum((-1e-9 if exact else SPARE) - room, 0.0)
+        return total
+
+    def _n_rpm(self) -> Array:
+        return np.array([self.wish.n_rpm(1, float(x)) for x in self.motion_deg])
+
+
+def known(name: str) -> bool:
+    """Whether the search knows a quantity."""
+    group, _, told = name.partition(".")
+    if group == "timing":
+        return told in Timing._fields
+    ended = told.startswith("entry")
+    whole = told in ("max", "entry") or told in UNITS
+    return group in ORDERS and whole and not (ended and group in ("velocity", "power"))
+
+
+def order(names: tuple[str, ...]) -> int:
+    """How many derivatives these quantities need, at least the acceleration."""
+    return max([2, *(ORDERS.get(name.partition(".")[0], 0) for name in names)])
+
+
+def top(values: Array) -> Array:
+    """The greatest of each row, that of the parabola through it and those beside it."""
+    rows = np.arange(len(values))
+    at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
+    low, middle, high = (values[rows, at + i] for i in (-1, 0, 1))
+    bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
+    inside = (bend < 0.0) & (middle >= low) & (middle >= high)
+    vertex = middle - slope * slope / np.where(inside, 2.0 * bend, 1.0)
+    found: Array = np.where(inside, vertex, values.max(axis=1))
+    return found
