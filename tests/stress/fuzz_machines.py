@@ -96,11 +96,6 @@ def usual(rng, key, z, L, r, outside):
         "arm_thickness_mm": L / 10.0,
         "dial_bolt_mm": L / 40.0,
         "dial_bolt_circle_mm": L / 2.0,
-        "link_pin_mm": L / 20.0,
-        "link_bore_mm": L / 10.0,
-        "link_width_mm": L / 10.0,
-        "link_thickness_mm": L / 10.0,
-        "washer_mm": L / 100.0,
     }
     return near(rng, of[key])
 
