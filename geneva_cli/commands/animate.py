@@ -17,15 +17,18 @@ def run(
     output: Annotated[
         str,
         typer.Option(
-            "-o", "--output", metavar="FILE", help="Write to this .html or .gif; - prints html."
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write to this .html, .gif or .svg; - prints html.",
         ),
     ] = "-",
 ) -> None:
     """A page that needs no network, on which the machine turns.
 
     Its parts as they are cut, links and gears, the contact's force, what holds the wheel, and the
-    curves with a cursor; played, or moved by a slider over the input's angle. A .gif
-    needs the extra plot.
+    curves with a cursor; played, or moved by a slider over the input's angle. A .gif needs the
+    extra plot; an .svg stands still.
     """
     from geneva_cli.design import load
     from geneva_cli.output import animate

@@ -143,7 +143,7 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
-    """Write the scene as a page of HTML, ``-`` to standard output, or as a moving .gif.
+    """Write the scene as a page of HTML, ``-`` to standard output, a moving .gif, a still .svg.
 
     Raises GenevaError where the extension is another, Pillow is missing for a .gif, or the file
     cannot be written.
@@ -157,9 +157,10 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
 
         write_bytes(output, [written(scene)], inputs)
         return
-    from geneva_cli.output import page
+    from geneva_cli.output import page, still_svg
 
-    _put(page.chunks(scene), output, inputs)
+    chunks = still_svg.chunks if extension == ".svg" else page.chunks
+    _put(chunks(scene), output, inputs)
 
 
 def hand_over(

@@ -14,7 +14,7 @@ FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markd
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
 SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs
 SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
-MOVING = (".html", ".htm", ".gif")  # of scenes only
+MOVING = (".html", ".htm", ".gif", ".svg")  # of scenes only
 PICTURES = ("png", "pdf")  # of figures only
 # of documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}

@@ -4,6 +4,7 @@ import json
 import re
 from functools import cache
 from html.parser import HTMLParser
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ import repo
 from py_mini_racer import MiniRacer
 
 from geneva_cli import load
-from geneva_cli.output import animate, moving_gif, page
+from geneva_cli.output import animate, moving_gif, page, still_svg
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import Turn
 
@@ -193,6 +194,22 @@ def test_a_gif_moves_as_the_page_does(tmp_path):
             pixels = np.asarray(image.convert("RGB"), dtype=int)
             filled.append(float((pixels[..., 2] - pixels[..., 0] > 15).mean()))
     assert min(filled) > 0.2 and max(filled) - min(filled) < 0.02
+
+
+@pytest.mark.parametrize("name", ["spherical-z6", "gear-sector", "internal-z6"])
+def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
+    """Well-formed, and its wheel and rollers where the scene's tracks have them there."""
+    found, file = scene(design_of(name)), tmp_path / "still.svg"
+    animate(found, str(file))
+    root = ElementTree.parse(file).getroot()
+    t = still_svg.BETWEEN * found.turn_deg
+    turned = re.search(r"rotate\(([^)]*)\)", root[1].get("transform"))[1]
+    angle = moving_gif.value_at(found.bodies[0].angle, t)
+    assert float(turned) == pytest.approx(-np.degrees(angle), rel=1e-5)  # six digits
+    drawn = [(float(c.get("cx")), -float(c.get("cy"))) for c in root if c.tag.endswith("circle")]
+    for x, y in found.rollers:
+        place = moving_gif.value_at(x, t), moving_gif.value_at(y, t)
+        assert min(np.hypot(a - place[0], b - place[1]) for a, b in drawn) < 1e-2
 
 
 def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():

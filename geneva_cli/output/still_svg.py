@@ -1,0 +1,83 @@
+"""A scene as a picture of it at one input angle, for machines that no parts are drawn of too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+from xml.sax.saxutils import escape
+
+from geneva_cli.errors import clean
+from geneva_cli.output.inks import INKS
+from geneva_cli.output.moving_gif import value_at
+from geneva_cli.output.svg_paths import element
+
+if TYPE_CHECKING:
+    from geneva_cli.scene import Bar, Body, Place, Scene
+
+WIDE = 640.0  # px
+MARGIN = 0.02  # of the greater side
+BETWEEN = 0.12  # of the turn: the first roller is in its slot
+STROKE, LINK, JOINT = 0.004, 0.012, 0.008  # of the greater side
+GREY, BROWN = "#757575", "#a56752"
+OPEN = ("PITCH", "GROOVE", "SLOT")  # layers of lines
+HOLES = ("BORE", "HOLLOW")
+
+
+def chunks(scene: Scene) -> Iterator[str]:
+    """The file's text; it reads on light and on dark pages."""
+    x0, y0, x1, y1 = scene.box
+    size = max(x1 - x0, y1 - y0)
+    margin, t = MARGIN * size, BETWEEN * scene.turn_deg
+    wide, high = x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin
+    view = " ".join(f"{v:.6g}" for v in (x0 - margin, -y1 - margin, wide, high))
+    yield (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDE:g}" '
+        f'height="{WIDE * high / wide:.6g}" viewBox="{view}" fill="none" '
+        f'stroke-width="{STROKE * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
+        f"<title>{escape(clean(scene.title))}</title>\n"
+    )
+    for body in scene.bodies:
+        yield from _body(body, t)
+    for bar in scene.bars:
+        yield from _bar(bar, t, size)
+    ink = INKS["ROLLER"].rgb
+    for place in scene.rollers:
+        yield _circle(_at(place, t), scene.roller_radius, f'stroke="{ink}" fill="{ink}66"')
+    yield "</svg>\n"
+
+
+def _body(body: Body, t: float) -> Iterator[str]:
+    (x, y), turned = body.centre, -math.degrees(value_at(body.angle, t))
+    yield f'<g transform="translate({x:.6g} {-y:.6g}) rotate({turned:.6g})">\n'
+    for shape in body.shapes:
+        ink = INKS[shape.layer].rgb if shape.layer in INKS else GREY
+        if shape.layer == "HOLLOW":
+            ink = INKS["WHEEL"].rgb
+        fill = "none" if shape.layer in (*OPEN, *HOLES) else f"{ink}26"
+        yield f'<g stroke="{ink}" fill="{fill}">{element(shape).strip()}</g>\n'
+    yield "</g>\n"
+
+
+def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
+    joints = [_at(place, t) for place in bar.joints]
+    if bar.radius:
+        yield _circle(joints[0], bar.radius, f'stroke="{GREY}"')
+        return
+    if len(joints) > 1:
+        points = " ".join(f"{x:.6g},{y:.6g}" for x, y in joints)
+        yield (
+            f'<polygon points="{points}" stroke="{BROWN}" fill="{BROWN}33" '
+            f'stroke-width="{LINK * size:.6g}"/>\n'
+        )
+    for joint in joints:
+        yield _circle(joint, JOINT * size, f'stroke="{GREY}" fill="#ffffff"')
+
+
+def _circle(at: tuple[float, float], r: float, paint: str) -> str:
+    return f'<circle cx="{at[0]:.6g}" cy="{at[1]:.6g}" r="{r:.6g}" {paint}/>\n'
+
+
+def _at(place: Place, t: float) -> tuple[float, float]:
+    return value_at(place[0], t), -value_at(place[1], t)
