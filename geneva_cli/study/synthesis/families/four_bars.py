@@ -131,4 +131,6 @@ def _machine(wish: Wish, wheel: Gearing, drive: FourBar, motion_deg: float) -> S
     """A machine of the wish's frame; its centre distance follows from the links."""
     held = wheel.but(held_by="detent")  # there is no locking disc
     spec = machine(wish, held, lambda n: drive.but(n_rpm=n), 1, motion_deg)
-    return spec.but(size=spec.size.but(center_distance_mm=None))
+    # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
+    hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
+    return spec.but(size=spec.size.but(center_distance_mm=None, wheel_hub_mm=hub))
