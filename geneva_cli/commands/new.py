@@ -46,7 +46,7 @@ def run(
     from geneva_cli.table import rows_table
 
     if bool(kind) + bool(from_design) + list_ != 1:
-        raise GenevaError("give one of KIND, --from-design NAME and --list")
+        raise GenevaError("KIND, --from-design NAME or --list: give one of them")
     if list_:
         from geneva_cli.specfile.designs import titles
 

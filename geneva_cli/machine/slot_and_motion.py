@@ -17,9 +17,10 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 from geneva_cli.numerics.latest import Latest
 
-# Where psi and phi nearly vanish together, a series of psi / phi: within these angles its first
-# terms are exact to a double (a spline's series ends at its fifth).
-NEAR_DEG, TERMS = 3.0, 15
+# Where psi and phi nearly vanish together, a series of psi / phi. Within this share of the motion
+# its first terms are exact to a double, of laws with five waves in it too, and beyond it the sines
+# keep enough digits of their quotient's derivatives (a spline's series ends at its fifth).
+NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
@@ -36,7 +37,9 @@ class SolvedPath:
         return rho, R
 
     def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        near = NEAR_DEG if self.motion.law.ANALYTIC else NEAR_SPLINE_DEG
+        motion = self.motion
+        wide = motion.exit_deg - motion.entry_deg
+        near = NEAR * wide if motion.law.ANALYTIC else NEAR_SPLINE_DEG
 
         def whole(x: Number) -> Jet:
             return _stacked(*self._by_sines(x, order))

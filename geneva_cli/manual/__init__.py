@@ -47,7 +47,8 @@ def page(topic: str) -> str:
     """
     if topic not in TOPICS:
         raise GenevaError(
-            f"{cut(topic)}: no such topic{nearest(topic, TOPICS)}; `geneva help` lists them"
+            f'"{cut(topic)}" is no page of the manual{nearest(topic, TOPICS)}; '
+            "`geneva help` lists all"
         )
     with open(os.path.join(os.path.dirname(__file__), f"{topic}.md"), encoding="utf-8") as file:
         text = file.read()
