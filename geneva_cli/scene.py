@@ -6,6 +6,7 @@ scene's start.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
@@ -25,6 +26,28 @@ class Track(NamedTuple):
     gain: float = 0.0
 
 
+def value_at(track: Track, t: float) -> float:
+    """A track's value at an input angle, as the page's script has it.
+
+    >>> from geneva_cli.scene import Track, value_at
+    >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
+    1.0
+    """
+    if len(track.at) == 1:
+        return track.value[0]
+    i = min(max(bisect_right(track.at, t) - 1, 0), len(track.at) - 2)
+    h = track.at[i + 1] - track.at[i]
+    if not h > 0.0:
+        return track.value[i + 1]
+    u = min(1.0, max(0.0, (t - track.at[i]) / h))
+    w = 1.0 - u
+    return (
+        w * w * (1.0 + 2.0 * u) * track.value[i]
+        + u * u * (1.0 + 2.0 * w) * track.value[i + 1]
+        + u * w * h * (w * track.slope[i] - u * track.slope[i + 1])
+    )
+
+
 Place: TypeAlias = tuple[Track, Track]
 Box: TypeAlias = tuple[float, float, float, float]  # least x and y, greatest x and y
 
@@ -38,12 +61,24 @@ class Body(NamedTuple):
     angle: Track  # counterclockwise
 
 
+class Carried(NamedTuple):
+    """Shapes that a link carries: their origin at a joint, x away from the first or ahead of it."""
+
+    joint: int
+    shapes: tuple[Shape, ...]
+
+
 class Bar(NamedTuple):
-    """A link between joints, or with a radius a circle about its one joint."""
+    """A link between joints, or with a radius a circle about its one joint.
+
+    ``plates`` are the link itself, from its first joint towards the second, and the blocks that
+    slide in it; where there are none it is seen as a bar.
+    """
 
     name: str
     joints: tuple[Place, ...]
     radius: float = 0.0
+    plates: tuple[Carried, ...] = ()
 
 
 class Push(NamedTuple):

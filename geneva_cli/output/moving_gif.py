@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import io
 import math
-from bisect import bisect_right
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
+from geneva_cli.scene import value_at
 
 if TYPE_CHECKING:
-    from geneva_cli.scene import Body, Place, Scene, Track
+    from collections.abc import Callable
+
+    from geneva_cli.scene import Bar, Body, Place, Scene
 
 WIDE = 400  # px
 FRAMES = 60  # of a turn
@@ -55,11 +57,7 @@ def written(scene: Scene) -> bytes:
             for layer, points, closed in outlines[body.name]:
                 _outline(pen, layer, [on_paper(p) for p in _turned(points, body, t)], closed)
         for bar in scene.bars:
-            joints = [on_paper(_place(place, t)) for place in bar.joints]
-            if bar.radius:
-                _ring(pen, joints[0], bar.radius * scale, GREY)
-            elif len(joints) > 1:
-                pen.line([*joints, joints[0]], fill=LINK, width=4 * FINER)
+            _link(pen, bar, t, on_paper, scale)
         for place in scene.rollers:
             centre = on_paper(_place(place, t))
             _ring(pen, centre, scene.roller_radius * scale, INKS["ROLLER"].rgb, "50")
@@ -72,6 +70,29 @@ def written(scene: Scene) -> bytes:
         out, "GIF", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False
     )
     return out.getvalue()
+
+
+def _link(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point], scale: float) -> None:
+    joints = [on_paper(_place(place, t)) for place in bar.joints]
+    if bar.radius:
+        _ring(pen, joints[0], bar.radius * scale, GREY)
+    elif bar.plates:
+        _plates(pen, bar, t, on_paper)
+    elif len(joints) > 1:
+        pen.line([*joints, joints[0]], fill=LINK, width=4 * FINER)
+
+
+def _plates(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point]) -> None:
+    """A link and its blocks, as they are cut."""
+    joints = [_place(place, t) for place in bar.joints]
+    for plate in bar.plates:
+        (x0, y0), (x1, y1) = joints[0], joints[plate.joint or 1]
+        (x, y), angle = joints[plate.joint], math.atan2(y1 - y0, x1 - x0)
+        c, s = math.cos(angle), math.sin(angle)
+        for i, shape in enumerate(plate.shapes):
+            points = [on_paper((x + c * u - s * v, y + s * u + c * v)) for u, v in _points(shape)]
+            pen.polygon(points, fill="#ffffff" if i else f"{LINK}40")
+            pen.line([*points, points[0]], fill=LINK, width=2 * FINER)
 
 
 def _is_closed(shape: Shape) -> bool:
@@ -113,26 +134,3 @@ def _ring(pen: Any, centre: Point, r: float, ink: str, opaque: str = "") -> None
 
 def _place(place: Place, t: float) -> Point:
     return value_at(place[0], t), value_at(place[1], t)
-
-
-def value_at(track: Track, t: float) -> float:
-    """A track's value at an input angle, as the page's script has it.
-
-    >>> from geneva_cli.output.moving_gif import value_at
-    >>> from geneva_cli.scene import Track
-    >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
-    1.0
-    """
-    if len(track.at) == 1:
-        return track.value[0]
-    i = min(max(bisect_right(track.at, t) - 1, 0), len(track.at) - 2)
-    h = track.at[i + 1] - track.at[i]
-    if not h > 0.0:
-        return track.value[i + 1]
-    u = min(1.0, max(0.0, (t - track.at[i]) / h))
-    w = 1.0 - u
-    return (
-        w * w * (1.0 + 2.0 * u) * track.value[i]
-        + u * u * (1.0 + 2.0 * w) * track.value[i + 1]
-        + u * w * h * (w * track.slope[i] - u * track.slope[i + 1])
-    )

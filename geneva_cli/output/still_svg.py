@@ -9,8 +9,8 @@ from xml.sax.saxutils import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.moving_gif import value_at
 from geneva_cli.output.svg_paths import element
+from geneva_cli.scene import value_at
 
 if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Body, Place, Scene
@@ -64,6 +64,16 @@ def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
     joints = [_at(place, t) for place in bar.joints]
     if bar.radius:
         yield _circle(joints[0], bar.radius, f'stroke="{GREY}"')
+        return
+    for plate in bar.plates:
+        (x0, y0), (x1, y1) = joints[0], joints[plate.joint or 1]
+        x, y = joints[plate.joint]
+        turned = math.degrees(math.atan2(y1 - y0, x1 - x0))
+        yield f'<g transform="translate({x:.6g} {y:.6g}) rotate({turned:.6g})" stroke="{BROWN}">\n'
+        for i, shape in enumerate(plate.shapes):
+            yield f'<g fill="{"none" if i else BROWN + "33"}">{element(shape).strip()}</g>\n'
+        yield "</g>\n"
+    if bar.plates:
         return
     if len(joints) > 1:
         points = " ".join(f"{x:.6g},{y:.6g}" for x, y in joints)

@@ -12,7 +12,11 @@ import repo
 from py_mini_racer import MiniRacer
 
 from geneva_cli import load
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.machine.layout import Joint
 from geneva_cli.output import animate, moving_gif, page, still_svg
+from geneva_cli.parts.links import stated
+from geneva_cli.scene import value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import Turn
 
@@ -183,7 +187,7 @@ def test_a_gif_moves_as_the_page_does(tmp_path):
     for t in (0.0, 33.3, 150.0, 359.9):
         by_page = engine.eval(f"valueAt(scene.bodies[0].angle, {t})")
         # the page's numbers have ten digits
-        assert moving_gif.value_at(found.bodies[0].angle, t) == pytest.approx(by_page, abs=1e-9)
+        assert value_at(found.bodies[0].angle, t) == pytest.approx(by_page, abs=1e-9)
     file = tmp_path / "machine.gif"
     animate(found, str(file))
     with Image.open(file) as image:
@@ -204,11 +208,11 @@ def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
     root = ElementTree.parse(file).getroot()
     t = still_svg.BETWEEN * found.turn_deg
     turned = re.search(r"rotate\(([^)]*)\)", root[1].get("transform"))[1]
-    angle = moving_gif.value_at(found.bodies[0].angle, t)
+    angle = value_at(found.bodies[0].angle, t)
     assert float(turned) == pytest.approx(-np.degrees(angle), rel=1e-5)  # six digits
     drawn = [(float(c.get("cx")), -float(c.get("cy"))) for c in root if c.tag.endswith("circle")]
     for x, y in found.rollers:
-        place = moving_gif.value_at(x, t), moving_gif.value_at(y, t)
+        place = value_at(x, t), value_at(y, t)
         assert min(np.hypot(a - place[0], b - place[1]) for a, b in drawn) < 1e-2
 
 
@@ -217,3 +221,26 @@ def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
     hostile = load(str(repo.DESIGNS / "three-slots.toml"), ['title="</script><b>x"'])
     text = "".join(page.chunks(scene(hostile)))
     assert "<b>x" not in text and "&lt;b&gt;x" in text
+
+
+@pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank", "side-crank-z6", "cam-geneva"])
+def test_links_turn_as_they_are_cut(name):
+    """Holes for pins stay on the joints that the drive states, at any angle of the turn."""
+    found, design = scene(design_of(name)), design_of(name)
+    turn = Turn(design.mechanism)
+    plates = [bar for bar in found.bars if bar.plates]
+    assert plates
+    for t in (0.0, 77.0, 200.0, 301.0):
+        at = (turn.start + t + 180.0) % 360.0 - 180.0
+        for link, bar in zip(stated(design.mechanism, np.array([at])), found.bars, strict=True):
+            joints = [complex(value_at(x, t), value_at(y, t)) for x, y in bar.joints]
+            there = [complex(float(x[0]), float(y[0])) for x, y in link.joints]
+            L = design.mechanism.center_distance_mm
+            assert np.abs(np.array(joints) - there).max() < 1e-5 * L
+            for plate in bar.plates[:1]:
+                ahead = joints[1] - joints[0]
+                holes = [s for s in plate.shapes[1:] if isinstance(s, Circle)]
+                drawn = [joints[0] + complex(*h.centre) * ahead / abs(ahead) for h in holes]
+                pins = [z for z, k in zip(there, link.kinds, strict=True) if k is Joint.PIN]
+                for z in pins:
+                    assert min(abs(z - d) for d in drawn) < 2e-5 * L

@@ -30,6 +30,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         "SPEC": escape(scene.spec),
         "STYLE": _file("page.css"),
         "DRAWING": "".join(_group(body) for body in scene.bodies),
+        "LINKS": "".join(_links(i, bar) for i, bar in enumerate(scene.bars)),
         "DATA": data.replace("<", "\\u003c"),
         "MOTION": _file("motion.js"),
         "SCRIPT": _file("page.js"),
@@ -59,6 +60,19 @@ def _group(body: Body) -> str:
         f'<g class="{shape.layer.lower()}">{element(shape).strip()}</g>' for shape in body.shapes
     ]
     return f'<g id="{body.name.replace(" ", "-")}">{"".join(shapes)}</g>\n'
+
+
+def _links(number: int, bar: Bar) -> str:
+    """The plates of a link, each a group of its own."""
+    return "".join(
+        f'<g id="link-{number}-{i}" class="link">'
+        + "".join(
+            f'<g class="{"edge" if k == 0 else "hole"}">{element(shape).strip()}</g>'
+            for k, shape in enumerate(plate.shapes)
+        )
+        + "</g>\n"
+        for i, plate in enumerate(bar.plates)
+    )
 
 
 def _data(scene: Scene) -> dict[str, Any]:
@@ -92,7 +106,8 @@ def _track(track: Track) -> dict[str, Any]:
 
 def _bar(bar: Bar) -> dict[str, Any]:
     joints = [[_track(t) for t in place] for place in bar.joints]
-    return {"name": bar.name, "joints": joints, "radius": bar.radius}
+    plates = [plate.joint for plate in bar.plates]
+    return {"name": bar.name, "joints": joints, "radius": bar.radius, "plates": plates}
 
 
 def _push(push: Push) -> list[list[float]]:

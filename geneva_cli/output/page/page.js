@@ -15,8 +15,9 @@
 
   const centre = scene.bodies.find((b) => b.id !== "wheel")?.centre ?? [0, 0];
   set(by("centres"), { x1: 0, y1: 0, x2: centre[0], y2: -centre[1] });
-  const bars = scene.bars.map((bar) => {
+  const bars = scene.bars.map((bar, number) => {
     const group = by("bars");
+    if (bar.plates.length) return { bar, plates: bar.plates.map((joint, i) => [joint, by(`link-${number}-${i}`)]) };
     if (bar.radius) return { bar, rim: make("circle", group, { class: "rim", r: bar.radius }) };
     const kind = bar.joints.length > 2 ? "polygon" : "line";
     const shape = bar.joints.length > 1 ? make(kind, group) : null;
@@ -87,8 +88,14 @@
       const turned = -afterTurns(angle, t, turns) * degrees;
       set(by(id), { transform: `translate(${x} ${-y}) rotate(${turned})` });
     }
-    for (const { bar, rim, shape, joints } of bars) {
+    for (const { bar, rim, shape, joints, plates } of bars) {
       const at = bar.joints.map(([x, y]) => [valueAt(x, t), -valueAt(y, t)]);
+      for (const [joint, plate] of plates ?? []) {
+        const [x0, y0] = at[0], [x1, y1] = at[joint || 1], [x, y] = at[joint];
+        const turned = Math.atan2(y1 - y0, x1 - x0) * degrees;
+        set(plate, { transform: `translate(${x} ${y}) rotate(${turned})` });
+      }
+      if (plates) continue;
       if (rim) { set(rim, { cx: at[0][0], cy: at[0][1] }); continue; }
       if (at.length > 2) set(shape, { points: at.join(" ") });
       else if (shape) set(shape, { x1: at[0][0], y1: at[0][1], x2: at[1][0], y2: at[1][1] });

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves.measure import at
+from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.scene import Bar, Body, Box, Place, Scene, State
+from geneva_cli.scene import Bar, Body, Box, Place, Scene, State, value_at
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
@@ -20,6 +21,7 @@ from geneva_cli.verdict.report.words import words
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
 
+LOOKS = 24  # at links, in a turn
 SHOWN = ("velocity", "acceleration", "pin_force_N", "input_torque_Nm")
 
 
@@ -36,7 +38,10 @@ def scene(design: Design) -> Scene:
     mechanism = design.mechanism
     turn = Turn(mechanism)
     made = [body for body in bodies(design, turn) if body.shapes]
-    bars, rollers = turn.bars(), tuple(turn.roller(one) for one in turn.passages)
+    found = None
+    with suppress(GenevaError):  # no flat parts
+        found = design.parts
+    bars, rollers = turn.bars(found), tuple(turn.roller(one) for one in turn.passages)
     if not mechanism.spec.drive.OUTLINED:  # its rollers are where its links end
         rollers = bars[0].joints[1:]
     spec = design.spec
@@ -55,7 +60,7 @@ def scene(design: Design) -> Scene:
         tuple(pushes(design.cycle, turn)),
         tuple(_states(design, turn)),
         _figure(design),
-        _box(made, bars, rollers, mechanism.roller_radius_mm),
+        _box(made, bars, rollers, mechanism.roller_radius_mm, turn.whole),
     )
 
 
@@ -65,7 +70,7 @@ def _seen(design: Design, made: list[Body]) -> str:
         return " Seen along the wheel's shaft."
     if len(made) > 1:  # more than the wheel
         return ""
-    return " Links are shown as bars, gears by their pitch circles."
+    return " Gears are shown by their pitch circles."
 
 
 def _figure(design: Design) -> Figure:
@@ -98,7 +103,13 @@ def _held(design: Design) -> str:
     return "the wheel rests, locked by the disc" if locks else "the wheel rests; nothing holds it"
 
 
-def _box(made: list[Body], bars: tuple[Bar, ...], rollers: tuple[Place, ...], radius: float) -> Box:
+def _box(
+    made: list[Body],
+    bars: tuple[Bar, ...],
+    rollers: tuple[Place, ...],
+    radius: float,
+    turn_deg: float,
+) -> Box:
     """What all bodies, turned any way, and all joints and rollers cover."""
     boxes = []
     for body in made:
@@ -110,8 +121,25 @@ def _box(made: list[Body], bars: tuple[Bar, ...], rollers: tuple[Place, ...], ra
     for (across, up), r in places:
         x0, x1, y0, y1 = min(across.value), max(across.value), min(up.value), max(up.value)
         boxes.append((x0 - r, y0 - r, x1 + r, y1 + r))
+    boxes += [
+        _plates(bar, turn_deg * k / LOOKS) for bar in bars if bar.plates for k in range(LOOKS)
+    ]
     columns = list(zip(*boxes, strict=True))
     return min(columns[0]), min(columns[1]), max(columns[2]), max(columns[3])
+
+
+def _plates(bar: Bar, t: float) -> Box:
+    """What a link and its blocks cover at an input angle."""
+    joints = [complex(value_at(x, t), value_at(y, t)) for x, y in bar.joints]
+    corners = []
+    for joint, shapes in bar.plates:
+        ahead = joints[joint or 1] - joints[0]
+        box = bounds(shapes[0])
+        for x in (box.x0, box.x1):
+            for y in (box.y0, box.y1):
+                corners.append(joints[joint] + complex(x, y) * ahead / (abs(ahead) or 1.0))
+    across, up = [z.real for z in corners], [z.imag for z in corners]
+    return min(across), min(up), max(across), max(up)
 
 
 def _reach(shape: Shape) -> float:

@@ -8,14 +8,19 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.plates import Plate
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.groove import distance
-from geneva_cli.scene import Bar, Place, Track
+from geneva_cli.parts.links import drawn_links, stated
+from geneva_cli.scene import Bar, Carried, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.parts.outlines import Outlines
 
 ANGLE = 1e-7  # rad, of wheel and crank: a tenth of what the page keeps to
 SHARE = 2e-6  # of the centre distance, of joints and rollers: below what a screen shows
@@ -105,21 +110,26 @@ class Turn:
         """A roller's centre over the turn."""
         return self._place(lambda x: self.pin(one, x))
 
-    def bars(self) -> tuple[Bar, ...]:
-        """The drive's links."""
-        drive, plan = self.mechanism.spec.drive, self.mechanism.plan
-        sign = self.mechanism.spec.wheel.SIGN
+    def bars(self, found: Outlines | None) -> tuple[Bar, ...]:
+        """The links, as they are cut where they are; ``found`` are the outlines of the rest."""
+        mechanism, half = self.mechanism, 0.5 * self.whole
 
         def joint(i: int, j: int) -> Place:
             def place(x: Array) -> Array:
-                return np.column_stack(drive.links(plan, sign, x)[i].joints[j])
+                at = (x + half) % self.whole - half
+                return np.column_stack([c + 0.0 * at for c in stated(mechanism, at)[i].joints[j]])
 
             return self._place(place)
 
-        shown = drive.links(plan, sign, np.zeros(1))
+        plates = _plates(mechanism, found)
         return tuple(
-            Bar(link.name, tuple(joint(i, j) for j in range(len(link.joints))), link.radius_mm)
-            for i, link in enumerate(shown)
+            Bar(
+                link.name,
+                tuple(joint(i, j) for j in range(len(link.joints))),
+                link.radius_mm,
+                plates.get(link.name, ()),
+            )
+            for i, link in enumerate(stated(mechanism, np.zeros(1)))
         )
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
@@ -133,6 +143,24 @@ class Turn:
         places = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
         pieces = [(a, b, sampled(f, a, b)) for a, b in cut(self.start, self.end, places)]
         return track(pieces, error, self.start, gain)
+
+
+def _plates(mechanism: Mechanism, found: Outlines | None) -> dict[str, tuple[Carried, ...]]:
+    """What each link is cut as, by its name; nothing where its sizes leave no plate."""
+    out: dict[str, tuple[Carried, ...]] = {}
+    try:
+        cut_ = [m.part for m in drawn_links(mechanism, found).cut if isinstance(m.part, Plate)]
+    except GenevaError:
+        return out
+    for link in stated(mechanism, np.zeros(1)):
+        slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
+        blocks = [plate for plate in cut_ if plate.name == f"{link.name}'s block"]
+        own = [plate for plate in cut_ if plate.name == link.name]
+        out[link.name] = tuple(
+            Carried(j, (plate.outline, *plate.holes))
+            for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
+        )
+    return out
 
 
 def _by_motion(one: Passage, turned: float) -> Moving:
