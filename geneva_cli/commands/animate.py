@@ -26,7 +26,7 @@ def run(
 ) -> None:
     """A page that needs no network, on which the machine turns.
 
-    Its parts as they are cut, links and gears, the contact's force, what holds the wheel, and the
+    Its parts and links as they are cut, gears, the contact's force, what holds the wheel, and the
     curves with a cursor; played, or moved by a slider over the input's angle. A .gif needs the
     extra plot; an .svg stands still.
     """
