@@ -48,7 +48,7 @@ def scene(design: Design) -> Scene:
     title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     return Scene(
         title,
-        words(mechanism) + _seen(design, made),
+        words(mechanism) + _seen(design, bars),
         "\n".join((f"title = {quoted(title)}", *written(spec))),
         mechanism.shown_deg(turn.start),
         turn.whole,
@@ -64,13 +64,12 @@ def scene(design: Design) -> Scene:
     )
 
 
-def _seen(design: Design, made: list[Body]) -> str:
+def _seen(design: Design, bars: tuple[Bar, ...]) -> str:
     """What the picture shows otherwise than the machine is."""
     if not design.spec.wheel.FLAT:
         return " Seen along the wheel's shaft."
-    if len(made) > 1:  # more than the wheel
-        return ""
-    return " Gears are shown by their pitch circles."
+    gears = any(bar.radius for bar in bars)
+    return " Gears are shown by their pitch circles." if gears else ""
 
 
 def _figure(design: Design) -> Figure:
