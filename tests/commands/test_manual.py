@@ -7,6 +7,7 @@ import functools
 import os
 import re
 import shlex
+import shutil
 from pathlib import Path
 
 import pytest
@@ -80,6 +81,33 @@ def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -
         assert NUMBER.sub("", old) == NUMBER.sub("", today)
         numbers = [[float(n) for n in NUMBER.findall(text)] for text in (old, today)]
         assert numbers[0] == pytest.approx(numbers[1], abs=0.01)
+
+
+SHELL = re.compile(r"```sh\n(.*?)```", re.DOTALL)
+
+
+def commands_of(file: Path) -> list[str]:
+    """The commands of a page's shell blocks, but those of a job array's variables."""
+    lines = "\n".join(SHELL.findall(text_of(file))).replace("\\\n", " ").splitlines()
+    return [line for line in lines if line.startswith("geneva ") and "$" not in line]
+
+
+@pytest.mark.parametrize("file", [p for p in PAGES if commands_of(p)], ids=lambda file: file.stem)
+def test_the_commands_run_as_they_stand(
+    file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One after the other where a reader has a spec.toml and the designs; fewer designs of many."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(ROOT / "designs", "designs")
+    spec = text_of(ROOT / "designs" / "tolerances.toml")
+    Path("spec.toml").write_text(spec, encoding="utf-8")
+    shutil.copy("designs/side-crank-z6.toml", "wish.toml")  # some pages have it from another
+    for command in commands_of(file):
+        few = re.sub(r"--random 10000|--samples 1000000", lambda m: m[0][:-2], command)
+        words = shlex.split(few, comments=True)
+        if ">" in words:
+            words = words[: words.index(">")]
+        invoke(words[1:])
 
 
 def test_no_picture_is_left_over() -> None:
