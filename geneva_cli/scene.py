@@ -6,6 +6,7 @@ scene's start.
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -79,6 +80,23 @@ class Bar(NamedTuple):
     joints: tuple[Place, ...]
     radius: float = 0.0
     plates: tuple[Carried, ...] = ()
+
+
+def place_at(place: Place, t: float) -> tuple[float, float]:
+    """Where a place is at an input angle."""
+    return value_at(place[0], t), value_at(place[1], t)
+
+
+def pose(bar: Bar, plate: Carried, t: float) -> tuple[float, float, float]:
+    """Where a link's plate or block is at an input angle, and its turn in radians.
+
+    >>> from geneva_cli.scene import Bar, Carried, Track, pose
+    >>> one, two, four, six = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0, 4.0, 6.0))
+    >>> pose(Bar("", ((one, two), (four, six))), Carried(0, ()), 0.0)
+    (1.0, 2.0, 0.9272952180016122)
+    """
+    (x0, y0), (x1, y1) = (place_at(bar.joints[j], t) for j in (0, plate.joint or 1))
+    return *place_at(bar.joints[plate.joint], t), math.atan2(y1 - y0, x1 - x0)
 
 
 class Push(NamedTuple):

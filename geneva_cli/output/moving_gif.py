@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import io
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
-from geneva_cli.scene import value_at
+from geneva_cli.scene import place_at, pose, value_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from geneva_cli.scene import Bar, Body, Place, Scene
+    from geneva_cli.scene import Bar, Scene
 
 WIDE = 400  # px
 FRAMES = 60  # of a turn
@@ -54,12 +55,15 @@ def written(scene: Scene) -> bytes:
         image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
         pen = ImageDraw.Draw(image, "RGBA")
         for body in scene.bodies:
+            turned = value_at(body.angle, t)
             for layer, points, closed in outlines[body.name]:
-                _outline(pen, layer, [on_paper(p) for p in _turned(points, body, t)], closed)
+                _outline(
+                    pen, layer, [on_paper(p) for p in _placed(points, *body.centre, turned)], closed
+                )
         for bar in scene.bars:
             _link(pen, bar, t, on_paper, scale)
         for place in scene.rollers:
-            centre = on_paper(_place(place, t))
+            centre = on_paper(place_at(place, t))
             _ring(pen, centre, scene.roller_radius * scale, INKS["ROLLER"].rgb, "50")
         small = image.resize((WIDE, high), Image.Resampling.LANCZOS)
         colours = {"palette": frames[0]} if frames else {"colors": 48}  # one palette for all
@@ -73,7 +77,7 @@ def written(scene: Scene) -> bytes:
 
 
 def _link(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point], scale: float) -> None:
-    joints = [on_paper(_place(place, t)) for place in bar.joints]
+    joints = [on_paper(place_at(place, t)) for place in bar.joints]
     if bar.radius:
         _ring(pen, joints[0], bar.radius * scale, GREY)
     elif bar.plates:
@@ -84,13 +88,10 @@ def _link(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point], scal
 
 def _plates(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point]) -> None:
     """A link and its blocks, as they are cut."""
-    joints = [_place(place, t) for place in bar.joints]
     for plate in bar.plates:
-        (x0, y0), (x1, y1) = joints[0], joints[plate.joint or 1]
-        (x, y), angle = joints[plate.joint], math.atan2(y1 - y0, x1 - x0)
-        c, s = math.cos(angle), math.sin(angle)
+        at = pose(bar, plate, t)
         for i, shape in enumerate(plate.shapes):
-            points = [on_paper((x + c * u - s * v, y + s * u + c * v)) for u, v in _points(shape)]
+            points = [on_paper(p) for p in _placed(_points(shape), *at)]
             pen.polygon(points, fill="#ffffff" if i else f"{LINK}40")
             pen.line([*points, points[0]], fill=LINK, width=2 * FINER)
 
@@ -99,6 +100,7 @@ def _is_closed(shape: Shape) -> bool:
     return isinstance(shape, Circle) or shape.closed
 
 
+@lru_cache(maxsize=256)  # a link's in every frame
 def _points(shape: Shape) -> list[Point]:
     """A shape as a chain of points."""
     if isinstance(shape, Circle):
@@ -112,8 +114,7 @@ def _points(shape: Shape) -> list[Point]:
     return points
 
 
-def _turned(points: list[Point], body: Body, t: float) -> list[Point]:
-    angle, (x, y) = value_at(body.angle, t), body.centre
+def _placed(points: list[Point], x: float, y: float, angle: float) -> list[Point]:
     c, s = math.cos(angle), math.sin(angle)
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in points]
 
@@ -130,7 +131,3 @@ def _outline(pen: Any, layer: str, points: list[Point], closed: bool) -> None:
 def _ring(pen: Any, centre: Point, r: float, ink: str, opaque: str = "") -> None:
     (x, y), fill = centre, f"{ink}{opaque}" if opaque else None
     pen.ellipse((x - r, y - r, x + r, y + r), outline=ink, fill=fill, width=2 * FINER)
-
-
-def _place(place: Place, t: float) -> Point:
-    return value_at(place[0], t), value_at(place[1], t)

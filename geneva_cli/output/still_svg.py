@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.svg_paths import element
-from geneva_cli.scene import value_at
+from geneva_cli.scene import place_at, pose, value_at
 
 if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Body, Place, Scene
@@ -66,10 +66,9 @@ def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
         yield _circle(joints[0], bar.radius, f'stroke="{GREY}"')
         return
     for plate in bar.plates:
-        (x0, y0), (x1, y1) = joints[0], joints[plate.joint or 1]
-        x, y = joints[plate.joint]
-        turned = math.degrees(math.atan2(y1 - y0, x1 - x0))
-        yield f'<g transform="translate({x:.6g} {y:.6g}) rotate({turned:.6g})" stroke="{BROWN}">\n'
+        x, y, angle = pose(bar, plate, t)
+        turned = -math.degrees(angle)
+        yield f'<g transform="translate({x:.6g} {-y:.6g}) rotate({turned:.6g})" stroke="{BROWN}">\n'
         for i, shape in enumerate(plate.shapes):
             yield f'<g fill="{"none" if i else BROWN + "33"}">{element(shape).strip()}</g>\n'
         yield "</g>\n"
@@ -90,4 +89,5 @@ def _circle(at: tuple[float, float], r: float, paint: str) -> str:
 
 
 def _at(place: Place, t: float) -> tuple[float, float]:
-    return value_at(place[0], t), -value_at(place[1], t)
+    x, y = place_at(place, t)
+    return x, -y

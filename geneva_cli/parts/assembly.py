@@ -65,7 +65,7 @@ class Plane(NamedTuple):
         engagement, behind = self.rollers[number]
         at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
         if engagement.groove is not None:
-            return self.L * _on_cam(engagement.groove, at)
+            return self.L * on_cam(engagement.groove, at)
         x, y = engagement.path(at, 0)
         return self.L * np.column_stack((x.c[0], y.c[0]))
 
@@ -173,7 +173,7 @@ def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...],
     return tuple(slots[k] for k in order), tuple(sorted(rests))
 
 
-def _on_cam(groove: SolvedPath, input_deg: Array) -> Array:
+def on_cam(groove: SolvedPath, input_deg: Array) -> Array:
     """The roller of a cam-Geneva, in units of L: its groove closed on the way back."""
     from geneva_cli.parts.groove import distance
 

@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.scene import Body
+from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import Turn
 
@@ -91,12 +91,8 @@ def _gears(design: Design, turn: Turn) -> Iterator[Body]:
     driven = _closed(-table["driven_x_mm"], -sign * table["driven_y_mm"])
     rate = sign * math.pi / 180.0
     begin = rate * (turn.start - turn.passages[0].mid)
-    angle = still(0.0)._replace(
-        at=(0.0, turn.whole),
-        value=(begin, begin + rate * turn.whole),
-        slope=(rate, rate),
-        gain=rate * turn.whole,
-    )
+    gain = rate * turn.whole
+    angle = Track((0.0, turn.whole), (begin, begin + gain), (rate, rate), gain)
     yield Body("driver gear", (driver,), (turn.L + gears.distance_mm, 0.0), angle)
     crank = turn.crank()
     ahead = math.pi if sign > 0.0 else 0.0

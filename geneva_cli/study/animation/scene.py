@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator
 from contextlib import suppress
@@ -11,7 +12,7 @@ from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.scene import Bar, Body, Box, Place, Scene, State, value_at
+from geneva_cli.scene import Bar, Body, Box, Place, Scene, State, pose
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
@@ -129,14 +130,15 @@ def _box(
 
 def _plates(bar: Bar, t: float) -> Box:
     """What a link and its blocks cover at an input angle."""
-    joints = [complex(value_at(x, t), value_at(y, t)) for x, y in bar.joints]
     corners = []
-    for joint, shapes in bar.plates:
-        ahead = joints[joint or 1] - joints[0]
-        box = bounds(shapes[0])
-        for x in (box.x0, box.x1):
-            for y in (box.y0, box.y1):
-                corners.append(joints[joint] + complex(x, y) * ahead / (abs(ahead) or 1.0))
+    for plate in bar.plates:
+        x, y, angle = pose(bar, plate, t)
+        box = bounds(plate.shapes[0])
+        corners += [
+            complex(x, y) + complex(u, v) * cmath.rect(1.0, angle)
+            for u in (box.x0, box.x1)
+            for v in (box.y0, box.y1)
+        ]
     across, up = [z.real for z in corners], [z.imag for z in corners]
     return min(across), min(up), max(across), max(up)
 

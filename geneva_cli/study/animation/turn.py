@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.groove import distance
+from geneva_cli.parts.assembly import on_cam
 from geneva_cli.parts.links import drawn_links, stated
 from geneva_cli.scene import Bar, Carried, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
@@ -97,13 +97,9 @@ class Turn:
         """A roller's centre, mm, (n, 2)."""
         half = 0.5 * self.whole
         at = (input_deg - one.mid + half) % self.whole - half
-        groove = one.engagement.groove
-        if groove is not None:
-            R, angle = distance(groove, at), np.radians(at)
-            x, y = 1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)
-        else:
-            path = one.engagement.path(at, 0)
-            x, y = (along.c[0] + 0.0 * at for along in path)
+        if one.engagement.groove is not None:
+            return self.L * on_cam(one.engagement.groove, at)
+        x, y = (along.c[0] + 0.0 * at for along in one.engagement.path(at, 0))
         return self.L * np.column_stack((x, y))
 
     def roller(self, one: Passage) -> Place:
