@@ -54,15 +54,15 @@ def kept(function, key):
 
 
 def of_outlines(found):
-    return found.plane.given.spec, found.fine
+    return found.assembly.given.spec, found.fine
 
 
 def of_mechanism(mechanism, tolerance=0.0):
     return mechanism.spec, tolerance
 
 
-def of_slot(plane, sizes, engagement):
-    return id(plane), sizes, id(engagement)
+def of_slot(assembly, sizes, engagement):
+    return id(assembly), sizes, id(engagement)
 
 
 OUTLINES = kept(outline.outlines, of_mechanism)

@@ -1,4 +1,4 @@
-"""What goes together: a wheel, a drive and a motion, each by what it says of itself."""
+"""Which wheels, drives and motions go together, decided by the properties that each declares."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
 
 
-class Clash(NamedTuple):
-    """Two things that cannot be together: when, the key to blame, and what to say.
+class Conflict(NamedTuple):
+    """A combination that makes no machine: its condition, the key to blame, and the message.
 
-    Of an array of designs ``when`` may be an array of truth values.
+    For arrays of designs the condition may be an array of truth values.
     """
 
     when: Callable[[Spec], object]
@@ -26,74 +26,74 @@ class Clash(NamedTuple):
 
 
 def _several(spec: Spec) -> int:
-    """How many rollers the wheel's steps or the crank's angles place; 0 where neither does."""
+    """Number of rollers that ``steps_deg`` or ``roller_angles_deg`` place; 0 without either."""
     return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
 
 
-CLASHES = (
-    Clash(
+CONFLICTS = (
+    Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
         ("drive", "kind"),
         'kind = "{drive}" has one roller and radial slots: remove offset_mm, steps_deg and '
         "roller_angles_deg",
     ),
-    Clash(
+    Conflict(
         lambda s: s.drive.GEARINGS and s.wheel.NAME not in s.drive.GEARINGS,
         ("wheel", "gearing"),
         'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
     ),
-    Clash(
+    Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
         ("drive", "kind"),
         'kind = "{drive}" needs a law in [motion]: the groove is cut for it',
     ),
-    Clash(
+    Conflict(
         lambda s: s.drive.LAW is Needs.NO_LAW and s.motion is not None,
         ("motion", "law"),
         'kind = "{drive}" gives the roller its path, and the slots are straight; a law would be '
         "one too many",
     ),
-    Clash(
+    Conflict(
         lambda s: s.motion is not None and s.wheel.steps,
         ("wheel", "steps_deg"),
         "steps_deg shapes straight slots; with a law the slots are solved for (remove one)",
     ),
-    Clash(
+    Conflict(
         lambda s: s.motion is not None and s.wheel.skewed,
         ("wheel", "offset_mm"),
         "offset_mm shapes straight slots; with a law the slots are solved for (remove one)",
     ),
-    Clash(
+    Conflict(
         lambda s: s.motion is not None and not s.wheel.FLAT,
         ("motion", "law"),
         "curved slots are flat; a {gearing} wheel has straight ones (remove law)",
     ),
-    Clash(
+    Conflict(
         lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,
         ("drive", "rollers"),
         'kind = "{drive}" carries one roller',
     ),
-    Clash(
+    Conflict(
         lambda s: s.drive.ONE_ROLLER and _several(s),
         ("drive", "kind"),
         'kind = "{drive}" carries one roller',
     ),
-    Clash(
+    Conflict(
         lambda s: s.wheel.steps and s.drive.roller_angles_deg,
         ("wheel", "steps_deg"),
         "steps_deg places the rollers itself; remove roller_angles_deg",
     ),
-    Clash(
+    Conflict(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
         ("drive", "rollers"),
         "rollers = {rollers}, but there are {several} {places} for them; leave rollers out",
     ),
-    Clash(
+    Conflict(
         lambda s: s.motion is not None and s.drive.roller_angles_deg,
         ("drive", "roller_angles_deg"),
         "roller_angles_deg is for straight slots; remove the law or the angles",
     ),
-    Clash(
+    Conflict(
         lambda s: s.motion is not None and s.drive.rollers > 1 and not s.drive.ALIKE,
         ("drive", "rollers"),
         "{rollers} rollers on a {drive} move the wheel differently, so one curved slot cannot "
@@ -102,15 +102,15 @@ CLASHES = (
 )
 
 
-def refuse_clashes(spec: Spec) -> None:
+def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError for things that make no machine together, saying why."""
-    for clash in CLASHES:
-        when = clash.when(spec)
-        refuse(when if is_array(when) else bool(when), partial(_error, clash, spec))
+    for conflict in CONFLICTS:
+        when = conflict.when(spec)
+        refuse(when if is_array(when) else bool(when), partial(_error, conflict, spec))
 
 
-def _error(clash: Clash, spec: Spec) -> GenevaError:
-    text = clash.text.format(
+def _error(conflict: Conflict, spec: Spec) -> GenevaError:
+    text = conflict.text.format(
         drive=spec.drive.NAME,
         gearing=spec.wheel.NAME,
         gearings=" or ".join(spec.drive.GEARINGS),
@@ -118,4 +118,4 @@ def _error(clash: Clash, spec: Spec) -> GenevaError:
         several=_several(spec),
         places="steps" if spec.wheel.steps else "angles",
     )
-    return GenevaError(text, clash.key)
+    return GenevaError(text, conflict.key)

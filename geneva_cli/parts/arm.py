@@ -50,7 +50,7 @@ class CrankArm(NamedTuple):
 
 def has_arm(found: Outlines) -> bool:
     """Whether the rollers stand on a crank, by pins."""
-    return found.plane.given.spec.drive.CRANKED and found.sizes.pin > 0.0
+    return found.assembly.given.spec.drive.CRANKED and found.sizes.pin > 0.0
 
 
 def crank_arm(found: Outlines) -> CrankArm:
@@ -59,8 +59,8 @@ def crank_arm(found: Outlines) -> CrankArm:
     Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no
     arm round the holes.
     """
-    plane, sizes = found.plane, found.sizes
-    spec = plane.given.spec
+    assembly, sizes = found.assembly, found.sizes
+    spec = assembly.given.spec
     if not spec.drive.CRANKED:
         raise GenevaError(
             f'--part arm: kind = "{spec.drive.NAME}" carries its roller on no crank arm; '
@@ -74,16 +74,20 @@ def crank_arm(found: Outlines) -> CrankArm:
             f"press_fit_mm = {spec.size.press_fit_mm:g}; the pin must be the larger",
             ("size", "press_fit_mm" if sizes.pin else "pin_mm"),
         )
-    centres = roller_centres(plane)
+    centres = roller_centres(assembly)
     far = max(math.hypot(*c) for c in centres)
     radius = shaft_bore(found)
     fitted = key(spec.size.crank_keyway, radius)
     deep = radius + (fitted.in_hub if fitted else 0.0)
     wall = sizes.wall_min
-    under = 0.0 if is_whole(plane, sizes) else sizes.lock  # the sectors stand on it
+    under = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on it
     hub = _half_or(spec.size.arm_hub_mm, max(even(HUB * radius), deep + wall, under))
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
-    most = plane.L - far - max(sizes.wheel_bore, sizes.wheel_hub) if plane.sign > 0.0 else math.inf
+    most = (
+        assembly.L - far - max(sizes.wheel_bore, sizes.wheel_hub)
+        if assembly.sign > 0.0
+        else math.inf
+    )
     usual = max(min(EYE * hole, most), hole + wall)
     eye = _half_or(spec.size.arm_eye_mm, usual)
     _refuse(found, radius, deep, hub, hole, eye)
@@ -92,7 +96,7 @@ def crank_arm(found: Outlines) -> CrankArm:
     about = [Circle(LAYER, (0.0, 0.0), hub), *(Circle(LAYER, c, eye) for c in centres)]
     about += [Circle(LAYER, c.centre, max(EYE * c.radius, c.radius + wall)) for c in screwed]
     outline = belt(LAYER, about)
-    turned = keyway_direction(plane)
+    turned = keyway_direction(assembly)
     return CrankArm(
         outline, bore(HOLES, radius, fitted, turned), pins, screwed, hub, eye, most - eye
     )
@@ -103,16 +107,16 @@ def bolts(found: Outlines) -> list[Circle]:
 
     Raises GenevaError where there is no disc to fix.
     """
-    size = found.plane.mechanism.spec.size
+    size = found.assembly.mechanism.spec.size
     if not size.lock_bolts:
         return []
     if not found.crank:
         raise GenevaError(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
         )
-    r = _half_or(size.lock_bolt_mm, found.plane.L / 80.0)
+    r = _half_or(size.lock_bolt_mm, found.assembly.L / 80.0)
     made = []
-    for start, end in sectors(found.plane):
+    for start, end in sectors(found.assembly):
         at = [start + (end - start) * (k + 0.5) / size.lock_bolts for k in range(size.lock_bolts)]
         far = _half_or(size.lock_bolt_circle_mm, 0.0) or _widest(found, at)
         made += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
@@ -132,7 +136,7 @@ def _widest(found: Outlines, at: list[float]) -> float:
 
 def shaft_bore(found: Outlines) -> float:
     """The bore's radius: of the shaft through the disc, or of one that ends below the wheel."""
-    spec = found.plane.given.spec
+    spec = found.assembly.given.spec
     if spec.size.arm_bore_mm is not None:
         return 0.5 * spec.size.arm_bore_mm
     if found.sizes.crank_bore:
@@ -140,8 +144,8 @@ def shaft_bore(found: Outlines) -> float:
     if spec.shaft.crank_diameter_mm is not None:
         return 0.5 * spec.shaft.crank_diameter_mm
     hole = found.sizes.pin - 0.5 * spec.size.press_fit_mm
-    room = min(math.hypot(*c) for c in roller_centres(found.plane)) - hole
-    return even(min(found.plane.L / 20.0, 0.35 * room))
+    room = min(math.hypot(*c) for c in roller_centres(found.assembly)) - hole
+    return even(min(found.assembly.L / 20.0, 0.35 * room))
 
 
 def _half_or(diameter: float | None, default: float) -> float:
@@ -163,7 +167,7 @@ def _refuse(
             f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
             ("size", "arm_eye_mm"),
         )
-    least = min(math.hypot(*c) for c in roller_centres(found.plane))
+    least = min(math.hypot(*c) for c in roller_centres(found.assembly))
     if deep + hole >= least:
         raise GenevaError(
             f"arm_bore_mm = {2.0 * radius:g}: the bore runs into the pin's hole; with its keyway "
@@ -180,7 +184,7 @@ def walls(made: CrankArm, found: Outlines) -> float:
     least += [apart(one, two) for one, two in combinations(holes, 2)]
     in_disc: list[Shape] = [*made.bolts]
     if found.sizes.crank_bore:
-        in_disc += [s for s in crank_circles(found.plane, found.sizes) if s.layer == HOLES]
+        in_disc += [s for s in crank_circles(found.assembly, found.sizes) if s.layer == HOLES]
         least += [apart(in_disc[-1], bolt) for bolt in made.bolts]
     if found.crank:
         disc = Polyarc(found.crank)

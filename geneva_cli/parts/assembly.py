@@ -1,8 +1,9 @@
-"""A machine in its own plane: where wheel, crank and rollers stand through a whole cycle.
+"""The assembly of a flat machine: where wheel, crank and rollers stand through a whole turn.
 
-What outlines and the full turn are made from. Lengths in millimetres, angles in radians, the
-wheel's axis the origin and the crank's at (L, 0). A drive in front of the crank changes only when
-the crank is where, so behind one the crank itself is turned.
+Outlines are drawn in it, and the full turn is proved with it. Lengths are in millimetres, angles in
+radians; the wheel's axis is the origin and the crank's axis is at (L, 0). A drive in front of the
+crank only changes when the crank reaches a position, not the positions that it goes through: such a
+machine is turned by its crank, as a plain one.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-class Plane(NamedTuple):
-    """The machine as its outlines see it.
+class Assembly(NamedTuple):
+    """Positions of a machine's parts by the input angle of a plain crank, in degrees.
 
     ``rollers`` has for each roller its engagement and the input angle, degrees, by which its
     mid-motion follows the first roller's; ``slots`` for each slot of the wheel, counterclockwise
@@ -40,15 +41,15 @@ class Plane(NamedTuple):
     rollers: tuple[tuple[Engagement, float], ...]
     slots: tuple[tuple[Engagement, float], ...]
     rests: tuple[float, ...]
-    given: Mechanism  # as it was, with what drives its crank
-    to_input: Callable[[float], float]  # input angle, degrees, of ``given`` for one of here
+    given: Mechanism  # the machine as the spec has it, with what drives its crank
+    to_input: Callable[[float], float]  # plain crank's input angle -> that of ``given``, degrees
 
     def shown_deg(self, input_deg: float) -> float:
-        """An input angle of here as every command shows it: that of the machine's own input."""
+        """The given machine's input angle as commands show it, for one of the assembly."""
         return self.given.shown_deg(self.to_input(input_deg))
 
     def place_deg(self, shown_deg: float) -> float:
-        """The input angle of here that is shown so, to a hundredth of a degree."""
+        """The inverse of ``shown_deg``, to a hundredth of a degree."""
         low, high = self.start_deg, self.start_deg + self.turn_deg
         whole = 360.0 * self.given.spec.drive.turns
         best = low
@@ -61,7 +62,7 @@ class Plane(NamedTuple):
         return best
 
     def pin(self, number: int, input_deg: Array) -> Array:
-        """A roller's centre at input angles, (n, 2)."""
+        """A roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
         engagement, behind = self.rollers[number]
         at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
         if engagement.groove is not None:
@@ -70,7 +71,7 @@ class Plane(NamedTuple):
         return self.L * np.column_stack((x.c[0], y.c[0]))
 
     def crank(self, input_deg: Array) -> Array:
-        """The direction of the crank in the fixed frame, that of its first roller at input 0."""
+        """The crank's direction, radians: that of its first roller at input angle 0."""
         engagement = self.rollers[0][0]
         if engagement.crank_sense:
             return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
@@ -84,7 +85,7 @@ class Plane(NamedTuple):
         return math.pi if self.sign > 0.0 else 0.0
 
     def lock(self, input_deg: float) -> float:
-        """Where on the crank the line of centres is: the direction that locks the wheel."""
+        """The direction from the crank's axis to the wheel's, in the crank's frame, radians."""
         return self._ahead - float(self.crank(np.array([input_deg]))[0])
 
     def wheel(self, input_deg: Array) -> Array:
@@ -112,8 +113,8 @@ class Plane(NamedTuple):
         return self.rollers[0][0].entry_deg
 
 
-def plane(mechanism: Mechanism) -> Plane:
-    """The plane of a mechanism.
+def assembly(mechanism: Mechanism) -> Assembly:
+    """The assembly of a mechanism.
 
     Raises GenevaError for a machine whose parts are not flat outlines.
     """
@@ -144,15 +145,15 @@ def plane(mechanism: Mechanism) -> Plane:
         )
         mechanism = build(spec.but(drive=crank))
     turn = 360.0 * mechanism.spec.drive.turns
-    each = round(turn / mechanism.period_deg)
+    periods = round(turn / mechanism.period_deg)
     rollers = tuple(
         (engagement, engagement.mid_deg + k * mechanism.period_deg)
-        for k in range(each)
+        for k in range(periods)
         for engagement in mechanism.engagements
     )
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN
-    return Plane(mechanism, L, sign, turn, rollers, *_around(mechanism), given, to_input)
+    return Assembly(mechanism, L, sign, turn, rollers, *_around(mechanism), given, to_input)
 
 
 def _same(input_deg: float) -> float:

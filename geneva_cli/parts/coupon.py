@@ -76,7 +76,7 @@ def coupon(found: Outlines, tolerance: float, curves: str) -> Drawing:
             Member(Plate("roller", "ROLLER", disc, bore, 0.0, thick)),
         ),
     )
-    spec = found.plane.given.spec
+    spec = found.assembly.given.spec
     title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     return Drawing(f"{title}: fit coupon", (outline, *holes, disc, *bore, *marks), solid=solid)
 

@@ -24,7 +24,7 @@ from geneva_cli.curves.shapes import (
     closed,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
@@ -55,12 +55,12 @@ class Relief(NamedTuple):
         return 0.5 * (self.end - self.start)
 
 
-def reliefs(plane: Plane) -> list[Relief]:
+def reliefs(assembly: Assembly) -> list[Relief]:
     """The reliefs around the crank: where the line of centres is on it while the wheel moves."""
     found = []
-    for i, (engagement, behind) in enumerate(plane.rollers):
+    for i, (engagement, behind) in enumerate(assembly.rollers):
         ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
-        start, end = sorted(_lock_directions(plane, behind, ends))
+        start, end = sorted(_lock_directions(assembly, behind, ends))
         found.append(Relief(start, end, i))
     first = found[0].start
     out = []
@@ -70,14 +70,14 @@ def reliefs(plane: Plane) -> list[Relief]:
     return sorted(out)
 
 
-def _lock_directions(plane: Plane, middle: float, ends: list[float]) -> list[float]:
+def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> list[float]:
     """The directions at some input angles, unwound about the one at mid-motion."""
-    centre = plane.lock(middle)
-    return [centre + math.remainder(plane.lock(end) - centre, math.tau) for end in ends]
+    centre = assembly.lock(middle)
+    return [centre + math.remainder(assembly.lock(end) - centre, math.tau) for end in ends]
 
 
 def crank_contours(
-    plane: Plane, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
+    assembly: Assembly, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
 ) -> list[Contour]:
     """The locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
@@ -86,9 +86,9 @@ def crank_contours(
     left are the locking sectors, carried by the crank beside the wheel's plane; they keep
     ``spare`` mm more from it.
     """
-    around = reliefs(plane)
-    if not is_whole(plane, sizes):
-        return _rings(plane, sizes, around, swept, spare)
+    around = reliefs(assembly)
+    if not is_whole(assembly, sizes):
+        return _rings(assembly, sizes, around, swept, spare)
     if relief == "sector":
         around = _merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector
@@ -100,20 +100,20 @@ def crank_contours(
         )
     found: list[Segment] = []
     for one, after in _followed(around):
-        found += cut(plane, sizes, one)
+        found += cut(assembly, sizes, one)
         if after - one.end > SAME:
             found.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
     return [closed(LAYER, found)]
 
 
-def is_whole(plane: Plane, sizes: Sizes) -> bool:
+def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
     """Whether something of the disc is left at the crank's axis."""
-    return plane.sign > 0.0 and plane.L - sizes.rim > sizes.relief
+    return assembly.sign > 0.0 and assembly.L - sizes.rim > sizes.relief
 
 
-def without_lock(plane: Plane) -> bool:
+def without_lock(assembly: Assembly) -> bool:
     """Whether one motion follows another without a dwell, so that no disc is left between them."""
-    return any(after - one.end <= SAME for one, after in _followed(reliefs(plane)))
+    return any(after - one.end <= SAME for one, after in _followed(reliefs(assembly)))
 
 
 def _followed(around: list[Relief]) -> list[tuple[Relief, float]]:
@@ -135,10 +135,10 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
 
 
 def _rings(
-    plane: Plane, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
+    assembly: Assembly, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
 ) -> list[Contour]:
     """Locking sectors without a middle: outside of what the wheel sweeps in all motions."""
-    points = [swept(i) for i in range(len(plane.rollers))]
+    points = [swept(i) for i in range(len(assembly.rollers))]
     radius = np.concatenate([p[0] for p in points])
     direction = np.concatenate([p[1] for p in points])
     found = []
@@ -209,41 +209,43 @@ def _merged(around: list[Relief]) -> list[Relief]:
     return found
 
 
-def crank_circles(plane: Plane, sizes: Sizes) -> list[Shape]:
+def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
     """Rollers, pins and bore, which may have a keyway."""
     found: list[Shape] = []
-    for centre in roller_centres(plane):
+    for centre in roller_centres(assembly):
         found += [Circle("ROLLER", centre, sizes.roller)]
         found += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
     if sizes.crank_bore:
-        fitted = key(plane.mechanism.spec.size.crank_keyway, sizes.crank_bore)
-        found.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(plane)))
+        fitted = key(assembly.mechanism.spec.size.crank_keyway, sizes.crank_bore)
+        found.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(assembly)))
     return found
 
 
-def roller_centres(plane: Plane) -> list[Point]:
+def roller_centres(assembly: Assembly) -> list[Point]:
     """The rollers on the crank at the mid-motion of each."""
     found = []
-    for number, (_, behind) in enumerate(plane.rollers):
+    for number, (_, behind) in enumerate(assembly.rollers):
         at = np.array([behind])
-        x, y = (plane.pin(number, at) - (plane.L, 0.0))[0]
-        angle = math.atan2(y, x) - float(plane.crank(at)[0])
+        x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
+        angle = math.atan2(y, x) - float(assembly.crank(at)[0])
         reach = math.hypot(x, y)
         found.append((reach * math.cos(angle), reach * math.sin(angle)))
     return found
 
 
-def sectors(plane: Plane) -> list[tuple[float, float]]:
+def sectors(assembly: Assembly) -> list[tuple[float, float]]:
     """Where the disc locks: directions on the crank, radians, from and to."""
-    return [(one.end, after) for one, after in _followed(reliefs(plane)) if after - one.end > SAME]
+    return [
+        (one.end, after) for one, after in _followed(reliefs(assembly)) if after - one.end > SAME
+    ]
 
 
-def keyway_direction(plane: Plane) -> float:
+def keyway_direction(assembly: Assembly) -> float:
     """Where the crank's keyway stands: amid a locking sector, away from reliefs and rollers."""
-    return next((0.5 * (start + end) for start, end in sectors(plane)), math.pi)
+    return next((0.5 * (start + end) for start, end in sectors(assembly)), math.pi)
 
 
-def _arc(plane: Plane, sizes: Sizes, relief: Relief) -> list[Segment]:
+def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     """One arc that meets the disc at right angles at both ends.
 
     For a radial slot entered without shock it is the triangle of wheel, crank and roller at
@@ -256,9 +258,9 @@ def _arc(plane: Plane, sizes: Sizes, relief: Relief) -> list[Segment]:
     return [about(centre, radius, middle + math.pi + half, -2.0 * half)]
 
 
-def _sector(plane: Plane, sizes: Sizes, relief: Relief) -> list[Segment]:
+def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     """The whole sector, down to where the wheel never comes: L - rim less a clearance."""
-    floor = plane.L - sizes.rim - sizes.relief
+    floor = assembly.L - sizes.rim - sizes.relief
     width = relief.end - relief.start
     bottom = about((0.0, 0.0), floor, relief.start, width)
     start = (sizes.lock * math.cos(relief.start), sizes.lock * math.sin(relief.start))

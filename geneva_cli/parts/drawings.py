@@ -32,7 +32,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm, bolts, crank_arm, has_arm
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import crank_circles, roller_centres
 from geneva_cli.parts.link_drawings import once, titled, together
 from geneva_cli.parts.links import drawn_links
@@ -69,63 +69,63 @@ def arm(found: Outlines, tolerance: float, curves: str) -> Drawing:
 
 def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The first slot, closed along the rim, and the roller's way in it."""
-    engagement = found.plane.slots[0][0]
-    walls = slot_walls(found.plane, found.sizes, engagement, tolerance, curves)
+    engagement = found.assembly.slots[0][0]
+    walls = slot_walls(found.assembly, found.sizes, engagement, tolerance, curves)
     start, end = walls.segments[0].start, walls.segments[-1].end
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
-    level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.plane.L
+    level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.assembly.L
     rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
-    pitch = pitch_line(found.plane, engagement, tolerance, curves)
+    pitch = pitch_line(found.assembly, engagement, tolerance, curves)
     return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), pitch))
 
 
 def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The machine at input angle 0: the wheel's axis the origin, the crank's on the x axis."""
-    plane = found.plane
+    assembly = found.assembly
     at = np.zeros(1)
-    psi, angle = float(plane.wheel(at)[0]), float(plane.crank(at)[0])
+    psi, angle = float(assembly.wheel(at)[0]), float(assembly.crank(at)[0])
     contour, *circles = _wheel(found, tolerance, curves)
     shapes: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
     carrier = crank_arm(found) if has_arm(found) else None
-    bars = drawn_links(plane.given, found)
+    bars = drawn_links(assembly.given, found)
     carried = [*_crank(found), *_arm(found, carrier)]
-    shapes += [mapped(turned(s, angle), lambda p: (p[0] + plane.L, p[1])) for s in carried]
+    shapes += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
     shapes += together(bars)
     shapes += _ways(found, psi, tolerance, curves)
     solid = Group(
         _title(found, ""),
         (
             Member(wheel_plate(found, contour), turn=psi),
-            Member(crank_group(found, carrier, bars.pin_low), (plane.L, 0.0), angle),
+            Member(crank_group(found, carrier, bars.pin_low), (assembly.L, 0.0), angle),
             *bars.cut,
             *bars.joined,
         ),
     )
-    look = Look((Span((0.0, 0.0), (plane.L, 0.0), "L"),), tuple(_turns(found)))
+    look = Look((Span((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
     return Drawing(_title(found, ""), tuple(once(shapes)), look, solid)
 
 
 def _turns(found: Outlines) -> Iterator[Arc]:
     """Which way the wheel turns, and a crank, as arcs outside of them."""
-    plane, sizes = found.plane, found.sizes
+    assembly, sizes = found.assembly, found.sizes
     reach = max(math.hypot(*s.start) for s in found.wheel.segments)
-    beyond = (sizes.outer or reach) + BEYOND * plane.L
+    beyond = (sizes.outer or reach) + BEYOND * assembly.L
     yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
-    if not plane.given.spec.drive.CRANKED:
+    if not assembly.given.spec.drive.CRANKED:
         return
-    step = math.remainder(float(np.diff(plane.crank(np.array([-0.5, 0.5])))[0]), math.tau)
+    step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
     # inside, the crank turns within the wheel: the arrow is near its shaft
-    far = max(math.hypot(*c) for c in roller_centres(plane)) + 2.0 * sizes.roller
-    radius = far + BEYOND * plane.L if plane.sign > 0.0 else 0.5 * sizes.arm
-    yield about((plane.L, 0.0), radius, -sense * 0.5, sense)
+    far = max(math.hypot(*c) for c in roller_centres(assembly)) + 2.0 * sizes.roller
+    radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
+    yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
 
 
 def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The fixed groove of a cam-Geneva, both flanks all round, about the crank's axis."""
-    guide = found.plane.rollers[0][0].groove
+    guide = found.assembly.rollers[0][0].groove
     if guide is None:
-        kind = found.plane.mechanism.spec.drive.NAME
+        kind = found.assembly.mechanism.spec.drive.NAME
         raise GenevaError(f'--part groove: kind = "{kind}" has none; kind = "cam" has')
     from geneva_cli.parts.groove import groove_curve
 
@@ -133,7 +133,7 @@ def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
     ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
     shapes = []
     for layer, side in (("GROOVE", 1.0), ("GROOVE", -1.0), (PITCH, 0.0)):
-        curve = groove_curve(guide, found.plane.L, side * found.sizes.half_width)
+        curve = groove_curve(guide, found.assembly.L, side * found.sizes.half_width)
         pieces: list[Segment] = []
         for a, b in zip(ends, ends[1:], strict=False):
             pieces += fit.KINDS[curves](curve, a, b, tolerance)
@@ -142,25 +142,25 @@ def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
 
 
 def _title(found: Outlines, part: str) -> str:
-    name = titled(found.plane.mechanism)
+    name = titled(found.assembly.mechanism)
     return f"{name}: {part}" if part else name
 
 
 def _wheel(found: Outlines, tolerance: float, curves: str) -> tuple[Contour, *tuple[Shape, ...]]:
-    plane, sizes = found.plane, found.sizes
-    return (_outline(found, tolerance, curves), *wheel_circles(plane, sizes))
+    assembly, sizes = found.assembly, found.sizes
+    return (_outline(found, tolerance, curves), *wheel_circles(assembly, sizes))
 
 
 def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
     """The wheel's outline: the one that was turned, unless other curves or finer ones are asked."""
     if curves == "arcs" and tolerance == found.fine:
         return found.wheel
-    walls = {s: slot_walls(found.plane, found.sizes, s, tolerance, curves) for s in found.slots}
-    return wheel_contour(found.plane, found.sizes, walls)
+    walls = {s: slot_walls(found.assembly, found.sizes, s, tolerance, curves) for s in found.slots}
+    return wheel_contour(found.assembly, found.sizes, walls)
 
 
 def _crank(found: Outlines) -> list[Shape]:
-    return [*found.crank, *crank_circles(found.plane, found.sizes), *bolts(found)]
+    return [*found.crank, *crank_circles(found.assembly, found.sizes), *bolts(found)]
 
 
 def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
@@ -173,30 +173,32 @@ def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
 
 def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
     """The line of centres, and where the rollers run: on their circles and in their slots."""
-    plane = found.plane
-    shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (plane.L, 0.0)),), closed=False)]
+    assembly = found.assembly
+    shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
     arms = set()
-    for number, (engagement, behind) in enumerate(plane.rollers):
+    for number, (engagement, behind) in enumerate(assembly.rollers):
         if not engagement.crank_sense and engagement.groove is None:
-            x, y = plane.pin(number, np.array([behind]))[0]
-            arms.add(round(math.hypot(x - plane.L, y), 9))
-    shapes += [Circle(PITCH, (plane.L, 0.0), arm) for arm in sorted(arms)]
-    pitches = {s: pitch_line(plane, s, tolerance, curves) for s in found.slots}
+            x, y = assembly.pin(number, np.array([behind]))[0]
+            arms.add(round(math.hypot(x - assembly.L, y), 9))
+    shapes += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
+    pitches = {s: pitch_line(assembly, s, tolerance, curves) for s in found.slots}
     shapes += [
-        turned(pitches[engagement], direction + psi) for engagement, direction in plane.slots
+        turned(pitches[engagement], direction + psi) for engagement, direction in assembly.slots
     ]
     return shapes
 
 
-def pitch_line(plane: Plane, engagement: Engagement, tolerance: float, curves: str) -> Contour:
+def pitch_line(
+    assembly: Assembly, engagement: Engagement, tolerance: float, curves: str
+) -> Contour:
     """The slot's pitch curve, the first half of the way where the roller comes back on it."""
     at = np.array([engagement.entry_deg, 0.0])
     x, y = engagement.slot(at, 0)
     if not engagement.slot.curved:
-        mouth, end = plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
+        mouth, end = assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour(PITCH, (Line(*ends),), closed=False)
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
-        pieces += fit.KINDS[curves](beside(plane, engagement, 0.0, b > 0.0), a, b, tolerance)
+        pieces += fit.KINDS[curves](beside(assembly, engagement, 0.0, b > 0.0), a, b, tolerance)
     return Contour(PITCH, joined(pieces), closed=False)

@@ -11,10 +11,10 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.assembly import Plane, plane
+from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.crank import crank_contours, is_whole, without_lock
 from geneva_cli.parts.sizes import Sizes, sizes
-from geneva_cli.parts.turn.gaps import Clash
+from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.walls.curved import curved_walls
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
@@ -40,20 +40,20 @@ class Outlines(NamedTuple):
     or the walls' tolerance.
     """
 
-    plane: Plane
+    assembly: Assembly
     sizes: Sizes
     slots: dict[Engagement, Contour]
     wheel: Contour
     crank: list[Contour]
     relief: str
-    clash: Clash
+    gaps: Gaps
     close: float
     fine: float  # mm, the tolerance that curved walls are fitted to
 
     @property
     def contact(self) -> float:
         """The overlap, mm, that is contact and no jam."""
-        return CONTACT * self.plane.L
+        return CONTACT * self.assembly.L
 
     @property
     def relief_depth(self) -> float:
@@ -65,12 +65,12 @@ class Outlines(NamedTuple):
 
         A few positions instead of a whole turn: to look for a size that frees a machine there.
         """
-        start, turn = self.plane.start_deg, self.plane.turn_deg
-        place = self.plane.place_deg(shown_deg)
+        start, turn = self.assembly.start_deg, self.assembly.turn_deg
+        place = self.assembly.place_deg(shown_deg)
         at = start + (place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
-        pose = self.clash.pose(at)
-        gap = float(self.clash.rollers(pose).min())
-        return min(gap, float(self.clash.locking(pose).min())) if self.crank else gap
+        pose = self.gaps.pose(at)
+        gap = float(self.gaps.rollers(pose).min())
+        return min(gap, float(self.gaps.locking(pose).min())) if self.crank else gap
 
 
 def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
@@ -79,67 +79,67 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     A finer tolerance than the walls are known to is taken as that. The crank's is exact.
     Raises GenevaError where the machine has no flat parts, or its sizes leave none.
     """
-    where = plane(mechanism)
+    where = assembly(mechanism)
     size = sizes(where)
     curved = any(engagement.slot.curved for engagement in where.kinds)
     fine = max(0.5 * CURVED * where.L, tolerance)
     walls = {engagement: slot_walls(where, size, engagement, fine) for engagement in where.kinds}
     close = (CURVED if curved else EXACT) * where.L
     wheel = wheel_contour(where, size, walls)
-    crank, relief, clash = _relieved(Clash(where, size, wheel, []), wheel, close)
-    return Outlines(where, size, walls, wheel, crank, relief, clash, close, fine)
+    crank, relief, gaps = _relieved(Gaps(where, size, wheel, []), wheel, close)
+    return Outlines(where, size, walls, wheel, crank, relief, gaps, close, fine)
 
 
-def _sweep(bare: Clash) -> Callable[[int], tuple[Array, Array]]:
+def _sweep(bare: Gaps) -> Callable[[int], tuple[Array, Array]]:
     return lambda i: bare.swept(i, SWEPT_DEG)
 
 
 def slot_walls(
-    plane: Plane, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
     """The walls of one slot, straight or curved; see ``curved_walls`` for ``curves``."""
     if engagement.slot.curved:
-        return curved_walls(plane, sizes, engagement, tolerance, curves)
-    return straight_walls(plane, sizes, engagement)
+        return curved_walls(assembly, sizes, engagement, tolerance, curves)
+    return straight_walls(assembly, sizes, engagement)
 
 
-def _relieved(bare: Clash, wheel: Contour, close: float) -> tuple[list[Contour], str, Clash]:
+def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], str, Gaps]:
     """The crank with the relief that the spec asks for, or else the first that clears the wheel.
 
     The arc leaves the most of the disc and is one cut; where it collides, as at many slots, the
     whole sector is cut down to where the wheel never comes.
     """
-    plane, sizes, swept = bare.plane, bare.sizes, _sweep(bare)
+    assembly, sizes, swept = bare.assembly, bare.sizes, _sweep(bare)
     if not sizes.lock:
         return [], "none", bare
-    asked = plane.mechanism.spec.size.relief
-    arcs = is_whole(plane, sizes) and not without_lock(plane)
+    asked = assembly.mechanism.spec.size.relief
+    arcs = is_whole(assembly, sizes) and not without_lock(assembly)
     kinds = [asked] if asked else ["arc", "sector"] if arcs else ["sector"]
     for kind in kinds:
-        crank = crank_contours(plane, sizes, kind, swept)
-        clash = Clash(plane, sizes, wheel, crank)
-        overlap = _overlap(clash)
+        crank = crank_contours(assembly, sizes, kind, swept)
+        gaps = Gaps(assembly, sizes, wheel, crank)
+        overlap = _overlap(gaps)
         if overlap <= close:
-            return crank, kind, clash
+            return crank, kind, gaps
     spare = 0.0
-    for _ in range(0 if is_whole(plane, sizes) else TRIES):
+    for _ in range(0 if is_whole(assembly, sizes) else TRIES):
         # Between two of the places that were looked at the wheel came nearer still.
         spare += SPARE * overlap + 10.0 * close
-        crank = crank_contours(plane, sizes, kind, swept, spare)
-        clash = Clash(plane, sizes, wheel, crank)
-        overlap = _overlap(clash)
+        crank = crank_contours(assembly, sizes, kind, swept, spare)
+        gaps = Gaps(assembly, sizes, wheel, crank)
+        overlap = _overlap(gaps)
         if overlap <= close:
             break
-    return crank, kind, clash
+    return crank, kind, gaps
 
 
-def _overlap(clash: Clash) -> float:
+def _overlap(gaps: Gaps) -> float:
     """By how much the crank and the wheel overlap at most in all motions."""
     least = 0.0
-    for engagement, behind in clash.plane.rollers:
+    for engagement, behind in gaps.assembly.rollers:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)
         at = (
             behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
         )
-        least = min(least, float(clash.locking(clash.pose(at)).min()))
+        least = min(least, float(gaps.locking(gaps.pose(at)).min()))
     return -least

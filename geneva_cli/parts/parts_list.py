@@ -66,13 +66,13 @@ def parts_list(proof: Proof) -> Table:
 
 def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
     """The plates of wheel and crank, each kind once with its count, as the solids have them."""
-    spec, arm = found.plane.given.spec, None
+    spec, arm = found.assembly.given.spec, None
     if has_arm(found):
         with suppress(GenevaError):  # the check of the arm says why there is none
             arm = crank_arm(found)
     bars = None
     with suppress(GenevaError):  # and that of the links
-        bars = drawn_links(found.plane.given, found)
+        bars = drawn_links(found.assembly.given, found)
     group = crank_group(found, arm, bars.pin_low if bars else None)
     yield from _rows(spec, [Member(wheel_plate(found, found.wheel)), *group.members])
     if bars:

@@ -15,7 +15,7 @@ from geneva_cli.parts.wheel import wheel_circles
 
 def wheel_plate(found: Outlines, contour: Contour) -> Plate:
     """The wheel with its contour as it is drawn; inside, that is the opening in its disc."""
-    circles = wheel_circles(found.plane, found.sizes)
+    circles = wheel_circles(found.assembly, found.sizes)
     bores = [circle for circle in circles if circle.layer == "BORE"]
     outside = [circle for circle in circles if circle.layer != "BORE"]
     outline, *openings = [*outside, contour]
@@ -25,7 +25,7 @@ def wheel_plate(found: Outlines, contour: Contour) -> Plate:
 
 def arm_plate(found: Outlines, arm: CrankArm) -> Plate:
     """The crank arm below the wheel, ``pin_gap_mm`` from it."""
-    high = -found.plane.mechanism.spec.size.pin_gap_mm
+    high = -found.assembly.mechanism.spec.size.pin_gap_mm
     holes = (arm.bore, *arm.pins, *arm.bolts)
     low = high - found.sizes.arm_thickness
     return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
@@ -39,10 +39,10 @@ def crank_group(
     ``pin_low`` is down to where pins go that stand in a link. A bore is a hole in the disc, and
     nothing where none is left about the axis.
     """
-    plane, sizes = found.plane, found.sizes
-    low = -plane.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
-    whole = is_whole(plane, sizes)
-    bores = [c for c in crank_circles(plane, sizes) if c.layer == "BORE" and whole]
+    assembly, sizes = found.assembly, found.sizes
+    low = -assembly.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
+    whole = is_whole(assembly, sizes)
+    bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
     screwed = bolts(found)
     each = len(screwed) // max(1, len(found.crank))
     name = "locking disc" if whole else "locking sector"
@@ -61,7 +61,7 @@ def crank_group(
     members = [Member(plate) for plate in plates]
     below = low - (sizes.arm_thickness if arm else 0.0) if pin_low is None else pin_low
     round_ = _rollers(found, below)
-    members += [Member(plate, axis) for axis in roller_centres(plane) for plate in round_]
+    members += [Member(plate, axis) for axis in roller_centres(assembly) for plate in round_]
     return Group("crank", tuple(members))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -60,31 +60,35 @@ class Ways(NamedTuple):
     arm: float  # least distance of a roller, and of the slots beside it, from the crank's axis
 
 
-def ways(plane: Plane) -> Ways:
+def ways(assembly: Assembly) -> Ways:
     """The ways of a machine's rollers."""
-    paths = [_pitch(plane, s) for s in plane.kinds]
+    paths = [_pitch(assembly, s) for s in assembly.kinds]
     reach = [np.hypot(*points.T) for points in paths]
-    ends = tuple(float(r.min() if plane.sign > 0.0 else r.max()) for r in reach)
-    beside = [_to_slot(plane, s, points) for s, points in zip(plane.kinds, paths, strict=True)]
-    return Ways(ends, min(_arm(plane), *beside))
+    ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
+    beside = [
+        _to_slot(assembly, s, points) for s, points in zip(assembly.kinds, paths, strict=True)
+    ]
+    return Ways(ends, min(_arm(assembly), *beside))
 
 
-def sizes(plane: Plane, known: Ways | None = None) -> Sizes:
+def sizes(assembly: Assembly, known: Ways | None = None) -> Sizes:
     """The sizes of a machine's parts; ``known`` its rollers' ways, where somebody has them.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
-    spec, L = plane.mechanism.spec, plane.L
-    path = known or ways(plane)
-    given, r = spec.size, plane.mechanism.roller_radius_mm
+    spec, L = assembly.mechanism.spec, assembly.L
+    path = known or ways(assembly)
+    given, r = spec.size, assembly.mechanism.roller_radius_mm
     w = r + given.slot_clearance_mm
-    outside = plane.sign > 0.0
-    rim = _or(given.wheel_radius_mm, max(mouth(plane, s, r) for s in plane.kinds))
+    outside = assembly.sign > 0.0
+    rim = _or(given.wheel_radius_mm, max(mouth(assembly, s, r) for s in assembly.kinds))
     bottom = _or(given.slot_bottom_clearance_mm, max(given.slot_clearance_mm, r / 20.0))
-    gaps = [0.0 if s.slot.curved else bottom for s in plane.kinds]
-    end = min(e * plane.sign - g - w for e, g in zip(path.ends, gaps, strict=True)) * plane.sign
+    gaps = [0.0 if s.slot.curved else bottom for s in assembly.kinds]
+    end = (
+        min(e * assembly.sign - g - w for e, g in zip(path.ends, gaps, strict=True)) * assembly.sign
+    )
     arm = path.arm
-    lock = _lock(plane, arm, w, rim)
+    lock = _lock(assembly, arm, w, rim)
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
@@ -114,7 +118,7 @@ def sizes(plane: Plane, known: Ways | None = None) -> Sizes:
         lock_thickness=thick.lock,
         arm_thickness=thick.arm,
     )
-    _refuse(plane, out)
+    _refuse(assembly, out)
     return out
 
 
@@ -145,7 +149,7 @@ def wall_min(size: Size, L: float) -> float:
     return _or(size.wall_min_mm, L / 200.0)
 
 
-def mouth(plane: Plane, engagement: Engagement, r: float) -> float:
+def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
     """Radius at which the wheel ends where a roller of radius r enters and leaves a slot.
 
     There the roller touches the wall that faces the crank's axis, at the foot of the
@@ -153,23 +157,23 @@ def mouth(plane: Plane, engagement: Engagement, r: float) -> float:
     """
     x, y = engagement.slot(engagement.entry_deg, 0)
     if not engagement.slot.offset:
-        return math.hypot(plane.L * math.hypot(x.c[0], y.c[0]), r)
-    return max(math.hypot(*corner(plane, engagement, end, r)) for end in (-1.0, 1.0))
+        return math.hypot(assembly.L * math.hypot(x.c[0], y.c[0]), r)
+    return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
 
-def corner(plane: Plane, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
+def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
     """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
     x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
-    px, py = plane.L * scalar(x.c[0]), plane.L * scalar(y.c[0])
-    cx, cy = rest(plane, engagement, end)
+    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    cx, cy = rest(assembly, engagement, end)
     share = r / math.dist((px, py), (cx, cy))
     return px + share * (cx - px), py + share * (cy - py)
 
 
-def rest(plane: Plane, engagement: Engagement, end: float) -> tuple[float, float]:
+def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
     """The crank's axis in the wheel's frame before (-1) and after (1) an engagement's motion."""
     b = -end * engagement.half_step
-    return plane.L * math.cos(b), plane.L * math.sin(b)
+    return assembly.L * math.cos(b), assembly.L * math.sin(b)
 
 
 def _or(given: float | None, default: float) -> float:
@@ -201,35 +205,38 @@ def even(radius: float) -> float:
     return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
 
 
-def _pitch(plane: Plane, engagement: Engagement) -> Array:
+def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
     """Points of a slot's pitch curve, (n, 2)."""
     x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
-    return plane.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+    return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
 
 
-def _arm(plane: Plane) -> float:
+def _arm(assembly: Assembly) -> float:
     """Least distance of the rollers from the crank's axis."""
-    turn = np.linspace(0.0, plane.turn_deg, TURN, endpoint=False)
-    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(plane.rollers)])}
-    far = [plane.pin(i, turn) - (plane.L, 0.0) for i in leaders.values()]  # others follow them
+    turn = np.linspace(0.0, assembly.turn_deg, TURN, endpoint=False)
+    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
+    # others follow their leaders
+    far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]
     return float(min(np.hypot(*p.T).min() for p in far))
 
 
-def _to_slot(plane: Plane, engagement: Engagement, points: Array) -> float:
+def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
     """Distance of the slots beside it from the crank's axis, while the wheel rests."""
-    return float(min(np.hypot(*(points - rest(plane, engagement, e)).T).min() for e in (-1.0, 1.0)))
+    return float(
+        min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
+    )
 
 
-def _lock(plane: Plane, arm: float, w: float, rim: float) -> float:
+def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     """The locking disc's radius: a horn as thick as the roller's radius, or a fifth of the room.
 
     0 for none: linkages hold their wheel in other ways.
     """
-    spec, size = plane.mechanism.spec, plane.mechanism.spec.size
+    spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
         return 0.0
     room = arm - w - size.lock_clearance_mm
-    least, r = max(plane.L - rim, 0.0), plane.mechanism.roller_radius_mm
+    least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
     if room <= least:
         raise GenevaError(
             f"no room for a locking disc: it would have to reach {least:.4g} mm, to the rim, and "
@@ -249,12 +256,12 @@ def _lock(plane: Plane, arm: float, w: float, rim: float) -> float:
     return size.lock_radius_mm
 
 
-def _refuse(plane: Plane, found: Sizes) -> None:
-    outside = plane.sign > 0.0
-    if found.lock and not abs(plane.L - found.rim) < found.recess:
+def _refuse(assembly: Assembly, found: Sizes) -> None:
+    outside = assembly.sign > 0.0
+    if found.lock and not abs(assembly.L - found.rim) < found.recess:
         raise GenevaError(
             f"wheel_radius_mm = {found.rim:g}: the rim lies beyond the locking disc, which opens "
-            f"it only where it is below {plane.L + found.recess:.6g}",
+            f"it only where it is below {assembly.L + found.recess:.6g}",
             ("size", "wheel_radius_mm"),
         )
     if outside and found.slot_end <= 0.0:
@@ -285,13 +292,13 @@ def _refuse(plane: Plane, found: Sizes) -> None:
             f"pin_mm = {2.0 * found.pin:g}: it must be below the roller's {2.0 * found.roller:g}",
             ("size", "pin_mm"),
         )
-    if not outside and found.outer <= max(found.slot_end, plane.L + found.recess):
+    if not outside and found.outer <= max(found.slot_end, assembly.L + found.recess):
         raise GenevaError(
             f"wheel_outer_radius_mm = {found.outer:g}: the slots reach {found.slot_end:.6g} mm; it "
             "must be larger",
             ("size", "wheel_outer_radius_mm"),
         )
-    if outside and plane.mechanism.spec.size.wheel_outer_radius_mm is not None:
+    if outside and assembly.mechanism.spec.size.wheel_outer_radius_mm is not None:
         raise GenevaError(
             "wheel_outer_radius_mm is for internal wheels; here wheel_radius_mm is the outside",
             ("size", "wheel_outer_radius_mm"),

@@ -9,7 +9,7 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
@@ -20,7 +20,7 @@ SAME = 1e-9  # of the centre distance: radii nearer to each other are one
 HELD = 0.2
 
 
-def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
+def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
     """The wheel's contour, counterclockwise: outside its material's edge, inside its opening's.
 
     ``slots`` has for each engagement the walls of its slot, from the corner on one side of the
@@ -28,36 +28,38 @@ def wheel_contour(plane: Plane, sizes: Sizes, slots: dict[Engagement, Contour]) 
     GenevaError where a recess leaves no horn beside a slot.
     """
     found: list[Segment] = []
-    around = plane.slots
+    around = assembly.slots
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
         found += turned(slots[engagement], direction).segments
         next_start = turned(slots[following], ahead).segments[0].start
-        found += _rim(plane, sizes, found[-1].end, next_start, _between(plane, direction, ahead))
+        found += _rim(
+            assembly, sizes, found[-1].end, next_start, _between(assembly, direction, ahead)
+        )
     return closed(LAYER, found)
 
 
-def wheel_circles(plane: Plane, sizes: Sizes) -> list[Shape]:
+def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
     """The outside of an internal wheel, the bore, which may have a keyway, the dial's bolts.
 
     Raises GenevaError for a keyway without a bore, or one that its standard does not have.
     """
     found: list[Shape] = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
-    standard = plane.mechanism.spec.size.wheel_keyway
+    standard = assembly.mechanism.spec.size.wheel_keyway
     if sizes.wheel_bore or standard:
         fitted = key(standard, sizes.wheel_bore, "wheel")
-        found.append(bore("BORE", sizes.wheel_bore, fitted, plane.rests[0]))
-    return [*found, *dial_bolts(plane, sizes)]
+        found.append(bore("BORE", sizes.wheel_bore, fitted, assembly.rests[0]))
+    return [*found, *dial_bolts(assembly, sizes)]
 
 
-def dial_bolts(plane: Plane, sizes: Sizes) -> list[Circle]:
+def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
     """The holes for the dial on the wheel, evenly from between two slots on.
 
     As a rule on a circle amid what neither bore nor slots and recesses take.
     """
-    size, count = plane.mechanism.spec.size, plane.mechanism.spec.size.dial_bolts
+    size, count = assembly.mechanism.spec.size, assembly.mechanism.spec.size.dial_bolts
     if sizes.outer:
-        low, high = max(sizes.slot_end, plane.L + sizes.recess), sizes.outer
+        low, high = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
     else:
         low, high = sizes.wheel_bore, sizes.slot_end
         fitted = key(size.wheel_keyway, low, "wheel") if low else None
@@ -65,20 +67,22 @@ def dial_bolts(plane: Plane, sizes: Sizes) -> list[Circle]:
     far, room = 0.5 * (low + high), 0.5 * (high - low)
     if size.dial_bolt_circle_mm is not None:
         far = 0.5 * size.dial_bolt_circle_mm
-    r = min(plane.L / 80.0, 0.5 * room) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
-    turns = [plane.rests[0] + math.tau * k / count for k in range(count)]
+    r = min(assembly.L / 80.0, 0.5 * room) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
+    turns = [assembly.rests[0] + math.tau * k / count for k in range(count)]
     return [Circle("BORE", _on(far, turn), r) for turn in turns]
 
 
-def _between(plane: Plane, start: float, end: float) -> float:
+def _between(assembly: Assembly, start: float, end: float) -> float:
     """The rest between two neighbouring slots, as an angle above the first one's."""
     span = (end - start) % math.tau
     return next(
-        start + off for at in plane.rests if (off := (at - start) % math.tau) < span or span == 0.0
+        start + off
+        for at in assembly.rests
+        if (off := (at - start) % math.tau) < span or span == 0.0
     )
 
 
-def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
+def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
     """From one slot's corner along the rim, through the recess, to the next slot's corner.
 
     Mouths of offset slots and of unequal steps end at different radii. One that the recess does
@@ -93,33 +97,33 @@ def _rim(plane: Plane, sizes: Sizes, start: Point, end: Point, at: float) -> lis
         )
     last = first + (last - first) % math.tau
     at = first + (at - first) % math.tau
-    axis = plane.L * math.cos(at), plane.L * math.sin(at)
+    axis = assembly.L * math.cos(at), assembly.L * math.sin(at)
     beside = math.dist(start, axis), math.dist(end, axis)
     if sizes.lock and min(beside) <= sizes.recess:
         _refuse(sizes, min(beside))
     own = math.hypot(*start), math.hypot(*end)
-    reach = plane.L - sizes.recess
+    reach = assembly.L - sizes.recess
     least = reach + HELD * (sizes.rim - reach) if sizes.lock else max(own)
-    raised = [least > rim + SAME * plane.L and plane.sign > 0.0 for rim in own]
+    raised = [least > rim + SAME * assembly.L and assembly.sign > 0.0 for rim in own]
     rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
     found: list[Segment] = []
     after: list[Segment] = []
     if raised[0]:
-        first = at - opening(plane.L, rims[0], beside[0])
+        first = at - opening(assembly.L, rims[0], beside[0])
         found.append(_about(axis, start, _on(rims[0], first), 1.0))
     if raised[1]:
-        last = at + opening(plane.L, rims[1], beside[1])
+        last = at + opening(assembly.L, rims[1], beside[1])
         after.append(_about(axis, _on(rims[1], last), end, 1.0))
     if not sizes.lock:
         return [*found, about((0.0, 0.0), rims[0], first, last - first), *after]
     low, high = (
-        at + side * opening(plane.L, rim, sizes.recess)
+        at + side * opening(assembly.L, rim, sizes.recess)
         for side, rim in zip((-1.0, 1.0), rims, strict=True)
     )
     return [
         *found,
         about((0.0, 0.0), rims[0], first, low - first),
-        _about(axis, _on(rims[0], low), _on(rims[1], high), -plane.sign),
+        _about(axis, _on(rims[0], low), _on(rims[1], high), -assembly.sign),
         about((0.0, 0.0), rims[1], high, last - high),
         *after,
     ]

@@ -7,7 +7,7 @@ from geneva_cli.curves.plates import Body, weighed
 from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.assembly import Plane, plane
+from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
@@ -26,7 +26,7 @@ def wheel_body(mechanism: Mechanism) -> Body | None:
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
-    where = plane(mechanism)
+    where = assembly(mechanism)
     size = sizes(where)
     circles = wheel_circles(where, size)
     outer = total(moments(c) for c in circles if c.layer == LAYER)
@@ -37,7 +37,7 @@ def wheel_body(mechanism: Mechanism) -> Body | None:
     return weighed(face.less(bores), size.wheel_thickness, spec.material_wheel.density_kgm3)
 
 
-def _contour(where: Plane, size: Sizes) -> Moments:
+def _contour(where: Assembly, size: Sizes) -> Moments:
     """What is inside the wheel's contour; each kind of slot is worked out once.
 
     The contour is that of a wheel whose slots are chords across their mouths, and what the slots'
@@ -49,7 +49,7 @@ def _contour(where: Plane, size: Sizes) -> Moments:
     return total((moments(wheel_contour(where, size, chords)), *around))
 
 
-def _slot(where: Plane, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:
+def _slot(where: Assembly, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:
     """The chord across a slot's mouth, and what its walls sweep beyond the chord."""
     if engagement.slot.curved:
         from geneva_cli.parts.walls.chain import chain  # much, which straight slots do without

@@ -89,11 +89,11 @@ WORDS = ("ratio", "held_by")  # keys that say something new where they are set a
 def _size(mechanism: Mechanism, key: str) -> float | None:
     if key not in _SIZES:
         return None
-    from geneva_cli.parts.assembly import plane
+    from geneva_cli.parts.assembly import assembly
     from geneva_cli.parts.sizes import sizes
 
     try:
-        return _SIZES[key](sizes(plane(mechanism)))
+        return _SIZES[key](sizes(assembly(mechanism)))
     except GenevaError:
         return None
 

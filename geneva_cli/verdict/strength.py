@@ -11,7 +11,7 @@ from geneva_cli.analysis.loads.quantities import PV, ends_of
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import horn, lock, pin, roller, shafts
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.assembly import plane
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.crank import sectors
 from geneva_cli.parts.sizes import Sizes, sizes
 
@@ -77,7 +77,7 @@ class Strength:
         if not self.spec.is_flat:
             return None
         try:
-            return sizes(plane(self.mechanism))
+            return sizes(assembly(self.mechanism))
         except GenevaError:
             return None  # as the check of the parts says
 
@@ -150,7 +150,7 @@ class Strength:
         if self._lacks("lock_stress_max_MPa", self._wide, (held, "dwell_torque_Nm in [load]")):
             return None
         edge = self.spec.size.lock_edge_mm or 0.0
-        where = plane(self.mechanism)
+        where = assembly(self.mechanism)
         half = min(0.5 * (end - start) for start, end in sectors(where))
         radii = found.lock, found.recess, found.rim, half, edge
         return lock.lock(self.mechanism, found.half_width, Lock(where.L, where.sign, *radii))

@@ -95,11 +95,11 @@ def test_defaults_work(z, gearing, rollers):
         assert all(hole.distance(other) > wall for other in holes[:i])
     # chords of the witness's polygons lie inside their arcs by less than 1e-4 of the radius
     least = min(hole.distance(outline.exterior) for hole in holes)
-    assert walls(made, found) <= least + 1e-3 * found.plane.L
+    assert walls(made, found) <= least + 1e-3 * found.assembly.L
     if gearing == "external":
-        axis = Point(-found.plane.L, 0.0)  # of the wheel, seen from the crank, in any position
+        axis = Point(-found.assembly.L, 0.0)  # of the wheel, seen from the crank, in any position
         reach = max(math.hypot(*c.centre) for c in made.pins) + made.eye
-        assert found.plane.L - reach - found.sizes.wheel_hub == pytest.approx(made.room)
+        assert found.assembly.L - reach - found.sizes.wheel_hub == pytest.approx(made.room)
         assert made.room > -1e-9
         assert outline.distance(axis) > found.sizes.wheel_hub - 1e-9
 
@@ -202,7 +202,7 @@ def test_an_arm_that_meets_the_hub_is_told():
     design = of(Wheel(6), arm_eye_mm=90.0)
     (check,) = [c for c in design.checks if c.name == "arm_to_hub_mm"]
     found = design.parts
-    free = found.plane.L * (1.0 - 0.5) - 45.0 - found.sizes.wheel_hub
+    free = found.assembly.L * (1.0 - 0.5) - 45.0 - found.sizes.wheel_hub
     assert check.value == pytest.approx(free) and not check.passes
     name, value = check.nearest.split(" = ")
     fixed = design.with_(f"size.{name}", float(value))

@@ -26,7 +26,7 @@ from geneva_cli.parts import proof
 from geneva_cli.parts.crank import reliefs
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
-from geneva_cli.parts.turn.gaps import Clash, NotProved
+from geneva_cli.parts.turn.gaps import Gaps, NotProved
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
 
@@ -34,21 +34,21 @@ from geneva_cli.parts.wheel import wheel_contour
 def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
     """Input angles at which polygons overlap by more than twice what they stray: the crank's parts
     are taken smaller by that, and must not even touch the wheel."""
-    plane, size = found.plane, found.sizes
-    flat = 1e-5 * plane.L
+    assembly, size = found.assembly, found.sizes
+    flat = 1e-5 * assembly.L
     less = 2.0 * flat + found.close
     wheel = polygon(found.wheel, flat)
-    if plane.sign < 0.0:
+    if assembly.sign < 0.0:
         wheel = disc(size.outer).difference(wheel)
     shapely.prepare(wheel)
-    at = plane.start_deg + np.linspace(0.0, plane.turn_deg, count, endpoint=False)
-    turns, poses = plane.wheel(at), plane.crank(at)
+    at = assembly.start_deg + np.linspace(0.0, assembly.turn_deg, count, endpoint=False)
+    turns, poses = assembly.wheel(at), assembly.crank(at)
     roller = disc(size.roller - less)
     cranks = [polygon(contour, flat).buffer(-less) for contour in found.crank]
     for i in range(count):
-        pins = [plane.pin(k, at[i : i + 1])[0] for k in range(len(plane.rollers))]
+        pins = [assembly.pin(k, at[i : i + 1])[0] for k in range(len(assembly.rollers))]
         parts = [affinity.translate(roller, *pin) for pin in pins]
-        parts += [affinity.translate(turned(crank, poses[i]), plane.L) for crank in cranks]
+        parts += [affinity.translate(turned(crank, poses[i]), assembly.L) for crank in cranks]
         if any(wheel.intersects(turned(part, -turns[i])) for part in parts):
             yield float(at[i])
 
@@ -78,7 +78,7 @@ def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     found = made(**case)
     turn = full_turn(found)
     assert passes(found, turn)
-    past = 5e-7 if found.plane.sign < 0.0 or "offset" in case else 0.0
+    past = 5e-7 if found.assembly.sign < 0.0 or "offset" in case else 0.0
     gap = case.get("slot_clearance_mm", 0.0)
     assert turn.driving.mm == pytest.approx(gap, abs=found.close + past)
     assert turn.lock is not None
@@ -143,7 +143,7 @@ def test_play_against_polygons(case: dict) -> None:
     roller and lock change over the disc's edge comes to the recess at a small angle: there it takes
     up to 0.01 degrees more."""
     found = made(**case)
-    plane, play = found.plane, full_turn(found).play
+    assembly, play = found.assembly, full_turn(found).play
     flat = 1e-7 * L
     less = found.close + 2.0 * flat
     wheel = polygon(found.wheel, flat)
@@ -151,14 +151,14 @@ def test_play_against_polygons(case: dict) -> None:
     roller = Point(0.0, 0.0).buffer(found.sizes.roller - less, quad_segs=2000)
     for i in np.flatnonzero(play.resting)[::5]:
         at = play.input_deg[i : i + 1]
-        parts = [affinity.translate(turned(crank, float(plane.crank(at)[0])), L)]
-        parts += [affinity.translate(roller, *plane.pin(0, at)[0])]
+        parts = [affinity.translate(turned(crank, float(assembly.crank(at)[0])), L)]
+        parts += [affinity.translate(roller, *assembly.pin(0, at)[0])]
         for way, edge in ((-1.0, play.back[i]), (1.0, play.on[i])):
             for lead, meets in (
                 (max(0.999 * edge - 3e-4, 0.0), False),
                 (1.001 * edge + 0.01, True),
             ):
-                turn = float(plane.wheel(at)[0]) + way * math.radians(lead)
+                turn = float(assembly.wheel(at)[0]) + way * math.radians(lead)
                 assert any(wheel.intersects(turned(p, -turn)) for p in parts) == meets
 
 
@@ -232,8 +232,8 @@ def spoilt(
 ) -> Outlines:
     """The same machine with another wheel or crank."""
     wheel, crank = wheel or found.wheel, crank or found.crank
-    clash = Clash(found.plane, found.sizes, wheel, crank)
-    return found._replace(wheel=wheel, crank=crank, clash=clash)
+    gaps = Gaps(found.assembly, found.sizes, wheel, crank)
+    return found._replace(wheel=wheel, crank=crank, gaps=gaps)
 
 
 @pytest.mark.parametrize(("z", "by"), [(4, 0.2), (6, 0.02), (6, 0.2), (6, 1.0), (9, 0.2)])
@@ -282,12 +282,12 @@ def test_a_relief_about_the_wheels_axis_collides(z: int) -> None:
 def with_recesses(found: Outlines, rests: list[float], turned_by: float = 0.0) -> Contour:
     """The wheel with recesses only at some rests, all turned by an angle."""
     rests = [(at + turned_by) % math.tau for at in rests]
-    return wheel_contour(found.plane._replace(rests=tuple(rests)), found.sizes, found.slots)
+    return wheel_contour(found.assembly._replace(rests=tuple(rests)), found.sizes, found.slots)
 
 
 def with_one_recess(found: Outlines, kept: int) -> Contour:
     """The wheel with the rim closed over its recesses but one."""
-    axes = [(L * math.cos(at), L * math.sin(at)) for at in found.plane.rests]
+    axes = [(L * math.cos(at), L * math.sin(at)) for at in found.assembly.rests]
     del axes[kept]
 
     def filled(piece: Segment) -> Segment:
@@ -319,7 +319,7 @@ def test_recesses_turned_against_the_slots(by_deg: float) -> None:
     for 1 degree."""
     found = made(6)
     size = found.sizes
-    wrong = spoilt(found, with_recesses(found, list(found.plane.rests), math.radians(by_deg)))
+    wrong = spoilt(found, with_recesses(found, list(found.assembly.rests), math.radians(by_deg)))
     turn = full_turn(wrong)
     beta = math.asin(size.rim / size.recess * math.sin(opening(size.rim, size.recess)))
     assert turn.lock is not None
@@ -331,9 +331,9 @@ def test_recesses_turned_against_the_slots(by_deg: float) -> None:
 def test_a_slot_cut_one_degree_off(gearing: str) -> None:
     """At the mouth a roller without clearance meets the wall by L cos b sin(1 deg)."""
     found = made(6, gearing, roller_radius_mm=3.0)
-    engagement = found.plane.slots[0][0]
+    engagement = found.assembly.slots[0][0]
     off = {engagement: turned_contour(found.slots[engagement], math.radians(1.0))}
-    wrong = spoilt(found, wheel_contour(found.plane, found.sizes, off))
+    wrong = spoilt(found, wheel_contour(found.assembly, found.sizes, off))
     turn = full_turn(wrong)
     assert turn.driving.mm < -0.9 * L * math.cos(math.pi / 6) * math.sin(math.radians(1.0))
     assert list(overlaps(wrong))
@@ -343,10 +343,10 @@ def test_a_slot_cut_one_degree_off(gearing: str) -> None:
 def test_a_slot_too_short(gearing: str) -> None:
     """0.1 mm short: the roller is in its end by that, at mid-motion."""
     found = made(6, gearing, roller_radius_mm=3.0)
-    engagement = found.plane.slots[0][0]
+    engagement = found.assembly.slots[0][0]
     sizes = found.sizes._replace(slot_bottom=-0.1)
     short = wheel_contour(
-        found.plane, sizes, {engagement: straight_walls(found.plane, sizes, engagement)}
+        found.assembly, sizes, {engagement: straight_walls(found.assembly, sizes, engagement)}
     )
     turn = full_turn(spoilt(found, short))
     assert turn.driving.mm == pytest.approx(-0.1, abs=1e-9)  # the search's own end
@@ -404,11 +404,11 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     passes by: it lasts for less than half a degree, and not at any whole degree."""
     r, b = 2.0, math.pi / 6
     found = made(6, roller_radius_mm=r, lock_radius_mm=L * math.sin(b) - r - 0.5, relief="sector")
-    size, (relief,) = found.sizes, reliefs(found.plane)
+    size, (relief,) = found.sizes, reliefs(found.assembly)
     mouth, recess = math.asin(r / size.rim), b - opening(size.rim, size.recess)
     psi = 0.5 * (mouth + recess)  # the middle of the horn on the line of centres
     phi = math.degrees(math.asin(math.sin(psi) / math.sin(b)) - psi)
-    at, floor, tip = found.plane.lock(phi), L - size.rim - size.relief, L - size.rim + 0.02
+    at, floor, tip = found.assembly.lock(phi), L - size.rim - size.relief, L - size.rim + 0.02
     outer = about((0.0, 0.0), size.lock, relief.end, math.tau - 2.0 * relief.half)
     first = about((0.0, 0.0), floor, relief.start, at - relief.start)
     second = about((0.0, 0.0), floor, at + 1e-3, relief.end - at - 1e-3)
@@ -421,7 +421,7 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     # the needle is 0.013 mm thick, and the wheel's corner comes beside its point
     assert turn.lock.mm == pytest.approx(-0.013, abs=0.008)
     assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
-    assert wrong.clash.locking(wrong.clash.pose(np.arange(-60.0, 300.0))).min() >= -found.close
+    assert wrong.gaps.locking(wrong.gaps.pose(np.arange(-60.0, 300.0))).min() >= -found.close
     assert passes(found, full_turn(found))
 
 
@@ -434,7 +434,7 @@ def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
         raise NotProved("not within the budget")
 
     monkeypatch.setattr(proof, "full_turn", unproved)
-    one = proof.Proof(made(6).plane.mechanism)
+    one = proof.Proof(made(6).assembly.mechanism)
     for _ in range(2):
         with pytest.raises(NotProved):
             _ = one.turn

@@ -25,7 +25,7 @@ from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Motion as Given
-from geneva_cli.parts.assembly import plane
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.outlines import CURVED, Outlines, outlines
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.parts.turn.full_turn import full_turn
@@ -127,7 +127,7 @@ def sector(radius: float, start: float, end: float) -> Polygon:
 
 def cut(found: Outlines, slots: list[Slot], rests: list[float]) -> Polygon:
     """The wheel's material (inside: its opening) by cutting."""
-    size, sign = found.sizes, found.plane.sign
+    size, sign = found.sizes, found.assembly.sign
     w, z = size.half_width, len(slots)
     behind = rests  # the rest that comes after slot k lies behind it
     ahead = [rests[k - 1] for k in range(z)]
@@ -190,7 +190,7 @@ STRAIGHT = [
 
 
 def theory(found: Outlines) -> tuple[list[Slot], list[float]]:
-    mechanism = found.plane.mechanism
+    mechanism = found.assembly.mechanism
     wheel, size, r = mechanism.spec.wheel, mechanism.spec.size, mechanism.roller_radius_mm
     bottom = size.slot_bottom_clearance_mm
     if bottom is None:
@@ -235,7 +235,7 @@ def test_mouths_of_any_height(lock: float | None) -> None:
         wheel = Wheel(
             case["z"], offset_mm=case.get("offset", 0.0), steps_deg=case.get("steps", None)
         )
-        where = plane(build(Spec(wheel, size=Size(L, lock_radius_mm=lock))))
+        where = assembly(build(Spec(wheel, size=Size(L, lock_radius_mm=lock))))
         try:
             size = sizes(where)
             slots = {s: straight_walls(where, size, s) for s in where.kinds}
@@ -291,10 +291,10 @@ def lens(R: mpmath.mpf, r: mpmath.mpf, d: mpmath.mpf) -> tuple[mpmath.mpf, mpmat
 def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
     """Relative 1e-13: some hundred units in the last place for sums of some hundred pieces."""
     found = made(**case)
-    size, z, sign = found.sizes, case["z"], found.plane.sign
-    spec = found.plane.mechanism.spec
+    size, z, sign = found.sizes, case["z"], found.assembly.sign
+    spec = found.assembly.mechanism.spec
     with mpmath.workdps(30):
-        b, r = mpmath.pi / z, mpmath.mpf(found.plane.mechanism.roller_radius_mm)
+        b, r = mpmath.pi / z, mpmath.mpf(found.assembly.mechanism.roller_radius_mm)
         R, rim = L * mpmath.sin(b), mpmath.sqrt((L * mpmath.cos(b)) ** 2 + r**2)
         w = r + mpmath.mpf(spec.size.slot_clearance_mm)
         recess = mpmath.mpf(size.lock) + mpmath.mpf(spec.size.lock_clearance_mm)
@@ -322,8 +322,8 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
 
 def horn(found: Outlines) -> float:
     """The least distance of the walls of both slots beside it from a recess, by shapely."""
-    axis = Point(L * math.cos(found.plane.rests[0]), L * math.sin(found.plane.rests[0]))
-    beside = [found.plane.slots[k] for k in (0, -1, 1)]
+    axis = Point(L * math.cos(found.assembly.rests[0]), L * math.sin(found.assembly.rests[0]))
+    beside = [found.assembly.slots[k] for k in (0, -1, 1)]
     walls = [LineString(vertices(turn(found.slots[s], at), FLAT)) for s, at in beside]
     return min(wall.distance(axis) for wall in walls) - found.sizes.recess
 
@@ -471,7 +471,7 @@ def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
     assert lock.radius == pytest.approx(found.sizes.lock, rel=1e-12)
     assert math.degrees(lock.sweep) <= 180.0 - 360.0 / z + 1e-9
     middle = np.add(lock.start, lock.end)
-    roller = found.plane.pin(0, np.zeros(1))[0] - [L, 0.0]
+    roller = found.assembly.pin(0, np.zeros(1))[0] - [L, 0.0]
     cosine = float(middle @ roller) / math.hypot(*middle) / math.hypot(*roller)
     assert cosine == pytest.approx(-1.0, abs=1e-12)
 
@@ -482,8 +482,8 @@ def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
 def passed(found: Outlines) -> Polygon:
     """Everything a roller, as wide as the slot, passes over in one cycle around the first slot, in
     the wheel's frame: M = L e^(-i psi) - R e^(-i (psi + phi)), and its circle in the dwell."""
-    mechanism = found.plane.mechanism
-    spec, sign = mechanism.spec, found.plane.sign
+    mechanism = found.assembly.mechanism
+    spec, sign = mechanism.spec, found.assembly.sign
     z = spec.wheel.z
     natural = 180.0 - sign * 360.0 / z
     motion = math.radians(natural - spec.motion.alpha0_deg)
@@ -507,7 +507,7 @@ def passed(found: Outlines) -> Polygon:
 def milled(found: Outlines) -> Polygon:
     """The wheel (inside: its opening) less all places of the roller and the locking disc; of what
     is left the piece about the axis."""
-    z, sign, size = found.plane.mechanism.spec.wheel.z, found.plane.sign, found.sizes
+    z, sign, size = found.assembly.mechanism.spec.wheel.z, found.assembly.sign, found.sizes
     way = passed(found)
     tools = [turned(way, math.tau * k / z) for k in range(z)]
     for k in range(z):
@@ -567,7 +567,8 @@ def worst(found: Outlines, wanted: Polygon) -> float:
     shape, far = polygon(found.wheel), 0.0
     for one, other in ((shape, wanted), (wanted, shape)):
         corners = shapely.get_coordinates(one.exterior)
-        here = np.abs(np.arctan2(corners[:, 1], corners[:, 0])) < math.pi / len(found.plane.slots)
+        half = math.pi / len(found.assembly.slots)
+        here = np.abs(np.arctan2(corners[:, 1], corners[:, 0])) < half
         points = shapely.points(corners[here])
         far = max(far, float(shapely.distance(other.exterior, points).max()))
     return far

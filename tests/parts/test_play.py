@@ -19,7 +19,7 @@ from words import load
 
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.gaps import Clash, NotProved
+from geneva_cli.parts.turn.gaps import Gaps, NotProved
 from geneva_cli.verdict.checks.registry import turning
 
 DESIGNS = repo.DESIGNS
@@ -33,8 +33,8 @@ class HandOver:
     """
 
     def __init__(self, found: Outlines) -> None:
-        size, self.L = found.sizes, found.plane.L
-        self.b = math.pi / len(found.plane.slots)
+        size, self.L = found.sizes, found.assembly.L
+        self.b = math.pi / len(found.assembly.slots)
         self.R = self.L * math.sin(self.b)
         self.r, self.w, self.rim = size.roller, size.half_width, size.rim
         self.lock, self.recess = size.lock, size.recess
@@ -124,23 +124,23 @@ def machine(tmp_path: Path, text: str) -> Outlines:
 
 def free(found: Outlines, at_deg: float, lead_deg: float) -> bool:
     """Whether parts of fine chords are apart, the wheel being turned on from its place."""
-    plane, flat = found.plane, 1e-6 * found.plane.L
+    assembly, flat = found.assembly, 1e-6 * found.assembly.L
     less = 2.0 * flat + found.close
     wheel = polygon(found.wheel, flat)
-    if plane.sign < 0.0:
+    if assembly.sign < 0.0:
         wheel = disc(found.sizes.outer).difference(wheel)
     at = np.array([at_deg])
     roller = Point(0.0, 0.0).buffer(found.sizes.roller - less, quad_segs=800)
     parts = [
         affinity.translate(
-            turned(polygon(crank, flat).buffer(-less), float(plane.crank(at)[0])), plane.L
+            turned(polygon(crank, flat).buffer(-less), float(assembly.crank(at)[0])), assembly.L
         )
         for crank in found.crank
     ]
-    for number in range(len(plane.rollers)):
-        parts.append(affinity.translate(roller, *plane.pin(number, at)[0]))
+    for number in range(len(assembly.rollers)):
+        parts.append(affinity.translate(roller, *assembly.pin(number, at)[0]))
     shapely.prepare(wheel)
-    turn = float(plane.wheel(at)[0]) + math.radians(lead_deg)
+    turn = float(assembly.wheel(at)[0]) + math.radians(lead_deg)
     return not any(wheel.intersects(turned(part, -turn)) for part in parts)
 
 
@@ -175,7 +175,7 @@ def test_play_in_the_dwell_is_not_capped(tmp_path: Path) -> None:
     """The recess's corner comes to the disc, wherever that is: the opening of the rim for the
     recess less that for the disc."""
     found = machine(tmp_path, "[wheel]\nz=6\n[size]\nroller_radius_mm=15\nlock_clearance_mm=18\n")
-    L, size = found.plane.L, found.sizes
+    L, size = found.assembly.L, found.sizes
     rest = [
         math.acos((L * L + size.rim**2 - radius**2) / (2.0 * L * size.rim))
         for radius in (size.recess, size.lock)
@@ -231,10 +231,10 @@ def test_angles_are_the_inputs(name: str, entry: float) -> None:
 
 def test_angles_of_a_longer_period_begin_at_its_entry() -> None:
     mechanism = load(str(DESIGNS / "geneva-pair.toml"))
-    plane = outlines(mechanism).plane
+    assembly = outlines(mechanism).assembly
     entry = mechanism.engagements[0].entry_deg
-    assert plane.shown_deg(plane.start_deg) == pytest.approx(entry, abs=1e-9)
-    turns = [plane.shown_deg(plane.start_deg + x) for x in np.linspace(0.0, 359.0, 60)]
+    assert assembly.shown_deg(assembly.start_deg) == pytest.approx(entry, abs=1e-9)
+    turns = [assembly.shown_deg(assembly.start_deg + x) for x in np.linspace(0.0, 359.0, 60)]
     assert turns == sorted(turns)
     assert entry <= turns[0]
     assert turns[-1] < entry + mechanism.period_deg
@@ -247,5 +247,5 @@ def test_work_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
         full_turn(found)
     monkeypatch.undo()
     full_turn(found)
-    assert isinstance(found.clash, Clash)
-    assert found.clash.left > 0.0
+    assert isinstance(found.gaps, Gaps)
+    assert found.gaps.left > 0.0

@@ -15,7 +15,7 @@ from test_outline import made
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.outlines import slot_walls
-from geneva_cli.parts.turn.gaps import Clash
+from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.play import EXACT, SHARE, edges
 from geneva_cli.parts.wheel import wheel_contour
 
@@ -27,21 +27,21 @@ MORE = (0.001, 0.01, 0.05, 0.2)  # mm, at L = 100: one may leave no horn
 
 def wider(found, more_slot, more_lock):
     """A machine with the same crank, and a wheel with more clearance, mm a side."""
-    size, plane = found.sizes, found.plane
+    size, assembly = found.sizes, found.assembly
     size = size._replace(half_width=size.half_width + more_slot, recess=size.recess + more_lock)
-    walls = {e: slot_walls(plane, size, e, found.fine) for e in plane.kinds}
-    wheel = wheel_contour(plane, size, walls)
+    walls = {e: slot_walls(assembly, size, e, found.fine) for e in assembly.kinds}
+    wheel = wheel_contour(assembly, size, walls)
     return found._replace(
-        sizes=size, slots=walls, wheel=wheel, clash=Clash(plane, size, wheel, found.crank)
+        sizes=size, slots=walls, wheel=wheel, gaps=Gaps(assembly, size, wheel, found.crank)
     )
 
 
 def require_no_less_play(found, rng, wheels):
     """Returns how many wheels there were: they end where a clearance leaves no horn."""
-    start, turn = found.plane.start_deg, found.plane.turn_deg
+    start, turn = found.assembly.start_deg, found.assembly.turn_deg
     at = np.array([start + turn * rng.random() for _ in range(PLACES)])
     # Curved walls are known to ``fine``, on both wheels; straight ones to rounding.
-    spare = 2.0 * found.fine * any(e.slot.curved for e in found.plane.kinds)
+    spare = 2.0 * found.fine * any(e.slot.curved for e in found.assembly.kinds)
     for count in range(wheels):
         more = rng.choice(MORE)
         in_slot = rng.random() < 0.5

@@ -68,7 +68,7 @@ class Machine:
     def __init__(self, design, folder, larger=0.0):
         proof = design.drawn(0.001)
         self.found = found = proof.found
-        self.plane, self.L = found.plane, found.plane.L
+        self.assembly, self.L = found.assembly, found.assembly.L
         for part in ("wheel", "crank"):
             draw(design.drawing(part, of=proof), str(folder / f"{part}.dxf"))
         rod, flat = ROD * self.L, SAGITTA * self.L
@@ -84,20 +84,20 @@ class Machine:
         self.space.collision_bias = LEFT
         self.wheel = pymunk.Body(HEAVY, 1.0)
         self.space.add(self.wheel, *rods(self.wheel, wheel, rod))
-        self.at = self.plane.start_deg + self.plane.turn_deg * np.arange(STEPS + 1) / STEPS
-        self.true = self.plane.wheel(self.at)
-        self.each = sum(2.0 * engagement.half_step for engagement, _ in self.plane.rollers)
+        self.at = self.assembly.start_deg + self.assembly.turn_deg * np.arange(STEPS + 1) / STEPS
+        self.true = self.assembly.wheel(self.at)
+        self.each = sum(2.0 * engagement.half_step for engagement, _ in self.assembly.rollers)
         rests = [w for w in windows(found) if w.rests and not found.crank]
         self.held = np.zeros(STEPS, dtype=bool)
         for dwell in rests:
             self.held |= (self.at[:-1] > dwell.start) & (self.at[1:] < dwell.end)
         self.wheel.angle = float(self.true[0])
-        self.carried = [self._carried(self.plane.crank(self.at))]
+        self.carried = [self._carried(self.assembly.crank(self.at))]
         crank_body = self.carried[0][0]
         self.space.add(*rods(crank_body, crank, rod))
-        assert len(radii) == len(self.plane.rollers)
+        assert len(radii) == len(self.assembly.rollers)
         for number, (centre, radius) in enumerate(radii.items()):
-            way = self.plane.pin(number, self.at) - (self.L, 0.0)
+            way = self.assembly.pin(number, self.at) - (self.L, 0.0)
             if np.ptp(np.hypot(*way.T)) < 1e-9 * self.L:
                 self.space.add(pymunk.Circle(crank_body, radius + larger, centre))
             else:  # what carries it is no part of the crank's file

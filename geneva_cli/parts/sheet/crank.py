@@ -19,20 +19,20 @@ SAME = 1e-6  # mm
 
 def draw_disc(view: View, found: Outlines) -> None:
     """The locking disc, or its sectors, about the crank's axis."""
-    plane, sizes = found.plane, found.sizes
+    assembly, sizes = found.assembly, found.sizes
     for contour in found.crank:
         view.draw(contour, OUTLINE)
     screwed = bolts(found)
-    whole = is_whole(plane, sizes)
-    bores = [c for c in crank_circles(plane, sizes) if c.layer == "BORE" and whole]
+    whole = is_whole(assembly, sizes)
+    bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
     for shape in (*screwed, *bores):
         view.draw(shape, OUTLINE)
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if whole else 0.2 * sizes.lock)
-    bored(view, bores, sizes.crank_bore, plane.mechanism.spec.size.crank_keyway)
+    bored(view, bores, sizes.crank_bore, assembly.mechanism.spec.size.crank_keyway)
     arcs = [s for contour in found.crank for s in contour.segments if isinstance(s, Arc)]
     locking = [a for a in arcs if math.hypot(*a.centre) < SAME and _is(a.radius, sizes.lock)]
-    view.of_arcs(locking, sized.lock(plane.mechanism, sizes.lock), whole=True)
+    view.of_arcs(locking, sized.lock(assembly.mechanism, sizes.lock), whole=True)
     seen: set[tuple[str, str]] = set()
     for arc in arcs:
         if arc in locking:
@@ -89,7 +89,7 @@ def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
     for pin in made.pins:
         view.cross(pin.centre, made.eye, math.atan2(pin.centre[1], pin.centre[0]))
     circle_of(view, made.bolts)
-    mechanism = found.plane.mechanism
+    mechanism = found.assembly.mechanism
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown: dict[str, list[Circle]] = {}
     for pin in made.pins:
@@ -133,7 +133,7 @@ def draw_roller(view: View, found: Outlines) -> None:
     for c in circles:
         view.draw(c, OUTLINE)
     view.cross(axis, sizes.roller)
-    view.diameter(circles[:1], sized.roller(found.plane.mechanism, sizes.roller))
+    view.diameter(circles[:1], sized.roller(found.assembly.mechanism, sizes.roller))
     if sizes.pin:
         view.diameter(circles[1:], sized.bore(sizes.pin))
 
@@ -143,8 +143,8 @@ def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> Non
     layers = {"PITCH": CENTRE, "ARM": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
-    L = found.plane.L
-    deviation = found.plane.mechanism.spec.tolerance.center_distance_mm
+    L = found.assembly.L
+    deviation = found.assembly.mechanism.spec.tolerance.center_distance_mm
     reach = found.sizes.outer or found.sizes.rim
     view.cross((0.0, 0.0), reach)
     view.cross((L, 0.0), max(found.sizes.lock, 0.1 * L))
@@ -171,7 +171,7 @@ def draw_groove(view: View, shapes: tuple[Shape, ...], half: float) -> None:
 
 def carried(found: Outlines) -> int:
     """How many rollers there are on the crank."""
-    return len(roller_centres(found.plane))
+    return len(roller_centres(found.assembly))
 
 
 def _is(a: float, b: float) -> bool:

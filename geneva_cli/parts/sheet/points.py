@@ -29,27 +29,27 @@ BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is looked
 def tables(found: Outlines, tolerance: float) -> list[Block]:
     """A table for each kind of curved slot, and for the groove of a cam."""
     made = []
-    plane = found.plane
-    close = max(tolerance, COARSE * plane.L)
-    for engagement in plane.kinds:
+    assembly = found.assembly
+    close = max(tolerance, COARSE * assembly.L)
+    for engagement in assembly.kinds:
         if not engagement.slot.curved:
             continue
-        count = sum(1 for one, _ in plane.slots if one is engagement)
+        count = sum(1 for one, _ in assembly.slots if one is engagement)
         symmetric = engagement.motion.symmetric
 
         def centre(x: Array, of: object = engagement) -> Array:
             px, py = engagement.slot(x, 0)  # noqa: B023
-            return plane.L * np.column_stack((px.c[0], py.c[0] + 0.0 * x))
+            return assembly.L * np.column_stack((px.c[0], py.c[0] + 0.0 * x))
 
         last = 0.0 if symmetric else engagement.exit_deg
         points = polyline(centre, engagement.entry_deg, last, close)
-        width = sized.slot_width(plane.mechanism, found.sizes.half_width)
+        width = sized.slot_width(assembly.mechanism, found.sizes.half_width)
         what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
         more = MIRRORED if symmetric else ""
         made.append(_table(what + more, points, close))
-    guide = plane.rollers[0][0].groove
+    guide = assembly.rollers[0][0].groove
     if guide is not None:
-        guided = groove_curve(guide, plane.L, 0.0)
+        guided = groove_curve(guide, assembly.L, 0.0)
         symmetric = guide.motion.symmetric
         last = 180.0 if symmetric else 360.0
         points = polyline(lambda t: guided(t)[0], 0.0, last, close)

@@ -73,7 +73,7 @@ def _views(
     found: Outlines, rows: list[dict[str, Any]], scale: float, tolerance: float, curves: str
 ) -> Iterator[View]:
     """A view of each part."""
-    plane = found.plane
+    assembly = found.assembly
 
     def view(*names: str) -> View:
         shown = [
@@ -98,7 +98,7 @@ def _views(
     made = view("roller", "pin")
     draw_roller(made, found)
     yield made
-    if plane.rollers[0][0].groove is not None:
+    if assembly.rollers[0][0].groove is not None:
         made = View("groove", scale)
         draw_groove(made, drawings.groove(found, tolerance, curves).shapes, found.sizes.half_width)
         yield made
@@ -123,7 +123,7 @@ def _composed(
     blocks: list[Block],
 ) -> Sheet | None:
     """All on one sheet; None where it has no room."""
-    spec = found.plane.given.spec
+    spec = found.assembly.given.spec
     materials = [_material(spec.material_wheel), _material(spec.material_roller)]
     fields = {
         "scale": scale_name(scale),
@@ -176,7 +176,7 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
 
 def _links(found: Outlines) -> list[Block]:
     """Pivots and lengths of what drives the crank."""
-    given = found.plane.given
+    given = found.assembly.given
     layout = given.spec.drive.layout(given.plan, given.spec.wheel.SIGN)
     rows = [("drive", "x or value", "y or unit")]
     rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in layout if isinstance(p, Pivot)]

@@ -20,7 +20,7 @@ SAME = 1e-6  # mm
 
 def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> None:
     """The wheel with all its dimensions; curved slots have theirs in a table."""
-    plane, sizes = found.plane, found.sizes
+    assembly, sizes = found.assembly, found.sizes
     made = drawings.wheel(found, tolerance, curves)
     contour = next(s for s in made.shapes if isinstance(s, Contour))
     for shape in made.shapes:
@@ -31,30 +31,30 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     if sizes.recess:
         view.cross(_recess_centre(found), 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
-    screwed = dial_bolts(plane, sizes)
+    screwed = dial_bolts(assembly, sizes)
     bores = [s for s in made.shapes if s.layer == "BORE" and s not in screwed]
     circle_of(view, screwed)
     _recesses(view, found, arcs)
-    for engagement in plane.kinds:
-        number_of = sum(1 for one, _ in plane.slots if one is engagement)
+    for engagement in assembly.kinds:
+        number_of = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
             _slot(view, found, engagement, number_of)
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, found, reach)
     _rims(view, arcs, reach)
-    bored(view, bores, sizes.wheel_bore, plane.mechanism.spec.size.wheel_keyway)
+    bored(view, bores, sizes.wheel_bore, assembly.mechanism.spec.size.wheel_keyway)
     bolted(view, screwed)
 
 
 def _axes(view: View, found: Outlines, reach: float) -> None:
     """The axes of straight slots, the rollers' way in a curved one."""
-    for i, (engagement, direction) in enumerate(found.plane.slots):
+    for i, (engagement, direction) in enumerate(found.assembly.slots):
         if not engagement.slot.curved:
             end, mouth = _axis(turned(found.slots[engagement], direction))
-            view.centre_line(*((end, mouth) if found.plane.sign > 0.0 else (mouth, end)))
+            view.centre_line(*((end, mouth) if found.assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
-            view.draw(drawings.pitch_line(found.plane, engagement, found.fine, "arcs"), CENTRE)
+            view.draw(drawings.pitch_line(found.assembly, engagement, found.fine, "arcs"), CENTRE)
 
 
 def _axis(walls: Contour) -> tuple[Point, Point]:
@@ -71,13 +71,13 @@ def _axis(walls: Contour) -> tuple[Point, Point]:
 
 def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> None:
     """Width, end and depth of a straight slot, and by how much it misses the wheel's centre."""
-    direction = next(d for one, d in found.plane.slots if one is engagement)
+    direction = next(d for one, d in found.assembly.slots if one is engagement)
     walls = turned(found.slots[engagement], direction)
     end, mouth = _axis(walls)
     way = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
     corners = walls.segments[0].start, walls.segments[-1].end
     across = way + 0.5 * math.pi
-    width = sized.slot_width(found.plane.mechanism, found.sizes.half_width)
+    width = sized.slot_width(found.assembly.mechanism, found.sizes.half_width)
     view.linear(*corners, across, times(count, width))
     foot = _foot(end, way)
     view.linear(foot, end, way, sized.plain(math.dist(foot, end)), near=True)
@@ -87,7 +87,7 @@ def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> No
         view.linear((0.0, 0.0), foot, turn, sized.plain(math.hypot(*foot)))
     ends = [
         s
-        for one, d in found.plane.slots
+        for one, d in found.assembly.slots
         if one is engagement
         for s in turned(found.slots[one], d).segments
         if isinstance(s, Arc)
@@ -104,25 +104,27 @@ def _foot(p: Point, way: float) -> Point:
 
 def _recesses(view: View, found: Outlines, arcs: list[Arc]) -> None:
     """The recesses, and where their centres are."""
-    plane, sizes = found.plane, found.sizes
-    L = plane.L
+    assembly, sizes = found.assembly, found.sizes
+    L = assembly.L
     if not sizes.recess:
         return
     about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME]
     own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME]
-    deviation = plane.mechanism.spec.tolerance.center_distance_mm
+    deviation = assembly.mechanism.spec.tolerance.center_distance_mm
     centre = _recess_centre(found)
     turn = math.atan2(centre[1], centre[0])
     view.linear((0.0, 0.0), centre, turn, sized.plain(L, deviation=deviation), near=True)
-    view.of_arcs(own, times(len(own), sized.recess(plane.mechanism, sizes.recess)), whole=True)
+    view.of_arcs(own, times(len(own), sized.recess(assembly.mechanism, sizes.recess)), whole=True)
     for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
         view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 
 
 def _recess_centre(found: Outlines) -> Point:
     """The centre of the recess that lies farthest to the left."""
-    L = found.plane.L
-    return min(((L * math.cos(a), L * math.sin(a)) for a in found.plane.rests), key=lambda p: p[0])
+    L = found.assembly.L
+    return min(
+        ((L * math.cos(a), L * math.sin(a)) for a in found.assembly.rests), key=lambda p: p[0]
+    )
 
 
 def _rims(view: View, arcs: list[Arc], reach: float) -> None:
@@ -135,10 +137,10 @@ def _rims(view: View, arcs: list[Arc], reach: float) -> None:
 
 def _steps(view: View, found: Outlines, reach: float) -> None:
     """The angles between slots, and from a slot to the middle of a recess."""
-    plane = found.plane
-    deviation = plane.mechanism.spec.tolerance.slot_angle_deg
+    assembly = found.assembly
+    deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
     begin = reach
-    ways = [_way(found, engagement, direction) for engagement, direction in plane.slots]
+    ways = [_way(found, engagement, direction) for engagement, direction in assembly.slots]
     steps: dict[str, list[tuple[float, float]]] = {}
     for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
         shown = f"{number(math.degrees(end - start))}°" + (f" ±{deviation:g}°" if deviation else "")
@@ -146,7 +148,7 @@ def _steps(view: View, found: Outlines, reach: float) -> None:
     for text, pairs in steps.items():
         view.angular(pairs, begin, reach, times(len(pairs), text))
     halves: dict[str, list[tuple[float, float]]] = {}
-    for rest in plane.rests if found.sizes.recess else ():
+    for rest in assembly.rests if found.sizes.recess else ():
         off = min((rest - way) % math.tau for way in ways)
         halves.setdefault(f"{number(math.degrees(off))}°", []).append((rest - off, rest))
     for text, pairs in halves.items():
@@ -160,7 +162,7 @@ def _way(found: Outlines, engagement: Engagement, direction: float) -> float:
     first = turned(found.slots[engagement], direction).segments[0]
     assert isinstance(first, Line)
     way = math.atan2(first.start[1] - first.end[1], first.start[0] - first.end[0])
-    way += 0.0 if found.plane.sign > 0.0 else math.pi
+    way += 0.0 if found.assembly.sign > 0.0 else math.pi
     return direction + math.remainder(way - direction, math.tau)
 
 

@@ -87,16 +87,16 @@ class FullTurn(NamedTuple):
 def full_turn(outlines: Outlines) -> FullTurn:
     """Turn the outlines of a machine through a whole turn of its crank.
 
-    Raises NotProved where that takes more than ``clash.WORK``.
+    Raises NotProved where that takes more than ``gaps.WORK``.
     """
-    outlines.clash.begin()
+    outlines.gaps.begin()
     driving, idle, lock = _smallest(outlines, positions(outlines))
     play = play_of(outlines)
     most = search_deg(outlines)
     middles = np.array([0.5 * (w.start + w.end) for w in windows(outlines) if w.rests])
     dwell = np.degrees(np.maximum(*edges(outlines, middles))) if len(middles) else np.zeros(0)
     push = push_deg(outlines, play)
-    place = outlines.plane.shown_deg
+    place = outlines.assembly.shown_deg
     led = play.input_deg[play.guided]
     return FullTurn(
         _placed(driving, place),
@@ -129,54 +129,52 @@ def _most(values: Array, at: Array, place: Callable[[float], float]) -> Most:
 
 def positions(outlines: Outlines) -> Array:
     """Input angles of one turn, between which no part moves by much of the thinnest feature."""
-    plane, sizes = outlines.plane, outlines.sizes
-    grid = np.linspace(plane.start_deg, plane.start_deg + plane.turn_deg, 721)
-    crank = np.unwrap(plane.crank(grid))
-    way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(plane.wheel(grid)))
+    assembly, sizes = outlines.assembly, outlines.sizes
+    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, 721)
+    crank = np.unwrap(assembly.crank(grid))
+    way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
     feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
     total = np.concatenate(([0.0], np.cumsum(way)))
     count = min(math.ceil(total[-1] / feature), POSITIONS)
     found = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large is fouled for less than a degree about entry and exit.
-    ends = np.array([b + e for s, b in plane.rollers for e in (s.entry_deg, s.exit_deg)])
+    ends = np.array([b + e for s, b in assembly.rollers for e in (s.entry_deg, s.exit_deg)])
     beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
     near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
-    near = plane.start_deg + (near - plane.start_deg) % plane.turn_deg
+    near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
     return np.unique(np.concatenate((found, near)))
 
 
 def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
     """The smallest gaps: of rollers at their own slots, of others meanwhile, of the crank."""
-    clash = outlines.clash
+    gaps = outlines.gaps
 
     def rollers(x: Array, idle: bool) -> Array:
         drives = _drives(outlines, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
-        out: Array = np.where(meanwhile == idle, clash.rollers(clash.pose(x)), np.inf).min(axis=1)
+        out: Array = np.where(meanwhile == idle, gaps.rollers(gaps.pose(x)), np.inf).min(axis=1)
         return out
 
     def crank(x: Array) -> Array:
-        return clash.locking(clash.pose(x))
+        return gaps.locking(gaps.pose(x))
 
     own, others = partial(rollers, idle=False), partial(rollers, idle=True)
 
-    several = len(outlines.plane.rollers) > 1
+    several = len(outlines.assembly.rollers) > 1
     return (
         _least(own, at, outlines.close, "roller and slot"),
         _least(others, at, outlines.close, "idle roller and wheel") if several else None,
-        _least(
-            lambda x: clash.locking(clash.pose(x)), at, outlines.close, "locking disc and wheel"
-        ),
+        _least(lambda x: gaps.locking(gaps.pose(x)), at, outlines.close, "locking disc and wheel"),
     )
 
 
 def _drives(outlines: Outlines, x: Array) -> NDArray[np.bool_]:
     """Which rollers move the wheel at input angles, (n, m)."""
-    plane = outlines.plane
-    half = 0.5 * plane.turn_deg
+    assembly = outlines.assembly
+    half = 0.5 * assembly.turn_deg
     columns = []
-    for engagement, behind in plane.rollers:
-        away = (x - behind + half) % plane.turn_deg - half
+    for engagement, behind in assembly.rollers:
+        away = (x - behind + half) % assembly.turn_deg - half
         columns.append((away >= engagement.entry_deg - NEAR) & (away <= engagement.exit_deg + NEAR))
     return np.column_stack(columns)
 

@@ -11,7 +11,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.budget import ask
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.contacts import candidates
 
@@ -41,20 +41,20 @@ class Pose(NamedTuple):
     pins: Array  # (n, m, 2) of the m rollers, mm
 
     def at(self, which: NDArray[np.intp]) -> Pose:
-        """Some of them."""
+        """Some of the positions."""
         return Pose(self.wheel[which], self.crank[which], self.pins[which])
 
 
-class Clash:
-    """The parts of one machine, ready to be turned against each other."""
+class Gaps:
+    """The gaps between one machine's wheel, crank and rollers at any positions."""
 
-    def __init__(self, plane: Plane, sizes: Sizes, wheel: Contour, crank: list[Contour]):
-        self.plane, self.sizes = plane, sizes
-        self.wheel = Polyarc([wheel if plane.sign > 0.0 else backwards(wheel)])
-        self.near = NEAR * plane.L
+    def __init__(self, assembly: Assembly, sizes: Sizes, wheel: Contour, crank: list[Contour]):
+        self.assembly, self.sizes = assembly, sizes
+        self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
+        self.near = NEAR * assembly.L
         self.left = math.inf
         self._sector()
-        sagitta, longest = SAGITTA * plane.L, LONGEST * plane.L
+        sagitta, longest = SAGITTA * assembly.L, LONGEST * assembly.L
         self.crank = Polyarc(crank) if crank else None
         self.wheel_points = self.wheel.samples(sagitta, longest)
 
@@ -74,7 +74,7 @@ class Clash:
 
     def _sector(self) -> None:
         """Where the outline repeats itself, one slot and its neighbours stand for the wheel."""
-        self.pitch = math.tau / len(self.plane.slots) if self._repeats() else 0.0
+        self.pitch = math.tau / len(self.assembly.slots) if self._repeats() else 0.0
         middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
         reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
         keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
@@ -82,14 +82,14 @@ class Clash:
 
     def _repeats(self) -> bool:
         """Whether the wheel's outline is the same from slot to slot: its corners and its arcs."""
-        wheel, count = self.wheel, len(self.plane.slots)
+        wheel, count = self.wheel, len(self.assembly.slots)
         if len(wheel) % count:
             return False
         each = len(wheel) // count
-        angle = math.tau / count * self.plane.sign  # inside, the outline runs clockwise
+        angle = math.tau / count * self.assembly.sign  # inside, the outline runs clockwise
         corners = np.column_stack((wheel.x0, wheel.y0))
         after = turned_points(np.roll(corners, each, axis=0), np.full(len(wheel), angle))
-        same = np.abs(after - corners).max() < SAME * self.plane.L
+        same = np.abs(after - corners).max() < SAME * self.assembly.L
         bends = np.column_stack((wheel.sense, wheel.cos_half))
         return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME)
 
@@ -111,9 +111,9 @@ class Clash:
 
     def pose(self, input_deg: Array) -> Pose:
         """Where everything stands at input angles."""
-        pins = [self.plane.pin(i, input_deg) for i in range(len(self.plane.rollers))]
+        pins = [self.assembly.pin(i, input_deg) for i in range(len(self.assembly.rollers))]
         return Pose(
-            self.plane.wheel(input_deg), self.plane.crank(input_deg), np.stack(pins, axis=1)
+            self.assembly.wheel(input_deg), self.assembly.crank(input_deg), np.stack(pins, axis=1)
         )
 
     def gap(self, pose: Pose, lead: Array, near: float) -> Array:
@@ -132,14 +132,14 @@ class Clash:
         turn = -(pose.wheel + lead)
         columns: list[Array] = [
             self._roller(turned_points(pose.pins[:, i], turn), near)
-            for i in range(len(self.plane.rollers))
+            for i in range(len(self.assembly.rollers))
         ]
         out: Array = np.column_stack(columns)
         return out
 
     def _roller(self, centres: Array, near: float) -> Array:
         """The gap of a roller at places in the wheel's frame."""
-        r, sign = self.sizes.roller, self.plane.sign
+        r, sign = self.sizes.roller, self.assembly.sign
         far = sign * (np.hypot(*centres.T) - self.sizes.rim) - r
         out: Array = np.minimum(far, near)
         close = far < near
@@ -158,7 +158,7 @@ class Clash:
         )
         nearest = self.rollers(pose, lead).argmin(axis=1)
         at = places[np.arange(len(turn)), nearest]
-        step, far = STEP * self.plane.L, self.near + self.sizes.roller
+        step, far = STEP * self.assembly.L, self.near + self.sizes.roller
         x, y = np.array((step, 0.0)), np.array((0.0, step))
         slope = [self._to_wheel(at + d, far) - self._to_wheel(at - d, far) for d in (x, y)]
         normal = np.column_stack(slope) / (2.0 * step)
@@ -188,7 +188,7 @@ class Clash:
         angle = pose.crank - turn
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
         qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
-        inward = self.plane.sign * (np.hypot(qx, qy) - self.sizes.rim)
+        inward = self.assembly.sign * (np.hypot(qx, qy) - self.sizes.rim)
         owner, which = np.nonzero(inward < near)
         points = np.column_stack((qx[owner, which], qy[owner, which]))
         if len(points):
@@ -201,10 +201,10 @@ class Clash:
 
         Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
         """
-        engagement, behind = self.plane.rollers[number]
+        engagement, behind = self.assembly.rollers[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
         at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
-        turn, pose = self.plane.wheel(at), self.plane.crank(at)
+        turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
         _, seen = self._on_crank(turn, pose, self.sizes.lock * (1.0 - TOUCH))
         return np.hypot(*seen.T), np.arctan2(seen[:, 1], seen[:, 0])
 
@@ -220,7 +220,7 @@ class Clash:
 
     def _axis(self, turn: Array) -> Array:
         """The crank's axis in the wheel's frame, (n, 2)."""
-        out: Array = self.plane.L * np.column_stack((np.cos(turn), -np.sin(turn)))
+        out: Array = self.assembly.L * np.column_stack((np.cos(turn), -np.sin(turn)))
         return out
 
 

@@ -60,7 +60,7 @@ def planes(found: Outlines) -> Planes:
 
     Raises GenevaError where the sizes leave no links.
     """
-    given = found.plane.given
+    given = found.assembly.given
     turns = given.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
     links = [link for link in stated(given, turn) if not link.radius_mm]
@@ -86,9 +86,9 @@ def planes(found: Outlines) -> Planes:
 
 def _passing(found: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
     hub = found.sizes.wheel_hub  # without one the wheel's shaft ends in the wheel
-    if found.plane.sign > 0.0 and hub:
+    if found.assembly.sign > 0.0 and hub:
         yield Round("the wheel's hub", 1, 0.0 * turn, hub)
-    for one in joined(links, SAME * found.plane.L):
+    for one in joined(links, SAME * found.assembly.L):
         for plane in range(min(one.planes) + 1, max(one.planes)):
             if plane not in one.planes:
                 name = f"the pin of {' and '.join(one.names)}"
@@ -105,7 +105,7 @@ class _Shaft:
         outlines: dict[str, Contour],
         sizes: LinkSizes,
     ) -> None:
-        L = found.plane.L
+        L = found.assembly.L
         self.links, self.outlines = links, outlines
         self.way = places(links[0])[0] * 0.0 + L
         self.carries: set[int] = set()

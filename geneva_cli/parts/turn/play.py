@@ -82,15 +82,15 @@ class Window(NamedTuple):
 
 def search_deg(outlines: Outlines) -> float:
     """A play as large as this is none: half a step on, the wheel's place is lost."""
-    return math.degrees(min(engagement.half_step for engagement, _ in outlines.plane.rollers))
+    return math.degrees(min(engagement.half_step for engagement, _ in outlines.assembly.rollers))
 
 
 def windows(outlines: Outlines) -> Iterator[Window]:
     """The motions and dwells of a turn."""
-    plane, rollers = outlines.plane, outlines.plane.rollers
+    assembly, rollers = outlines.assembly, outlines.assembly.rollers
     for i, (engagement, behind) in enumerate(rollers):
         after, later = rollers[(i + 1) % len(rollers)]
-        turns = plane.turn_deg if i + 1 == len(rollers) else 0.0
+        turns = assembly.turn_deg if i + 1 == len(rollers) else 0.0
         entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
         following = later + turns + after.entry_deg
         yield Window(entry, exit_, i, False)
@@ -112,7 +112,7 @@ def play_of(outlines: Outlines) -> Play:
 def edges(outlines: Outlines, at: Array) -> tuple[Array, Array]:
     """How far the wheel can be turned back and on at input angles, radians, until parts touch."""
     count = len(at)
-    pose = outlines.clash.pose(at)
+    pose = outlines.gaps.pose(at)
     both = np.concatenate((np.arange(count), np.arange(count)))
     found = _edge(outlines, pose.at(both), np.repeat((-1.0, 1.0), count))
     return found[:count], found[count:]
@@ -156,32 +156,32 @@ def _places(outlines: Outlines) -> Array:
 
 
 def _measured(outlines: Outlines, at: Array) -> Play:
-    plane, sizes = outlines.plane, outlines.sizes
+    assembly, sizes = outlines.assembly, outlines.sizes
     back, on = edges(outlines, at)
     pushes = [_pressure(outlines, at, lead) for lead in (-back, on)]
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
     # Level with the mouth's corners: half a slot's width beside its middle, on the rim.
     level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
-    last = plane.start_deg + plane.turn_deg
+    last = assembly.start_deg + assembly.turn_deg
     for a, b, roller, rests in windows(outlines):
         here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
         x = at[here]
-        low, high = np.maximum(x - SMALL, plane.start_deg), np.minimum(x + SMALL, last)
+        low, high = np.maximum(x - SMALL, assembly.start_deg), np.minimum(x + SMALL, last)
         moved = _in_wheel(outlines, roller, high) - _in_wheel(outlines, roller, low)
         speed[here] = np.maximum(speed[here], np.hypot(*moved.T) / (high - low))
         if rests:
             resting[here] = True
         else:
-            far = np.hypot(*plane.pin(roller, x).T)
-            guided[here] |= plane.sign * (level - far) > -NEAR * plane.L
+            far = np.hypot(*assembly.pin(roller, x).T)
+            guided[here] |= assembly.sign * (level - far) > -NEAR * assembly.L
     return Play(at, np.degrees(back), np.degrees(on), resting, guided & ~resting, speed, *pushes)
 
 
 def _in_wheel(outlines: Outlines, roller: int, at: Array) -> Array:
     """A roller's centre in the wheel's frame, (n, 2)."""
-    plane = outlines.plane
-    return turned_points(plane.pin(roller, at), -plane.wheel(at))
+    assembly = outlines.assembly
+    return turned_points(assembly.pin(roller, at), -assembly.wheel(at))
 
 
 def _merged(a: Play, b: Play) -> Play:
@@ -227,12 +227,12 @@ def _closing(outlines: Outlines, play: Play) -> Iterator[Array]:
 
 def _pressure(outlines: Outlines, at: Array, lead: Array) -> Array:
     """Pressure angles, degrees, of rollers that stop the wheel at its play ``lead``, radians."""
-    clash, out = outlines.clash, np.zeros(len(at))
+    gaps, out = outlines.gaps, np.zeros(len(at))
     here = np.flatnonzero(np.abs(lead) > touching(outlines))
     if len(here):
-        pose, lead = clash.pose(at[here]), lead[here]
-        stops = clash.rollers(pose, lead).min(axis=1) <= clash.locking(pose, lead)
-        out[here] = np.where(stops, np.degrees(clash.pressure(pose, lead)), 0.0)
+        pose, lead = gaps.pose(at[here]), lead[here]
+        stops = gaps.rollers(pose, lead).min(axis=1) <= gaps.locking(pose, lead)
+        out[here] = np.where(stops, np.degrees(gaps.pressure(pose, lead)), 0.0)
     return out
 
 
@@ -242,10 +242,10 @@ def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
     No point of the wheel moves farther than the gap in a step, or than a step in which what is
     stepped over is less deep than the parts are known.
     """
-    most, together = math.radians(search_deg(outlines)), TOGETHER // len(outlines.clash.around)
-    count, clash, close = len(way), outlines.clash, outlines.close
+    most, together = math.radians(search_deg(outlines)), TOGETHER // len(outlines.gaps.around)
+    count, gaps, close = len(way), outlines.gaps, outlines.close
     low, high = np.zeros(count), np.full(count, np.inf)
-    g_low = clash.gap(pose, low, clash.near) + close
+    g_low = gaps.gap(pose, low, gaps.near) + close
     g_high = np.full(count, -1.0)
     here = np.flatnonzero(g_low >= 0.0)  # where parts overlap as it stands there is no play
     high[g_low < 0.0] = 0.0
@@ -254,7 +254,7 @@ def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
         first = low[here] + np.maximum(g_low[here] / _reach(outlines), STEP)
         x = np.minimum(first[:, None] + STEP * np.arange(ahead), most)
         turned = (way[here, None] * x).ravel()
-        g = clash.gap(pose.at(np.repeat(here, ahead)), turned, clash.near).reshape(x.shape) + close
+        g = gaps.gap(pose.at(np.repeat(here, ahead)), turned, gaps.near).reshape(x.shape) + close
         past = np.logical_and.accumulate(g >= 0.0, axis=1).sum(axis=1)  # how many before a stop
         free, stopped = np.flatnonzero(past > 0), np.flatnonzero(past < ahead)
         last = free, past[free] - 1
@@ -266,8 +266,8 @@ def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
     here = np.flatnonzero((high < np.inf) & (high > 0.0))
 
     def left(which: NDArray[np.intp], x: Array, width: float) -> Array:
-        near = min(_reach(outlines) * width, clash.near)
-        return clash.gap(pose.at(here[which]), way[here[which]] * x, near) + close
+        near = min(_reach(outlines) * width, gaps.near)
+        return gaps.gap(pose.at(here[which]), way[here[which]] * x, near) + close
 
     good, bad = End(low[here], g_low[here]), End(high[here], g_high[here])
     low[here] = boundary_many(left, good, bad, lambda x: np.maximum(EXACT, SHARE * x))

@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.roots import boundary_by_sections
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.walls.joint import Place, joint, point, runs
 from geneva_cli.parts.walls.ways import FINE, Wall, walls
@@ -52,13 +52,15 @@ class Piece(NamedTuple):
         return points, -tangents
 
 
-def chain(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE) -> list[Piece]:
+def chain(
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, fine: float = FINE
+) -> list[Piece]:
     """The pieces of walls that bound a slot, from the mouth's lower corner to its upper one.
 
     ``fine`` as of ``walls``: how finely they are sampled to tell which bound the slot.
     """
-    around = walls(plane, sizes, engagement, fine)
-    rim = _Rim(plane, sizes)
+    around = walls(assembly, sizes, engagement, fine)
+    rim = _Rim(assembly, sizes)
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:
         raise _lost()
@@ -68,7 +70,7 @@ def chain(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE
         last, leaves = _run(rim, place)
         if leaves is not None:
             found.append(Piece(place.wall, t, leaves))
-            return [piece for piece in found if _long(piece, SHORT * plane.L)]
+            return [piece for piece in found if _long(piece, SHORT * assembly.L)]
         following = _next(around, last)
         end, begin = joint(last, following)
         found.append(Piece(place.wall, t, end))
@@ -91,8 +93,8 @@ def _lost() -> GenevaError:
 class _Rim:
     """Which side of the wheel's rim a point is on; what lies on it counts as the wheel's."""
 
-    def __init__(self, plane: Plane, sizes: Sizes) -> None:
-        self.sign, self.radius, self.close = plane.sign, sizes.rim, 1e-9 * plane.L
+    def __init__(self, assembly: Assembly, sizes: Sizes) -> None:
+        self.sign, self.radius, self.close = assembly.sign, sizes.rim, 1e-9 * assembly.L
 
     def depth(self, points: Array) -> Array:
         """How far points lie within the wheel."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Segment, about, joined
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.walls.chain import Piece, chain
 
@@ -18,7 +18,7 @@ LAYER = "WHEEL"
 
 
 def curved_walls(
-    plane: Plane, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
     """A curved slot from one corner of its mouth round the bottom to the other, counterclockwise
     about the wheel's axis; within ``tolerance`` mm of the true walls, and never inside them.
@@ -29,7 +29,7 @@ def curved_walls(
     """
     pieces: list[Segment] = []
     half = 0.5 * tolerance
-    for piece in chain(plane, sizes._replace(half_width=sizes.half_width + half), engagement):
+    for piece in chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement):
         pieces += _segments(piece, half, curves)
     return Contour(LAYER, joined(pieces), closed=False)
 

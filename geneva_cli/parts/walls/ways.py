@@ -16,7 +16,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import Pitch, retraces
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
-from geneva_cli.parts.assembly import Plane
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes, rest
 from geneva_cli.parts.slot_profile import nodes, pitch_at, spread
 
@@ -46,7 +46,9 @@ class Wall(NamedTuple):
     radius: float = 0.0
 
 
-def walls(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE) -> list[Wall]:
+def walls(
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, fine: float = FINE
+) -> list[Wall]:
     """Every wall of the roller's way, with what of it is free.
 
     Sampled to ``fine`` of the centre distance; what is coarser than usual is of chords besides,
@@ -54,11 +56,11 @@ def walls(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE
     """
     w, back = sizes.half_width, retraces(engagement)
     coarse = fine > FINE
-    t = (spread if coarse else nodes)(plane.mechanism, fine * plane.L)
-    near = w - COVERED * fine * plane.L
+    t = (spread if coarse else nodes)(assembly.mechanism, fine * assembly.L)
+    near = w - COVERED * fine * assembly.L
     middle = int(np.searchsorted(t, 0.0))
-    circles = [_circle(plane, sizes, engagement, end, fine) for end in (-1.0, 1.0)]
-    ways = [circles[0][1][::-1], _pitch(plane, engagement, t), circles[1][1]]
+    circles = [_circle(assembly, sizes, engagement, end, fine) for end in (-1.0, 1.0)]
+    ways = [circles[0][1][::-1], _pitch(assembly, engagement, t), circles[1][1]]
     path = np.concatenate(ways)
     found: list[Wall] = []
     for centre, way in circles:
@@ -68,13 +70,13 @@ def walls(plane: Plane, sizes: Sizes, engagement: Engagement, fine: float = FINE
             found.append(_arc(path, near, centre, radius + side, np.sort(angles)))
     flanks = []
     for part in (t[: middle + 1], t[middle:]):
-        curves = _curves(plane, engagement, part, coarse)
+        curves = _curves(assembly, engagement, part, coarse)
         at = pitch_at(engagement, part, back) if back else None
         for side in (-w, w):
-            flanks.append(_flank(curves(side), path, near, part, at, plane.L, side))
+            flanks.append(_flank(curves(side), path, near, part, at, assembly.L, side))
     if not back:
         return [*found, *flanks]
-    x, y = _pitch(plane, engagement, np.zeros(1))[0]
+    x, y = _pitch(assembly, engagement, np.zeros(1))[0]
     tangent = _tangent_in(engagement)
     ahead = math.atan2(tangent[1], tangent[0])
     turns = [_meets(flank, (float(x), float(y))) - ahead for flank in flanks]
@@ -92,27 +94,27 @@ def _meets(flank: Wall, centre: tuple[float, float]) -> float:
 
 
 def _circle(
-    plane: Plane, sizes: Sizes, engagement: Engagement, end: float, fine: float
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, end: float, fine: float
 ) -> tuple[tuple[float, float], Array]:
     """The roller's way before entry (-1) or after exit (1): its centre, and places from the slot
     outwards until it has left the wheel."""
-    centre = rest(plane, engagement, end)
+    centre = rest(assembly, engagement, end)
     t = engagement.entry_deg if end < 0.0 else engagement.exit_deg
-    x, y = _pitch(plane, engagement, np.array([t]))[0]
+    x, y = _pitch(assembly, engagement, np.array([t]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
     # To the middle of the dwell: from there on the way is that of the next slot.
-    ahead = math.atan2(-plane.sign * centre[1], -plane.sign * centre[0])
+    ahead = math.atan2(-assembly.sign * centre[1], -assembly.sign * centre[0])
     rest_of_turn = math.pi - abs(math.remainder(start - ahead, math.tau))
     # Seen from the resting wheel the crank turns against it outside, with it inside.
-    turn = -end * plane.sign * np.linspace(0.0, rest_of_turn, 4 * STEPS)
+    turn = -end * assembly.sign * np.linspace(0.0, rest_of_turn, 4 * STEPS)
     way = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
     )
-    gone = plane.sign * (np.hypot(*way.T) - sizes.rim) > 2.0 * sizes.half_width
+    gone = assembly.sign * (np.hypot(*way.T) - sizes.rim) > 2.0 * sizes.half_width
     count = int(np.argmax(gone)) + 1 if gone.any() else len(way)
     # As finely as the way in the slot: chords lie inside the circle, where one of its walls is.
     whole = float(turn[count - 1])
-    many = math.ceil(abs(whole) / math.sqrt(8.0 * fine * plane.L / radius)) + 1
+    many = math.ceil(abs(whole) / math.sqrt(8.0 * fine * assembly.L / radius)) + 1
     turn = np.linspace(0.0, whole, max(STEPS, many))
     way = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
@@ -132,7 +134,7 @@ def _arc(
     return Wall(curve, angles, points, _free(points, path, near), centre, radius)
 
 
-def beside(plane: Plane, engagement: Engagement, side: float, outward: bool) -> Curve:
+def beside(assembly: Assembly, engagement: Engagement, side: float, outward: bool) -> Curve:
     """The curve ``side`` mm to the left of the roller's way in, or out: points and tangents."""
     back = retraces(engagement)
 
@@ -142,7 +144,7 @@ def beside(plane: Plane, engagement: Engagement, side: float, outward: bool) -> 
         turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
         tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
         normal = np.column_stack((-tangent[:, 1], tangent[:, 0]))
-        return plane.L * np.column_stack((at.x, at.y)) + side * normal, tangent
+        return assembly.L * np.column_stack((at.x, at.y)) + side * normal, tangent
 
     return curve
 
@@ -158,14 +160,14 @@ def _flank(
 
 
 def _curves(
-    plane: Plane, engagement: Engagement, t: Array, coarse: bool
+    assembly: Assembly, engagement: Engagement, t: Array, coarse: bool
 ) -> Callable[[float], Curve]:
     """The curve at any side of the way in, or out; coarse, as chords that cost nothing to ask."""
     outward = bool(t[-1] > 0.0)
     if not coarse:
-        return lambda side: beside(plane, engagement, side, outward)
+        return lambda side: beside(assembly, engagement, side, outward)
     fine = np.interp(np.arange((len(t) - 1) * CHORDS + 1) / CHORDS, np.arange(len(t)), t)
-    points, tangents = beside(plane, engagement, 0.0, outward)(fine)
+    points, tangents = beside(assembly, engagement, 0.0, outward)(fine)
     normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
 
     def chords(side: float) -> Curve:
@@ -204,9 +206,9 @@ def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array
     return np.append(kept, b) if b < 0.0 else np.insert(kept, 0, b)
 
 
-def _pitch(plane: Plane, engagement: Engagement, t: Array) -> Array:
+def _pitch(assembly: Assembly, engagement: Engagement, t: Array) -> Array:
     x, y = engagement.slot(t, 0)
-    return plane.L * np.column_stack((x.c[0], y.c[0]))
+    return assembly.L * np.column_stack((x.c[0], y.c[0]))
 
 
 def _tangent_in(engagement: Engagement) -> tuple[float, float]:

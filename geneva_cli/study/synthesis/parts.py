@@ -21,7 +21,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.assembly import Plane, plane
+from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.sizes import Ways, sizes, ways
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
@@ -82,7 +82,7 @@ def parts(mechanism: Mechanism) -> Parts:
     spec = mechanism.spec
     if not spec.is_flat:
         return Parts(spec, None)
-    where = plane(mechanism)
+    where = assembly(mechanism)
     known = ways(where)
     points = _slot(where, where.kinds[0])
     L, curved = where.L, where.kinds[0].slot.curved
@@ -114,7 +114,7 @@ def exact(x: float) -> float:
     return float(f"{x:.12g}")
 
 
-def _slot(where: Plane, engagement: Engagement) -> Array:
+def _slot(where: Assembly, engagement: Engagement) -> Array:
     """Places of a slot's pitch curve, (n, 2), mm."""
     at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2 * LOOKS + 1)
     x, y = engagement.slot(at, 0)
@@ -149,7 +149,7 @@ def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[floa
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
-def _obstacle(where: Plane, known: Ways, r: float, between: float) -> str:
+def _obstacle(where: Assembly, known: Ways, r: float, between: float) -> str:
     """What stands in the way of a roller; nothing if it does."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))

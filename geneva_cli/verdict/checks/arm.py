@@ -26,7 +26,7 @@ def arm_wall(name: str, found: Outlines) -> Check | None:
 
 def arm_to_hub(name: str, found: Outlines) -> Check | None:
     """Between the arm's end, as it passes below the wheel, and the wheel's shaft or hub."""
-    inside = found.plane.sign < 0.0  # where the wheel is open in the middle
+    inside = found.assembly.sign < 0.0  # where the wheel is open in the middle
     return None if inside else _asked(name, found, lambda made: made.room, 0.0)
 
 
@@ -34,7 +34,7 @@ def _asked(
     name: str, found: Outlines, value: Callable[[CrankArm], float], limit: float
 ) -> Check | None:
     """The check, where a key of the arm is given: by default it has its walls and its room."""
-    size = found.plane.mechanism.spec.size
+    size = found.assembly.mechanism.spec.size
     if not (any(vars(size)[key] for key in KEYS) and has_arm(found)):
         return None
     try:

@@ -24,7 +24,7 @@ def crossed(name: str, found: Outlines) -> Check | None:
 
 
 def _greatest(name: str, found: Outlines, side: float) -> Check | None:
-    engagement = found.plane.slots[0][0]
+    engagement = found.assembly.slots[0][0]
     if not engagement.slot.curved:
         return None
     t = engagement.entry_deg * (1.0 - np.arange(LOOKS) / LOOKS)
@@ -32,7 +32,7 @@ def _greatest(name: str, found: Outlines, side: float) -> Check | None:
     turn = np.remainder(
         np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
     )
-    gap = 2.0 * found.plane.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
+    gap = 2.0 * found.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
     i = int(np.argmax(gap))
-    at_deg = found.plane.given.shown_deg(engagement.mid_deg + float(t[i]))
+    at_deg = found.assembly.given.shown_deg(engagement.mid_deg + float(t[i]))
     return held(name, max(float(gap[i]), 0.0), "at most", 2.0 * found.sizes.half_width, at_deg)

@@ -14,12 +14,12 @@ from geneva_cli.verdict.checks.check import Check, held
 
 def wall(name: str, found: Outlines) -> Check | None:
     """The least wall round the bore with its keyway and round the dial's bolts."""
-    size = found.plane.mechanism.spec.size
+    size = found.assembly.mechanism.spec.size
     if not (size.wheel_keyway or size.dial_bolts):
         return None
-    inside = found.plane.sign < 0.0  # the contour is that of the opening
+    inside = found.assembly.sign < 0.0  # the contour is that of the opening
     edge = Polyarc([backwards(found.wheel) if inside else found.wheel])
-    holes = [s for s in wheel_circles(found.plane, found.sizes) if s.layer == "BORE"]
+    holes = [s for s in wheel_circles(found.assembly, found.sizes) if s.layer == "BORE"]
     walls = [-beyond(edge, hole) for hole in holes]
     walls += [apart(one, two) for one, two in combinations(holes, 2)]
     for hole in holes if inside else ():

@@ -13,11 +13,11 @@ KEYS = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm"
 
 def wall(name: str, found: Outlines) -> Check | None:
     """The least wall round the links' holes, where a key of theirs is given."""
-    given = vars(found.plane.mechanism.spec.size)
+    given = vars(found.assembly.mechanism.spec.size)
     if not any(given[key] for key in KEYS):
         return None
     try:
-        made = drawn_links(found.plane.given, found)
+        made = drawn_links(found.assembly.given, found)
     except GenevaError as error:
         return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
     least = min(map(link_wall, made.plates), default=None)
@@ -30,7 +30,7 @@ def gap(name: str, found: Outlines) -> Check | None:
         seen = planes(found)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, None, str(error))
-    given = found.plane.given
+    given = found.assembly.given
     if seen.way_out is not None:
         one = seen.way_out
         return Check(

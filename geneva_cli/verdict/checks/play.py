@@ -16,7 +16,7 @@ MOTION_PLAY_MAX = 0.05
 
 def dwell_hold(name: str, found: Outlines, turn: FullTurn) -> Check:
     """Whether something holds the wheel: its lock, or what the spec says."""
-    holds = found.plane.given.spec.wheel.held_by is not None or turn.holds
+    holds = found.assembly.given.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
 
@@ -42,7 +42,7 @@ def motion(name: str, found: Outlines, turn: FullTurn) -> Check:
 
 def motion_play_max(found: Outlines) -> float:
     """The play, degrees either way, up to which a slot sets the wheel's motion."""
-    step = min(2.0 * math.degrees(engagement.half_step) for engagement in found.plane.kinds)
+    step = min(2.0 * math.degrees(engagement.half_step) for engagement in found.assembly.kinds)
     return MOTION_PLAY_MAX * step
 
 

@@ -10,19 +10,19 @@ from geneva_cli.verdict.checks.check import Check, held
 
 def crank_shaft(name: str, found: Outlines) -> Check | None:
     """The crank's shaft or hub, whichever is thicker, and the wheel's rim."""
-    plane, size = found.plane, found.sizes
+    assembly, size = found.assembly, found.sizes
     shaft = _shaft(size)
     if not shaft:
         return None
     # An internal wheel's horns sweep over the crank's axis, and there is no room at all.
-    room = plane.L - size.rim - shaft if plane.sign > 0.0 else -shaft
+    room = assembly.L - size.rim - shaft if assembly.sign > 0.0 else -shaft
     return held(name, room, "at least", 0.0)
 
 
 def crank_hub(name: str, found: Outlines) -> Check | None:
     """The same and the bottom of the locking disc's relief."""
     shaft = _shaft(found.sizes)
-    if not (shaft and found.crank and is_whole(found.plane, found.sizes)):
+    if not (shaft and found.crank and is_whole(found.assembly, found.sizes)):
         return None
     return held(name, found.relief_depth - shaft, "at least", 0.0)
 
@@ -31,7 +31,7 @@ def wheel_shaft(name: str, found: Outlines) -> Check | None:
     """The wheel's shaft or hub and a roller at the bottom of its slot."""
     size = found.sizes
     hub = max(size.wheel_bore, size.wheel_hub)
-    if not (hub and found.plane.sign > 0.0):
+    if not (hub and found.assembly.sign > 0.0):
         return None
     return held(name, size.slot_end - hub, "at least", 0.0)
 

@@ -22,15 +22,15 @@ NO_WALL = {  # what it means that a wall is less than nothing
 
 def between_slots(name: str, found: Outlines) -> Check:
     """Between a slot and the next one, where it is thinnest; negative where they cut each other."""
-    around, near = found.plane.slots, math.inf
+    around, near = found.assembly.slots, math.inf
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
         walls = turned(found.slots[engagement], direction)
         ends = walls.segments[-1].end, walls.segments[0].start
         slot = closed(walls.layer, [*walls.segments, Line(*ends)])
-        inside = Polyarc([backwards(slot) if found.plane.sign > 0.0 else slot])
+        inside = Polyarc([backwards(slot) if found.assembly.sign > 0.0 else slot])
         points = Polyarc([turned(found.slots[following], ahead)]).samples(
-            1e-6 * found.plane.L, 0.01 * found.plane.L
+            1e-6 * found.assembly.L, 0.01 * found.assembly.L
         )
         near = min(near, float(inside.signed(points).min()))
         if all(s is engagement for s, _ in around):
@@ -54,14 +54,14 @@ def outside(name: str, found: Outlines) -> Check | None:
     size = found.sizes
     if not size.outer:
         return None
-    deepest = max(size.slot_end, found.plane.L + size.recess if size.lock else 0.0)
+    deepest = max(size.slot_end, found.assembly.L + size.recess if size.lock else 0.0)
     return _wall(name, size.outer - deepest, found)
 
 
 def crank_bore(name: str, found: Outlines) -> Check | None:
     """Between the crank's bore and the bottom of the locking disc's relief."""
     size = found.sizes
-    if not (size.crank_bore and found.crank and is_whole(found.plane, size)):
+    if not (size.crank_bore and found.crank and is_whole(found.assembly, size)):
         return None
     return _wall(name, found.relief_depth - size.crank_bore, found)
 

@@ -13,14 +13,14 @@ SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to ea
 
 def locks(found: Outlines) -> list[Lock]:
     """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
-    size, plane = found.sizes, found.plane
+    size, assembly = found.sizes, found.assembly
     if not found.crank:
         return []
-    near = SAME * plane.L
+    near = SAME * assembly.L
     corners = {
         round(math.hypot(*end) / near): math.hypot(*end)
         for arc in _arcs(found.wheel)
-        if abs(math.hypot(*arc.centre) - plane.L) < near and abs(arc.radius - size.recess) < near
+        if abs(math.hypot(*arc.centre) - assembly.L) < near and abs(arc.radius - size.recess) < near
         for end in (arc.start, arc.end)
     }
     halves = {
@@ -30,7 +30,7 @@ def locks(found: Outlines) -> list[Lock]:
         if math.hypot(*arc.centre) < near and abs(arc.radius - size.lock) < near
     }
     return [
-        Lock(plane.L, plane.sign, size.lock, size.recess, corner, half)
+        Lock(assembly.L, assembly.sign, size.lock, size.recess, corner, half)
         for corner in corners.values()
         for half in halves.values()
         if half > SAME

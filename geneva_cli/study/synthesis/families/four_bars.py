@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.compatible import refuse_clashes
+from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.four_bar import FourBar
 from geneva_cli.machine.path_pairs import ends_at, newton, residual
 from geneva_cli.machine.path_wheels import followed
@@ -52,7 +52,7 @@ def four_bars(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     if free is None or wish.rollers not in (None, 1):
         return
     try:
-        refuse_clashes(_machine(wish, wheel, FourBar(**_EXAMPLE), free.low))
+        refuse_conflicts(_machine(wish, wheel, FourBar(**_EXAMPLE), free.low))
     except GenevaError:  # a wheel that it does not drive
         return
     found = _found(wish, wheel, free, natural)

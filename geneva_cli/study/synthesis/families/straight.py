@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.compatible import refuse_clashes
+from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.epicyclic import Epicyclic
@@ -80,7 +80,7 @@ def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
 
     for fixed in PLANETS:
         try:
-            refuse_clashes(make("shockless", fixed))
+            refuse_conflicts(make("shockless", fixed))
         except GenevaError:  # a wheel that it does not drive
             return
         yield Family(lambda x, fixed=fixed: make("shockless", fixed))  # type: ignore[misc]
