@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
+from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.analysis.loads.contact import contact as touching
-from geneva_cli.analysis.shock import changes, contact, drag_over, impact
-from geneva_cli.analysis.shock_force import force_N, impulse_Nms
+from geneva_cli.analysis.shock import contacts
+from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import scalar
+from geneva_cli.numerics.arrays import all_true, library, parameter
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 NO_LEVER = 1e-6  # of the centre distance: where the slot lies across the way nothing bounds a play
 
@@ -28,18 +34,38 @@ class Blow(NamedTuple):
     moment_Nms: float | None
 
 
+class Blows(NamedTuple):
+    """The same of m designs, (m,) each; NaN where there is none, or where it is not known."""
+
+    at_deg: Array
+    jump: Array
+    force_N: Array
+    moment_Nms: Array
+
+    @property
+    def first(self) -> Blow | None:
+        """That of the first design, or of the only one."""
+        at_deg, jump, *cost = (None if np.isnan(row[0]) else float(row[0]) for row in self)
+        return None if at_deg is None or jump is None else Blow(at_deg, jump, *cost)
+
+
 def entry_blow(mechanism: Mechanism, share: float = 1.0) -> Blow | None:
     """Where the crank is as wrong as its tolerances allow, times ``share``; None without any.
 
     The jump is negative where the wheel is struck back.
     """
-    found = [
-        Blow(mechanism.shown_deg(e.mid_deg + one.at_deg), one.jump, *_cost(mechanism, one.jump))
-        for e in mechanism.engagements
-        for crank, center in _errors(mechanism, e, share)
-        if (one := contact(e, crank, center))
-    ]
-    return max(found, key=lambda blow: abs(blow.jump), default=None)
+    return entry_blows(mechanism, share).first
+
+
+def entry_blows(mechanism: Mechanism, share: float = 1.0) -> Blows:
+    """The same of m designs."""
+    best = np.full((2, 1), np.nan)
+    for engagement in mechanism.engagements:
+        for crank, center in _errors(mechanism, engagement, share):
+            found = contacts(engagement, crank, center)
+            if found is not None:
+                best = _harder(best, _shown(mechanism, engagement, *found))
+    return _with_cost(mechanism, best)
 
 
 def _errors(
@@ -50,7 +76,7 @@ def _errors(
     arm = arm_mm(mechanism, engagement)
     crank = share * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
     center = share * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
-    if crank or center:
+    if not all_true((crank == 0.0) & (center == 0.0)):
         yield crank, -center
         yield -crank, center
 
@@ -61,7 +87,7 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
     if not mechanism.spec.wheel.FLAT:
         return mechanism.ratio * L
     x, y = (z.c[0] for z in engagement.path(0.0, 0))
-    return L * math.hypot(x - engagement.hub, y)
+    return parameter(L * library(x, y).hypot(x - engagement.hub, y))
 
 
 def clearance_mm(mechanism: Mechanism) -> float:
@@ -77,19 +103,58 @@ def reversal_blow(mechanism: Mechanism) -> Blow | None:
     The play is that of the clearance at the lever where the wheel begins to coast. Without an
     inertia there is none that coasts; with a drag above ``lasting_drag_Nm`` nothing changes.
     """
-    drag, clearance = drag_over(mechanism), clearance_mm(mechanism)
-    found = []
-    for engagement in mechanism.engagements if math.isfinite(drag) and clearance else ():
-        for start in changes(engagement, drag):
-            lever = abs(scalar(touching(engagement, start).lever.c[0]))
-            share = clearance / (max(lever, NO_LEVER) * mechanism.center_distance_mm)
-            one = impact(engagement, start, 2.0 * math.asin(min(share, 1.0)), drag)
-            if one and lever > NO_LEVER:
-                at_deg = mechanism.shown_deg(engagement.mid_deg + one.at_deg)
-                found.append(Blow(at_deg, one.speed, *_cost(mechanism, one.speed)))
-    return max(found, key=lambda blow: blow.jump, default=None)
+    return reversal_blows(mechanism).first
 
 
-def _cost(mechanism: Mechanism, jump: float) -> tuple[float | None, float | None]:
-    moment = impulse_Nms(mechanism, jump)
-    return force_N(mechanism, jump), moment or None
+def reversal_blows(mechanism: Mechanism) -> Blows:
+    """The same of m designs."""
+    best = np.full((2, 1), np.nan)
+    none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
+    for engagement in () if all_true(none) else mechanism.engagements:
+        best = _harder(best, _reversal(mechanism, engagement))
+    return _with_cost(mechanism, best)
+
+
+def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
+    """Of one engagement: shown input angles and jumps, (2, m)."""
+    motion, clearance = engagement.motion, clearance_mm(mechanism)
+    L, drag, known = np.broadcast_arrays(
+        np.atleast_2d(mechanism.center_distance_mm),
+        drag_over(mechanism),
+        motion(motion.entry_deg, 1).c[1] + motion.entry_deg,
+    )[:3]
+    at = changes(engagement, drag)
+    out = np.full((2, len(known)), np.nan)
+    if not len(at.x):
+        return out
+    lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
+    clear = np.broadcast_to(clearance, L.shape)[at.which, 0]
+    share = clear / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
+    play = np.where(lever > NO_LEVER, 2.0 * np.arcsin(np.minimum(share, 1.0)), 0.0)
+    found = impacts_of(engagement, at, play, drag)
+    # the hardest of each design, of equal ones the first
+    order = np.lexsort((np.nan_to_num(-found.speed, nan=np.inf), at.which))
+    which, first = np.unique(at.which[order], return_index=True)
+    out[:, which] = found.at_deg[order][first], found.speed[order][first]
+    return _shown(mechanism, engagement, *out)
+
+
+def _shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, jump: Array) -> Array:
+    """Input angles as they are shown, and jumps: (2, m)."""
+    shown = mechanism.shown_deg(parameter(engagement.mid_deg + at_deg[:, None]))
+    return np.stack(np.broadcast_arrays(np.ravel(shown), jump))
+
+
+def _harder(one: Array, other: Array) -> Array:
+    """The harder of two blows, the first where they are one."""
+    more = abs(other[1]) > np.nan_to_num(abs(one[1]), nan=-1.0)
+    return np.where(more, other, one)
+
+
+def _with_cost(mechanism: Mechanism, blows: Array) -> Blows:
+    at_deg, jump = blows
+    moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
+    force = forces_N(mechanism, jump[:, None])
+    force = np.full(len(moment), np.nan) if force is None else force
+    moment = np.where(moment == 0.0, np.nan, moment)
+    return Blows(*np.broadcast_arrays(at_deg, jump, force, moment))

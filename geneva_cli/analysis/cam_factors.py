@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
+
+from geneva_cli.numerics.angles import radians
 
 
 class CamFactors(NamedTuple):
@@ -28,7 +29,7 @@ def cam_factors(
     >>> cam_factors(2.414213562373095, 5.406981034551926, 10.015265915566939, 90.0, 90.0).Am
     8.4932659...
     """
-    motion, step = math.radians(motion_deg), math.radians(step_deg)
+    motion, step = radians(motion_deg), radians(step_deg)
     return CamFactors(
         acceleration * motion * motion / step,
         velocity * motion / step,

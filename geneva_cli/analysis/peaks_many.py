@@ -21,7 +21,7 @@ from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.numerics.extrema_many import GROUP, peaks_many
+from geneva_cli.numerics.extrema_many import GROUP, Stationary, extrema_many, peaks_many
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
@@ -71,13 +71,21 @@ class _Curve(NamedTuple):
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
         p = self.samples(x, which, ABOVE[self.quantity] + order)
-        if self.quantity == "power":
-            out = [p[1] * p[2], p[2] ** 2 + p[1] * p[3], 3.0 * p[2] * p[3]]
-            if order > 1:
-                out[2] = out[2] + p[1] * p[4]
-        else:
-            out = list(p[ABOVE[self.quantity] :])
-        return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(out[: order + 1])]
+        return _by_degrees(_quantity(self.quantity, p), x, order)
+
+
+def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
+    """A quantity and its derivatives from those of the wheel's angle."""
+    if quantity != "power":
+        return list(p[ABOVE[quantity] :])
+    out = [p[1] * p[2], p[2] ** 2 + p[1] * p[3], 3.0 * p[2] * p[3]]
+    if len(p) > 4:
+        out[2] = out[2] + p[1] * p[4]
+    return out
+
+
+def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
+    return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(rates[: order + 1])]
 
 
 def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakOfMany]:
@@ -96,6 +104,31 @@ def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dic
             rest = _sought(taken(motion, open_), [name])[name]
             peak.max[open_], peak.at_deg[open_] = rest
     return found
+
+
+def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
+    """Where a quantity of m designs is stationary, and the ends of its smooth parts: all in order.
+
+    Between two of them that follow each other it only rises or only falls.
+    """
+    breaks = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
+    last = np.vstack(breaks[1:])
+    # a break belongs to the piece before it; the piece after begins one double later
+    inner = np.vstack(breaks[1:-1] or [last[:0]])
+    first = np.vstack((breaks[0], np.minimum(np.nextafter(inner, np.inf), last[m:])))
+
+    def curve(x: Array, which: Which, order: int) -> list[Array]:
+        part: Motion = taken(motion, np.arange(len(last))[which] % m)
+        p = part(np.asfortranarray(x), ABOVE[quantity] + max(order, 1)).arrays()
+        return _by_degrees(_quantity(quantity, p), x, order)
+
+    every = np.arange(len(last))
+    ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
+    parts = zip(extrema_many(curve, first, last), *ends, strict=True)
+    which, x, value = (np.concatenate(part) for part in parts)
+    which = which % m
+    order = np.lexsort((x, which))
+    return Stationary(which[order], x[order], value[order])
 
 
 def _sought(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:

@@ -8,12 +8,15 @@ nothing holds the wheel but the play between the branches.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.machine.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Mask
 
 SAMPLES = 720  # in a half motion
 PLAY_MM = 0.01  # branches nearer than this are one slot, as a shop cuts it
@@ -29,8 +32,30 @@ class Drive(NamedTuple):
     loose_gap_mm: float = 0.0  # the same where the needed wall is missing
 
 
+class Drives(NamedTuple):
+    """The same of m designs, (m,) each; ``loose`` (m, k) says at which ``input_deg``."""
+
+    share: Array
+    gap_mm: Array
+    gap_at_deg: Array
+    loose_gap_mm: Array
+    input_deg: Array
+    loose: Mask
+
+
 def positive_drive(mechanism: Mechanism) -> Drive | None:
-    """Where the slot drives the wheel under the spec's load; None for straight slots.
+    """Where the slot drives the wheel under the spec's load; None for straight slots."""
+    found = positive_drives(mechanism)
+    if found is None:
+        return None
+    places = np.sort(found.input_deg[0][found.loose[0]]).tolist()
+    step = abs(mechanism.engagements[0].entry_deg) / SAMPLES
+    share, gap, at, wide = (float(row[0]) for row in found[:4])
+    return Drive(tuple(_intervals(places, step)), share, gap, at, wide)
+
+
+def positive_drives(mechanism: Mechanism) -> Drives | None:
+    """Where the slots of m designs, or of one, drive their wheels; None for straight slots.
 
     The torque is inertia plus resistance. The wall ahead is needed where it is positive: the way
     in keeps that wall where the roller leads the way out at the same radius, the way out where
@@ -39,26 +64,32 @@ def positive_drive(mechanism: Mechanism) -> Drive | None:
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:
         return None
+    given = setting(mechanism)
     # Places between the samples of a grid that has mid-motion, where the branches meet.
-    x = engagement.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES)
+    x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES))
     (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(-x, 0)
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)
-    play = PLAY_MM + 2.0 * mechanism.spec.size.slot_clearance_mm
-    loose, wide = [], 0.0
-    for side, degrees in ((1.0, x), (-1.0, -x)):
-        torque = loads.state(mechanism, engagement, degrees).torque_Nm
-        missing = (gap > play) & (side * np.sign(lead) * torque < 0.0)
-        loose += [float(d) for d in degrees[missing]]
-        wide = max(wide, float(gap[missing].max(initial=0.0)))
-    step = abs(engagement.entry_deg) / SAMPLES
-    worst = int(np.argmax(gap))
-    return Drive(
-        tuple(_intervals(sorted(loose), step)),
-        len(loose) / (2.0 * SAMPLES),
-        float(gap[worst]),
-        float(x[worst]),
+    torque = [
+        engagement.motion(side * x, 2).arrays()[2] * given.inertia_Nm + given.resists_Nm
+        for side in (1.0, -1.0)
+    ]
+    played = gap > PLAY_MM + 2.0 * mechanism.spec.size.slot_clearance_mm
+    missing = [
+        played & (side * np.sign(lead) * turned < 0.0)
+        for side, turned in zip((1.0, -1.0), torque, strict=True)
+    ]
+    first, second, gap, x = np.broadcast_arrays(*missing, gap, x)
+    wide = np.maximum(np.where(first, gap, 0.0), np.where(second, gap, 0.0)).max(axis=1)
+    every, worst = np.arange(len(gap)), np.argmax(gap, axis=1)
+    loose = np.hstack((first, second))
+    return Drives(
+        loose.mean(axis=1),
+        gap[every, worst],
+        x[every, worst],
         wide,
+        np.hstack((x, -x)),
+        loose,
     )
 
 

@@ -14,51 +14,68 @@ pin is held at one end, 3 E pi d⁴ / (64 (b/2)³), and pushed in the middle of 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from geneva_cli.analysis.loads.carried import MM, inertia_kgm2
 from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.roots import root
+from geneva_cli.numerics.arrays import N, choose, size
+from geneva_cli.numerics.roots_many import roots_many
 from geneva_cli.spec.tables import Material
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Whole
 
 PALMGREN = 3.84e-5  # mm, of 1 N on a line of 1 mm, steel on steel
 POWER, WIDTH = 0.9, 0.8
 STEEL_GPa = 0.5 * Material().youngs_modulus_GPa / (1.0 - Material().poisson_ratio ** 2)
 
 
-def impulse_Nms(mechanism: Mechanism, jump: float) -> float:
+def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
     """The moment of the blow, I dw, for a jump over the input's speed; over the lever its impulse.
 
-    The roller stays at the wall: a plastic blow, the least that there is.
+    The roller stays at the wall: a plastic blow, the least that there is. Jumps of m designs are
+    (m, 1), and so are their moments.
     """
     w = omega(mechanism.spec.drive.n_rpm)
-    return inertia_kgm2(mechanism.spec) * abs(jump) * w
+    return size(jump) * (inertia_kgm2(mechanism.spec) * w)
 
 
 def force_N(mechanism: Mechanism, jump: float) -> float | None:
     """The greatest force of an elastic blow; None without a ``face_width_mm`` or an inertia."""
+    found = forces_N(mechanism, np.array([[jump]]))
+    return None if found is None or np.isnan(found[0]) else float(found[0])
+
+
+def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
+    """The same for jumps (m, 1) of m designs: (m,), NaN without an inertia."""
     spec = mechanism.spec
     face, inertia = spec.size.face_width_mm, inertia_kgm2(spec)
-    if face is None or not inertia:
+    if face is None:
         return None
     dw = jump * omega(spec.drive.n_rpm)
     energy = 0.5 * inertia * dw * dw / MM  # N mm
     soft = STEEL_GPa / contact_modulus_GPa(spec)
     press = PALMGREN * soft**POWER / face**WIDTH
     bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
+    rows = np.broadcast_arrays(energy, press, bend, inertia)
+    work, c, k, heavy = (row[:, 0] for row in rows)
 
-    def over(force: float) -> tuple[float, float]:
-        taken = press * POWER / (1.0 + POWER) * force ** (1.0 + POWER) + 0.5 * bend * force * force
-        return taken - energy, press * POWER * force**POWER + bend * force
+    def over(force: Array, live: Whole) -> tuple[Array, Array]:
+        pressed, bent = c[live] * POWER * force**POWER, k[live] * force
+        return pressed * force / (1.0 + POWER) + 0.5 * bent * force - work[live], pressed + bent
 
-    return root(over, 0.0, math.sqrt(2.0 * energy / bend)) if energy else 0.0
+    found = roots_many(over, 0.0 * work, np.sqrt(2.0 * work / k))
+    return np.where(heavy > 0.0, found, np.nan)
 
 
 def pin_stiffness_N_mm(mechanism: Mechanism, face_mm: float) -> float:
     """The pin as a cantilever that is pushed half-way along the roller."""
     spec = mechanism.spec
-    given = spec.size.pin_mm
-    d = given or mechanism.roller_radius_mm
+    given, r = spec.size.pin_mm, mechanism.roller_radius_mm
+    d = r if given is None else choose(given == 0.0, r, given)
     modulus = spec.material_roller.youngs_modulus_GPa * 1e3
     return 3.0 * modulus * math.pi * d**4 / 64.0 / (0.5 * face_mm) ** 3

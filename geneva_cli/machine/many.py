@@ -39,7 +39,11 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Change: TypeAlias = "Callable[[Array], Array]"
 
-TABLES = ("wheel", "drive", "motion", "size", "load")  # whose numbers may vary
+# whose numbers may vary
+TABLES = (
+    *("wheel", "drive", "motion", "size", "load", "support", "motor", "shaft", "tolerance"),
+    *("material.wheel", "material.roller"),
+)
 ONE_BY_ONE = {"rollers"}  # numbers that count what a machine is made of
 
 

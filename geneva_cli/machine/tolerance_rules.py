@@ -7,6 +7,7 @@ from functools import partial
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import choose
 
 TABLE = "tolerance"
 LOCK = ("lock_radius_mm", "recess_radius_mm")
@@ -14,20 +15,16 @@ LOCK = ("lock_radius_mm", "recess_radius_mm")
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a tolerance as large as its dimension, or of none."""
-    given = spec.tolerance.as_dict()
-    if not spec.drive.LOCKS or spec.size.lock_radius_mm == 0.0:
-        for key in LOCK:
-            if given[key]:
-                raise GenevaError(
-                    f"{key} = {given[key]:g}: this machine has no locking disc; remove it",
-                    (TABLE, key),
-                )
+    given, lock = spec.tolerance.as_dict(), spec.size.lock_radius_mm
+    unlocked = (not spec.drive.LOCKS) | (lock == 0.0)
+    for key in LOCK:
+        refuse(unlocked & (given[key] != 0.0), partial(_no_lock, key, given[key]))
     steps = spec.wheel.steps
     arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
     step = min(steps) if steps else 360.0 / spec.wheel.z
     roller = 2.0 * spec.roller_radius_mm(L)
     slot = roller + 2.0 * spec.size.slot_clearance_mm
-    disc = spec.size.lock_radius_mm or arm
+    disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),
@@ -38,6 +35,12 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
         refuse(given[key] >= below, partial(_too_large, key, given[key], below, what))
+
+
+def _no_lock(key: str, value: float) -> GenevaError:
+    return GenevaError(
+        f"{key} = {value:g}: this machine has no locking disc; remove it", (TABLE, key)
+    )
 
 
 def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:

@@ -56,6 +56,8 @@ def roots_many(
     >>> roots_many(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
     array([1.41421356, 3.        ])
     """
+    if not len(a):
+        return a.copy()
     with np.errstate(all="ignore"):
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0

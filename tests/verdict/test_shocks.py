@@ -3,10 +3,11 @@
 import math
 import re
 
+import numpy as np
 import pytest
 
 from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
-from geneva_cli.analysis import shock
+from geneva_cli.analysis import change_of_sides, shock
 from geneva_cli.analysis.blows import entry_blow, reversal_blow
 from geneva_cli.analysis.shock_force import force_N
 from geneva_cli.verdict.checks import one
@@ -41,11 +42,11 @@ def test_values_are_those_of_the_worst_machine():
     assert check.value == force_N(of.mechanism, contact.jump)
     assert check.at_deg == contact.at_deg
     assert check.passes
-    drag = shock.drag_over(of.mechanism)
-    [start] = shock.changes(engagement, drag)
+    drag = change_of_sides.drag_over(of.mechanism)
+    [start] = change_of_sides.changes(engagement, np.array([[drag]])).x
     x, y = (z.c[0] for z in engagement.path(start, 0))
     play = 2.0 * math.asin(0.03 / (100.0 * math.hypot(x, y)))
-    [impact] = shock.impacts(engagement, play, drag)
+    [impact] = change_of_sides.impacts(engagement, play, drag)
     assert row(of, "reversal_shock_N").value == pytest.approx(
         force_N(of.mechanism, impact.speed), rel=1e-12
     )

@@ -6,10 +6,10 @@ Qm for its way to the input; the exact cycle is in ``cycle``.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from geneva_cli.analysis.cam_factors import CamFactors
+from geneva_cli.numerics.angles import radians
 
 
 class Load(NamedTuple):
@@ -47,7 +47,7 @@ def makers_form(
     (16.184, 5.16, 7.1)
     """
     t2 = motion_deg / (6.0 * n_rpm)
-    alpha = factors.Am * math.radians(step_deg) / (t2 * t2)
+    alpha = factors.Am * radians(step_deg) / (t2 * t2)
     Ti = load.inertia * alpha
     Tt = Ti + load.friction + load.work
     Te = load.service_factor * Tt

@@ -48,7 +48,7 @@ def of_reversal(name: str, mechanism: Mechanism) -> Check | None:
 
 def drag_words(mechanism: Mechanism) -> str:
     """What ends the change of sides."""
-    from geneva_cli.analysis.shock import lasting_drag_Nm
+    from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 
     drag = _up(lasting_drag_Nm(mechanism))
     return f"add a drag of {drag:g} N m and the change of sides is gone"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from geneva_cli.analysis.blows import Blow, entry_blow, reversal_blow
+from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.shock import lasting_drag_Nm
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
 

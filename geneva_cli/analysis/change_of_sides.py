@@ -1,0 +1,172 @@
+"""The change of sides: the wheel coasts through its play, and is struck where that is used up.
+
+Where the wheel's torque changes its sign the roller leaves one wall for the other: the wheel coasts
+through the play and is struck by its difference in speed.
+
+Speeds are in units of the input's, angles of the wheel in radians, input angles in degrees from
+the engagement's own mid-motion.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.analysis.peaks_many import landmarks
+from geneva_cli.machine.engagement import Engagement, Motion
+from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.arrays import choose, larger
+from geneva_cli.numerics.roots_many import roots_many
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
+
+ROUNDING_DEG = 1e-12  # nearer to mid-motion a change of sign is there
+NO_TORQUE = 1e-9  # of the greatest: less is rounding
+CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
+
+
+class Impact(NamedTuple):
+    """A change of sides: where the wheel begins to coast, where it is struck, and how fast."""
+
+    from_deg: float
+    at_deg: float
+    speed: float  # of the wheel against the slot, over the input's
+
+
+class Impacts(NamedTuple):
+    """The same of k changes, (k,) each; NaN where the play is not taken up in the motion."""
+
+    from_deg: Array
+    at_deg: Array
+    speed: Array
+
+
+class Changes(NamedTuple):
+    """Where torques change their signs, k of them: of which designs, and the input angles."""
+
+    which: Whole
+    x: Array
+
+
+def impacts(engagement: Engagement, play: float, drag: float = 0.0) -> list[Impact]:
+    """The changes of sides in a motion, for a play of the wheel in radians, both ways together.
+
+    ``drag`` is M_r / (I w²). The wheel coasts from where psi2 = -drag, slowed by it alone, until it
+    is ``play`` ahead of the slot (or behind it, where the torque comes back). None of it where a
+    drag holds the roller on one wall, or where the motion ends before.
+
+        >>> from geneva_cli import Design, External
+        >>> impacts(Design(External(3)).mechanism.engagements[0], 1e-4)
+        [Impact(from_deg=0.0, at_deg=0.55220712276288..., speed=0.03107164009469...)]
+    """
+    over = np.array([[drag]])
+    at = changes(engagement, over)
+    found = impacts_of(engagement, at, np.full(len(at.x), play), over)
+    rows = zip(*[row.tolist() for row in found], strict=True)
+    return [Impact(*row) for row in rows if not math.isnan(row[1])]
+
+
+def changes(engagement: Engagement, drag: Array) -> Changes:
+    """Where the wheel's torque changes its sign inside a motion: psi2 = -drag, (m, 1) of each."""
+    motion, m = engagement.motion, len(drag)
+    which, x, torque = landmarks(motion, "acceleration", m)
+    torque = torque + drag[which, 0]
+    most = np.zeros(m)
+    np.maximum.at(most, which, abs(torque))
+    # a law may run at constant speed for a while
+    kept = abs(torque) > NO_TORQUE * most[which]
+    which, x, torque = which[kept], x[kept], torque[kept]
+    before = np.flatnonzero((torque[:-1] * torque[1:] < 0.0) & (which[:-1] == which[1:]))
+    of = which[before]
+
+    def over(place: Array, live: Whole) -> tuple[Array, Array]:
+        _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
+        return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
+
+    found = roots_many(over, x[before], x[before + 1], CLOSE)
+    return Changes(of, np.where(abs(found) < ROUNDING_DEG, 0.0, found))
+
+
+def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> Impacts:
+    """The changes of sides that begin ``at`` some places, for the play of each, (k,).
+
+    The sign of what the wheel gains tells which way it goes. ``drag`` is (m, 1).
+    """
+    start = at.x[:, None]
+
+    def gained(x: Array, live: Whole) -> tuple[Array, Array]:
+        of = at.which[live]
+        return _gained(taken(engagement.motion, of), start[live], drag[of], x[:, None])
+
+    with np.errstate(all="ignore"):
+        span = ((taken(engagement.motion, at.which).exit_deg - start) * DEGREE)[:, 0]
+        whole = gained(span, np.arange(len(span)))[0]
+        there = np.flatnonzero((play > 0.0) & (play <= abs(whole)))
+
+        def over(x: Array, live: Whole) -> tuple[Array, Array]:
+            ahead, faster = gained(x, there[live])
+            way = np.copysign(1.0, ahead)
+            return way * ahead - play[there[live]], way * faster
+
+        x, speed = np.full((2, len(span)), np.nan)
+        if len(there):
+            x[there] = roots_many(over, np.zeros(len(there)), span[there])
+            speed[there] = abs(gained(x[there], there)[1])
+    return Impacts(at.x, at.x + x / DEGREE, speed)
+
+
+def _gained(motion: Motion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:
+    """By how much wheels are ahead of their slots, and faster, x radians after they coast: (k,).
+
+    d = -int (x - t) (psi2 + drag) dt, which loses no digits however small the play.
+    """
+    end = start + x / DEGREE
+    inner = [start, *[np.clip(b, start, end) for b in motion.breaks_deg], end]
+    halves = [0.5 * (b - a) for a, b in zip(inner[:-1], inner[1:], strict=True)]
+    parts = zip(inner[:-1], inner[1:], halves, strict=True)
+    t = np.hstack([0.5 * (a + b) + half * NODES for a, b, half in parts])
+    weight = np.hstack([half * (DEGREE * WEIGHTS) for half in halves])
+    torque = np.where(weight > 0.0, (motion(t, 2).arrays()[2] + drag) * weight, 0.0)
+    return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
+
+
+def drag_over(mechanism: Mechanism) -> float:
+    """M_r / (I w²) of the spec's load; infinite without an inertia: nothing coasts."""
+    inertia = inertia_kgm2(mechanism.spec)
+    w = omega(mechanism.spec.drive.n_rpm)
+    heavy = inertia > 0.0
+    drag = resisting_torque_Nm(mechanism.spec) / (choose(heavy, inertia, 1.0) * w * w)
+    out: float = choose(heavy, drag, math.inf)
+    return out
+
+
+def lasting_drag_Nm(mechanism: Mechanism) -> float:
+    """The torque that must be added for the roller to stay on one wall: I w² max(-psi2) - M_r.
+
+    0 where it stays there already. Of m designs (m, 1).
+    """
+    inertia = inertia_kgm2(mechanism.spec)
+    w = omega(mechanism.spec.drive.n_rpm)
+    most = braking(mechanism.engagements[0])
+    for engagement in mechanism.engagements[1:]:
+        most = larger(most, braking(engagement))
+    return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)
+
+
+def braking(engagement: Engagement) -> float:
+    """The greatest -psi2 of a motion; of m designs (m, 1)."""
+    motion = engagement.motion
+    m = np.size(motion(motion.entry_deg, 1).c[1] + motion.entry_deg)
+    which, _, value = landmarks(motion, "acceleration", m)
+    most = np.full(m, -np.inf)
+    np.maximum.at(most, which, -value)
+    one = m == 1 and isinstance(motion.entry_deg, float)
+    return float(most[0]) if one else cast("float", most[:, None])

@@ -1,0 +1,89 @@
+"""Every answer of the analysis for designs at once: those of each design built alone.
+
+Sizes within 16 units in the last place of the quantity's; NaN where one design has none.
+"""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from design_arrays import MACHINES, alone, drawn
+
+from geneva_cli.analysis import blows, change_of_sides, undercut
+from geneva_cli.analysis import positive_drive as positive
+from geneva_cli.machine.many import many
+from geneva_cli.spec.tables import Load, Tolerance
+
+ULPS = 16 * 2.0**-52
+CARRIED = [
+    ("load.inertia_kgm2", 0.5, 3.0),
+    ("load.torque_Nm", 0.0, 30.0),
+    ("drive.n_rpm", 5.0, 100.0),
+    ("size.face_width_mm", 5.0, 20.0),
+    ("size.slot_clearance_mm", 0.01, 0.05),
+    ("size.roller_radius_mm", 3.0, 16.0),
+    ("shaft.stiffness_Nm_rad", 1e3, 1e5),
+    ("shaft.wheel_overhang_mm", 10.0, 50.0),
+    ("tolerance.center_distance_mm", 0.0, 0.05),
+    ("material.wheel.youngs_modulus_GPa", 3.0, 210.0),
+]
+
+
+@cache
+def designs(name):
+    """Four designs of a machine together, and two of those that can be built each alone."""
+    spec, rules = MACHINES[name]
+    given = Load(inertia_kgm2=1.0, friction=0.1)
+    spec = spec.but(load=given, tolerance=Tolerance(roller_diameter_mm=0.01))
+    if spec.drive.ONE_ARM:
+        spec = spec.with_("tolerance.crank_radius_mm", 0.02)
+    varied = drawn([*rules, *CARRIED], 24, 7)
+    built = many(spec, varied).which[:4]
+    varied = {key: values[built] for key, values in varied.items()}
+    found = many(spec, varied)
+    assert not found.refused.any()
+    return found.machine, [(i, alone(spec, varied, i)) for i in (0, len(built) - 1)]
+
+
+def same(found, i, one, close=ULPS, size=0.0):
+    """The i-th of many answers against that of a design, in units of it or of a greater size."""
+    here = np.ravel(found)[i if np.size(found) > 1 else 0]
+    if one is None:
+        assert np.isnan(here)
+    else:
+        assert here == pytest.approx(float(one), rel=close, abs=max(close * size, 1e-300))
+
+
+def records(many, i, one, size=0.0, close=ULPS, places=1e-9):
+    """Numbers by their names; input angles to the root of a rounding, as tops are flat."""
+    found = many._asdict()
+    for name in type(one)._fields if one else found:
+        near = (places, 1.0) if name.endswith("deg") else (close, size)
+        if name in found:
+            same(found[name], i, one and one._asdict()[name], *near)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_shocks(name):
+    machine, each = designs(name)
+    entry, back = blows.entry_blows(machine), blows.reversal_blows(machine)
+    drag = change_of_sides.lasting_drag_Nm(machine)
+    for i, one in each:
+        records(entry, i, blows.entry_blow(one))
+        records(back, i, blows.reversal_blow(one))
+        same(drag, i, change_of_sides.lasting_drag_Nm(one))
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_walls_of_curved_slots(name):
+    machine, each = designs(name)
+    cut, drives = undercut.undercuts(machine), positive.positive_drives(machine)
+    for i, one in each:
+        found, driven = undercut.undercut(one), positive.positive_drive(one)
+        if cut is None:
+            assert found is driven is drives is None
+            continue
+        records(cut, i, found, one.center_distance_mm)
+        if found:
+            assert (found.wall == "left") == cut.left[i]
+        records(drives, i, driven, one.center_distance_mm)
