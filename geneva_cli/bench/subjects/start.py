@@ -24,6 +24,14 @@ ARGUMENTS = {
 }
 SPEC = "curved"  # the template that needs most
 QUICK = ("table",)
+# A wheel to cut: its outline found, turned against the crank, and written. Templates and keys.
+EXPORT = ("profile", "-", "--part", "wheel", "--format", "dxf")
+CUT = {
+    "6 straight slots": ("external", ()),
+    "6 curved slots": ("curved", ()),
+    "24 straight slots": ("external", ("wheel.z=24", "size.roller_radius_mm=2")),
+    "4 slots, 3 rollers": ("external", ("wheel.z=4", "drive.rollers=3")),
+}
 RUN = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.app import main; main()"
 EAGER = (
     "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
@@ -64,7 +72,7 @@ def commands() -> list[str]:
 
 
 def subject(quick: bool) -> Subject:
-    """Bare Python, and every command in both ways; one task a command."""
+    """Bare Python, every command in both ways, and exports to cut; one task each."""
     spec = template(SPEC)
     tasks = [_task("python", {"python -c pass": ("pass", ())}, None)]
     for name in QUICK if quick else ("--help", *commands()):
@@ -76,6 +84,10 @@ def subject(quick: bool) -> Subject:
         if name == "table":
             runs |= {way: (code, words) for way, code in SCRIPTS.items()}
         tasks.append(_task("geneva " + " ".join(words), runs, spec))
+    for name, (kind, keys) in () if quick else CUT.items():
+        words = (*EXPORT, *(word for key in keys for word in ("--set", key)))
+        runs = {"ours: lazy imports": (RUN, words)}
+        tasks.append(_task(f"geneva profile as dxf: {name}", runs, template(kind)))
     return Subject("Start-up of whole runs", "none", tasks)
 
 
