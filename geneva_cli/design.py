@@ -565,9 +565,10 @@ class Design:
         >>> wheel.judge(wheel.drawn(0.01))
         ('', [])
         """
-        from geneva_cli.verdict.advice import verdict
+        from geneva_cli.verdict.advice import judged
+        from geneva_cli.verdict.failures import failures
 
-        return self._located(lambda: verdict(proof))
+        return self._located(lambda: failures(judged(proof.mechanism, proof), proof))
 
     def tolerance(
         self, samples: int = 65536, seed: int = 0, radius_mm: float | None = None

@@ -193,7 +193,7 @@ ANY = {
     "analysis.loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "machine.registry": {"_found"},
-    "machine.spec": {"but", "table"},
+    "machine.spec": {"replace", "table"},
     "parts.catalogue": {"_made"},
     "parts.sheet.sheet": {"_views", "_composed", "_items"},
 }

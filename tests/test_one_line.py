@@ -26,7 +26,7 @@ from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.poses import Pose, Step
+from geneva_cli.machine.wheels.poses import HalfStep, Pose
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
@@ -36,9 +36,9 @@ from geneva_cli.spec.rules import Range
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.checks import one
 from geneva_cli.verdict.checks import registry as checks
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.report import sections
 from geneva_cli.verdict.report.values import Values
 
@@ -140,7 +140,7 @@ class Leaning(Gearing):
         """Its motion is not symmetric."""
         return self.height_mm != 0.0
 
-    def half_motion_deg(self, step: Step) -> float:
+    def half_motion_deg(self, step: HalfStep) -> float:
         """Of the level crank."""
         return 90.0 - math.degrees(step.b)
 
@@ -155,7 +155,7 @@ class Leaning(Gearing):
         k = math.cos(math.radians(self.lean_deg))
         return 1.0 - l * math.cos(a), d + k * l * math.sin(a)
 
-    def place(self, step: Step, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
         """The arm with which the wheel turns by its step between the two ends."""
         d = self.height_mm / center_distance_mm
         k = math.cos(math.radians(self.lean_deg))
@@ -256,7 +256,7 @@ def test_a_law_with_a_parameter(add: Add, run: Callable[..., Any]) -> None:
 
 def slots(name: str, mechanism: Mechanism) -> Check:
     """A check."""
-    return held(name, float(mechanism.spec.wheel.z), "at least", 5.0)
+    return compared(name, float(mechanism.spec.wheel.z), "at least", 5.0)
 
 
 def test_a_check(add: Add, run: Callable[..., Any]) -> None:
@@ -267,7 +267,7 @@ def test_a_check(add: Add, run: Callable[..., Any]) -> None:
     assert [row["limit"] for row in rows if row["check"] == "slots"] == [5.0]
     assert names.index("dwell_deg") < names.index("slots") < names.index("horn_mm")
     machine = build(Spec(Wheel(4)))
-    assert one(machine, "slots") == held("slots", 4.0, "at least", 5.0)
+    assert single_check(machine, "slots") == compared("slots", 4.0, "at least", 5.0)
     assert [c.nearest for c in judged(machine, parts=False) if c.name == "slots"] == ["none found"]
 
 

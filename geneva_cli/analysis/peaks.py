@@ -107,7 +107,7 @@ def ends(engagement: Engagement) -> Ends:
 
 def _peak(motion: Motion, quantity: str) -> Peak:
     """The peak in closed form, where there is one."""
-    known = motion.known(quantity)
+    known = motion.closed_peak(quantity)
     return Peak(*known) if known else peak(motion, quantity)
 
 

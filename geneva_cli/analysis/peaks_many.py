@@ -92,7 +92,7 @@ def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dic
     """The greatest sizes over the motions of m designs, ends included, at their input angles."""
     found: dict[str, PeakOfMany] = {}
     for name in quantities:
-        known = motion.known(name)
+        known = motion.closed_peak(name)
         if known is not None:
             found[name] = PeakOfMany(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in found]

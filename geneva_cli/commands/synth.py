@@ -184,4 +184,4 @@ def _write(wish: Wish, number: int, output: str, format: str) -> None:
     if found.trouble:
         said = f"{path}: warning: its parts cannot be built: {found.trouble}"
         print(clean(said), file=sys.stderr)
-    warn(Design.of(found.spec.but(path=path)))
+    warn(Design.of(found.spec.replace(path=path)))

@@ -47,19 +47,19 @@ class Body(Protocol):
 Vector: TypeAlias = tuple[Jet, Jet]
 
 
-class Joints(Protocol):
-    """What holds the roller's body where that is not the crank: links without mass or friction."""
+class Reactions(Protocol):
+    """Reactions on the body that carries the roller, held by links without mass or friction."""
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
-        """Reactions to each of some loads: a force at the pin's centre and a couple, both on the
-        roller's body. ``path`` is the pin's, one order higher than the loads.
+        """Two reactions to each load: on the crank's shaft, and on what guides the body besides.
 
-        Those on the crank's shaft in its bearings, and at what guides the body besides: rocker,
-        slider, groove or fixed gear. In units of the force, the couple in units of it times L;
-        on any axes, since only their sizes are asked for. A mesh of gears pushes along the common
-        tangent of the pitch circles.
+        A load is a force at the pin's centre and a couple, both on the roller's body; ``path`` is
+        the pin's, one order higher than the loads. The guide is a rocker, slider, groove or fixed
+        gear. Forces are in any unit, couples in that unit times L; the axes are any, since only
+        the sizes of the reactions are used. Meshing gears push along the common tangent of their
+        pitch circles.
         """
 
 
@@ -103,18 +103,18 @@ class Slot(ABC):
         return 1.0
 
 
-class Known(NamedTuple):
-    """A peak known in closed form: its size, and its signed input angle in degrees."""
+class PeakValue(NamedTuple):
+    """The greatest size of a quantity, and its signed input angle in degrees."""
 
     size: float
     at_deg: float
 
 
-class PeakKnown(Protocol):
-    """Peaks that are had without a search."""
+class ClosedPeaks(Protocol):
+    """Peaks in closed form, or by a search that is quicker than the general one."""
 
-    def __call__(self, quantity: str) -> Known | None:
-        """The greatest size of a quantity; None where only a search tells."""
+    def __call__(self, quantity: str) -> PeakValue | None:
+        """The peak of a quantity; None where only the general search finds it."""
 
 
 class Motion(ABC):
@@ -144,10 +144,10 @@ class Motion(ABC):
         """Entry, the places where a derivative may jump, mid-motion, and exit."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
-    def known(self, quantity: str) -> Known | None:
-        """The greatest size of a quantity, where there is a closed form or a quicker way to it.
+    def closed_peak(self, quantity: str) -> PeakValue | None:
+        """The peak of a quantity in closed form, or by a quicker search than the general one.
 
-        Of many designs NaN for those of which only a search tells.
+        None where there is neither; for arrays of designs NaN at those that have neither.
         """
         return None
 
@@ -186,7 +186,7 @@ class Engagement:
     crank turns where the roller is not on its arm: with the wheel (-1) or against it (1); 0 where
     it is, and the pin's direction is the crank's. ``groove`` is the path where a fixed groove
     guides the roller along the crank; ``body`` carries the roller where the crank's arm does not,
-    and ``joints`` hold that body. ``hub`` is where the crank's arm turns about, on the line of
+    and ``reactions`` hold that body. ``hub`` is where the crank's arm turns about, on the line of
     centres: 1 but on a sphere.
     """
 
@@ -200,13 +200,13 @@ class Engagement:
         groove: SolvedPath | None = None,
         body: Body | None = None,
         hub: float = 1.0,
-        joints: Joints | None = None,
+        reactions: Reactions | None = None,
     ) -> None:
         self.mid_deg = mid_deg
         self.path, self.slot, self.motion = path, slot, motion
         self.crank_sense = crank_sense
         self.groove, self.body, self.hub = groove, body, hub
-        self.joints = joints
+        self.reactions = reactions
 
     @property
     def entry_deg(self) -> float:
@@ -251,23 +251,22 @@ class Anchor(NamedTuple):
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
     along: float  # distance of the pin from the wheel's axis there
     displacement: Displacement
-    # input angle since then, radians, and order -> the pin's way (along the ray, across it)
 
-    def way(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's way since the anchor (along its ray, across it), at an angle in degrees."""
+    def displacement_at(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        """The pin's displacement (along the ray, across it) at an input angle in degrees."""
         return self.displacement(radians(input_deg - self.input_deg), order)
 
     def place(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """The pin (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.way(input_deg, order)
+        along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
 
 
 class Displacement(Protocol):
-    """The pin's way since an anchor."""
+    """The pin's displacement since an anchor."""
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """(along the anchor's ray, across it), ``tau`` radians of the input later."""
+        """Along the anchor's ray and across it, ``tau`` input radians after the anchor."""
 
 
 def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:

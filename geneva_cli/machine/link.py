@@ -1,4 +1,4 @@
-"""The link that carries the roller, cut free from its machine: how it turns, what holds it."""
+"""The link that carries a linkage's roller: how fast it turns, and the reactions at its joints."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos
 
 
-class Link(NamedTuple):
-    """The link that carries the roller, from mid-motion on."""
+class LinkTurning(NamedTuple):
+    """The angular velocity of the link that carries the roller."""
 
     path: Path
-    middle: float  # the crank's angle there
+    middle: float  # the crank's angle at mid-motion
     sense: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
@@ -24,8 +24,8 @@ class Link(NamedTuple):
         return atan2(y, x).derivative() * self.sense
 
 
-class LinkJoints(NamedTuple):
-    """The link cut free: the crank's pin A holds it, and a third body at B along a known line."""
+class LinkReactions(NamedTuple):
+    """The link's equilibrium: held by the crank's pin at A, and at B along a known line."""
 
     path: Path
     middle: float  # the crank's angle at mid-motion

@@ -10,11 +10,11 @@ import numpy as np
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.engagement import Anchor, Engagement
 from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
-from geneva_cli.machine.link import Link, LinkJoints
+from geneva_cli.machine.link import LinkReactions, LinkTurning
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
-from geneva_cli.machine.roller_path import LONG_PI, Path, Way, exactly, rounded
+from geneva_cli.machine.roller_path import LONG_PI, Path, PointDisplacement, exactly, rounded
 from geneva_cli.machine.wheel_for_path import Fit
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.arrays import library, parameter
@@ -23,7 +23,7 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine
 ANCHORS = 4  # on either side of the middle: near the wheel a path is all bends
 
 
-def engagement_of(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
+def engagement_of(path: Path, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
     """The engagement of a wheel that fits, and the centre distance; the crank's axis is the origin.
 
     Every place is worked out in 50 digits and rounded once.
@@ -64,13 +64,13 @@ def engagement_of(path: Path, fit: Fit, step: Step) -> tuple[Engagement, float]:
         )
     anchored = AnchoredPath(anchors, ahead)
     motion = Followed(anchored, step.b, mirrored=False)
-    body = Link(path, float(middle), fit.sense)
+    body = LinkTurning(path, float(middle), fit.sense)
     ahead_x, ahead_y = float(-ox / L), float(-oy / L)
-    joints = LinkJoints(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
-    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, joints), float(L)
+    reactions = LinkReactions(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
+    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, reactions), float(L)
 
 
-def engagement_many(path: Path, found: Fits, step: Step) -> tuple[Engagement, float]:
+def engagement_many(path: Path, found: Fits, step: HalfStep) -> tuple[Engagement, float]:
     """The engagements of the wheels that fit, and their centre distances, (n, 1).
 
     Every place is worked out in long doubles, where the computer has them, and rounded once.
@@ -112,12 +112,12 @@ def engagement_many(path: Path, found: Fits, step: Step) -> tuple[Engagement, fl
     motion = Followed(anchored, b, mirrored=False)
     mid = rounded(middle)
     line = rounded(-centre.real / L), rounded(-centre.imag / L)
-    joints = LinkJoints(path, mid, sense, distance, *line)
-    body = Link(path, mid, sense)
-    return path_and_slot.engagement(0.0, anchored, motion, -sense, body, joints), distance
+    reactions = LinkReactions(path, mid, sense, distance, *line)
+    body = LinkTurning(path, mid, sense)
+    return path_and_slot.engagement(0.0, anchored, motion, -sense, body, reactions), distance
 
 
-def _alike(path: Path, found: Fits, step: Step) -> tuple[Path, Fits, Step]:
+def _alike(path: Path, found: Fits, step: HalfStep) -> tuple[Path, Fits, HalfStep]:
     """With the first design that has a wheel in the place of those that have none.
 
     These are refused already; and long doubles that are no numbers take a hundred times as long.
@@ -128,13 +128,13 @@ def _alike(path: Path, found: Fits, step: Step) -> tuple[Path, Fits, Step]:
     which = np.where(fits, np.arange(len(fits)), fits.argmax())
     entry, exit_, sense = (x[which] for x in found[:3])
     p, q = (cast(int, np.asarray(x)[which]) if np.ndim(x) else x for x in step)
-    return path.of(which), Fits(entry, exit_, sense, found.alone), Step(p, q)
+    return path.of(which), Fits(entry, exit_, sense, found.alone), HalfStep(p, q)
 
 
 class AlongRay(NamedTuple):
-    """The pin's way along a ray (x, y) and across it, positive with the wheel."""
+    """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
 
-    way: Way
+    displacement: PointDisplacement
     x: float
     y: float
     scale: float
@@ -142,19 +142,22 @@ class AlongRay(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """``tau`` radians of the crank later."""
-        x, y = self.way(*sine_versine(Jet.variable(tau, order)))
+        x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
         along = (x * self.x + y * self.y) * self.scale
         across = (y * self.x - x * self.y) * (self.sense * self.scale)
         return along, across
 
 
-def along_ray(way: Way, ray: tuple[float, float], sense: float, L: float, end: float) -> AlongRay:
-    """The pin's way along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
+def along_ray(
+    displacement: PointDisplacement, ray: tuple[float, float], sense: float, L: float, end: float
+) -> AlongRay:
+    """A displacement along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
 
-    There it is the velocity that ``way`` itself gives, so that nothing at all is left across it.
+    There the ray is the velocity of ``displacement`` itself, so that the velocity across it is
+    exactly 0.
     """
     ux, uy = ray
     if end:
-        x, y = way(*sine_versine(Jet.variable(0.0, 1)))
+        x, y = displacement(*sine_versine(Jet.variable(0.0, 1)))
         ux, uy = end * parameter(x.c[1]), end * parameter(y.c[1])
-    return AlongRay(way, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)
+    return AlongRay(displacement, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)

@@ -117,11 +117,11 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
         if spec.motion is not None and table == "motion":
             own = {name: v for name, v in new.items() if name in Motion.__dataclass_fields__}
             law = {name: v for name, v in new.items() if name not in own}
-            parts[table] = spec.motion.but(law=spec.motion.law.but(**law), **own)
+            parts[table] = spec.motion.replace(law=spec.motion.law.replace(**law), **own)
         else:
             part: Table = vars(spec)[attribute(table)]
-            parts[attribute(table)] = part.but(**new)
-    return spec.but(**parts)
+            parts[attribute(table)] = part.replace(**new)
+    return spec.replace(**parts)
 
 
 def _field(spec: Spec, key: str) -> Field:

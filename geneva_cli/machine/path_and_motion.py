@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from geneva_cli.machine.engagement import Anchor, Engagement, Joints, Motion, Path, Slot, in_wheel
+from geneva_cli.machine.engagement import (
+    Anchor,
+    Engagement,
+    Motion,
+    Path,
+    Reactions,
+    Slot,
+    in_wheel,
+)
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.numerics.jet import Jet, Number
@@ -38,9 +46,9 @@ def engagement(
     half_step: float,
     law: Law,
     path: MiddlePath,
-    joints: Joints | None = None,
+    reactions: Reactions | None = None,
 ) -> Engagement:
     """The engagement of a curved slot whose motion lies evenly about the line of centres."""
     half = 0.5 * motion_deg
     motion = LawMotion(-half, half, half_step, law)
-    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, joints=joints)
+    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, reactions=reactions)

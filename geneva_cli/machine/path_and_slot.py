@@ -11,11 +11,11 @@ from geneva_cli.machine.engagement import (
     Anchor,
     Axis,
     Body,
+    ClosedPeaks,
     Engagement,
-    Joints,
-    Known,
     Motion,
-    PeakKnown,
+    PeakValue,
+    Reactions,
     Slot,
     is_mirrored,
 )
@@ -117,20 +117,20 @@ class MeridianSlot(Slot):
 class Followed(Motion):
     """The motion of a wheel whose straight slot follows the pin.
 
-    ``mirrored`` is False where the path's two halves differ; ``peaks_known`` tells peaks
+    ``mirrored`` is False where the path's two halves differ; ``closed_peaks`` tells peaks
     that are had without a search.
     """
 
-    peaks_known: PeakKnown | None = None
+    closed_peaks: ClosedPeaks | None = None
 
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
         super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
         self.path, self.mirrored = path, mirrored
         self.entry = path.anchors[0]
 
-    def known(self, quantity: str) -> Known | None:
+    def closed_peak(self, quantity: str) -> PeakValue | None:
         """The greatest size of a quantity, where there is a quicker way to it."""
-        return self.peaks_known(quantity) if self.peaks_known else None
+        return self.closed_peaks(quantity) if self.closed_peaks else None
 
     @property
     def symmetric(self) -> bool:
@@ -177,18 +177,20 @@ class Classic(Followed):
         super().__init__(path, half_step)
         self.sign, self.l, self.rest = sign, l, rest
 
-    def known(self, quantity: str) -> Known | None:
+    def closed_peak(self, quantity: str) -> PeakValue | None:
         """The peaks of velocity and acceleration."""
         outside = self.sign > 0.0
         if quantity == "velocity":
-            return Known(classic.velocity_peak(self.l, self.rest if outside else 1.0 + self.l), 0.0)
+            return PeakValue(
+                classic.velocity_peak(self.l, self.rest if outside else 1.0 + self.l), 0.0
+            )
         if quantity != "acceleration":
             return None
         if not outside:  # the jump at entry
             jump = parameter(self(self.entry_deg, 2).derivatives()[2])
-            return Known(abs(jump), self.entry_deg)
+            return PeakValue(abs(jump), self.entry_deg)
         size, at_deg = classic.acceleration_peak(self.l, self.rest)
-        return Known(size, -at_deg)
+        return PeakValue(size, -at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """As of any motion, in closed form.
@@ -231,11 +233,11 @@ def engagement(
     motion: Followed,
     crank_sense: float = 0.0,
     body: Body | None = None,
-    joints: Joints | None = None,
+    reactions: Reactions | None = None,
 ) -> Engagement:
     """The engagement of a radial slot in a plane."""
     slot = RadialSlot(path)
-    return Engagement(mid_deg, path, slot, motion, crank_sense, body=body, joints=joints)
+    return Engagement(mid_deg, path, slot, motion, crank_sense, body=body, reactions=reactions)
 
 
 def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:

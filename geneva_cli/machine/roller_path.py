@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 LONG_PI = np.longdouble(str(PI))
 
 
-class Way(Protocol):
-    """The pin's way since a moment."""
+class PointDisplacement(Protocol):
+    """The pin's displacement since a moment, as a function of the crank's angle since then."""
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
         """(x, y), from sin d and 1 - cos d of the crank's angle d since then."""
@@ -85,9 +85,10 @@ class Path(ABC):
         """The pin (x, y) for a crank of this direction."""
 
     @abstractmethod
-    def about(self, sine: float, cosine: float) -> Way:
-        """The pin's way since the crank stood there, written so that it vanishes there; sine and
-        cosine are exact.
+    def about(self, sine: float, cosine: float) -> PointDisplacement:
+        """The pin's displacement since the crank had this direction, exactly 0 at no turn.
+
+        Sine and cosine are exact.
         """
 
     def at(self, phi: Number, order: int) -> tuple[Jet, Jet]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.wheels.classic import refuse_jam
 from geneva_cli.machine.wheels.gearing import Place
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -63,7 +63,7 @@ def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[Place]:
     found = []
     for degrees in steps:
         p, q = degrees.as_integer_ratio()
-        found.append(spec.wheel.place(Step(p, 360 * q), spec.given_distance_mm))
+        found.append(spec.wheel.place(HalfStep(p, 360 * q), spec.given_distance_mm))
     total = math.fsum(2.0 * f.half_motion_deg for f in found)
     if not total < 360.0:
         raise GenevaError(

@@ -82,7 +82,7 @@ class Motion(Table):
         """
         law, own = ([f.key for f in fields(type(part))] for part in (self.law, self))
         if key in law:
-            return self.but(law=self.law.with_key(key, value))
+            return self.replace(law=self.law.with_key(key, value))
         if key not in own:
             raise unknown(key, self.TABLE, (*law, *own))
         return super().with_key(key, value)
@@ -154,10 +154,10 @@ class Spec:
             if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key))
 
-    def but(self, **changes: Any) -> Self:
+    def replace(self, **changes: Any) -> Self:
         """The same with some of its tables changed.
 
-        >>> Spec(External(6)).but(wheel=Internal(6)).wheel.NAME
+        >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
         'internal'
         """
         return dataclasses.replace(self, **changes)
@@ -202,9 +202,9 @@ class Spec:
         changed = part.with_key(name, value)
         one_of, _, number = table.partition(".")
         if one_of not in LISTS:
-            return self.but(**{attribute(table): changed})
+            return self.replace(**{attribute(table): changed})
         several, at = vars(self)[one_of], int(number)
-        return self.but(**{one_of: (*several[:at], changed, *several[at + 1 :])})
+        return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
 
     @property
     def is_loaded(self) -> bool:

@@ -19,7 +19,7 @@ from geneva_cli.machine.path_pairs import FLAT
 from geneva_cli.machine.path_samples import joined
 from geneva_cli.machine.path_wheels import Wheels, chosen, followed, wheels
 from geneva_cli.machine.roller_path import Path
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
 
@@ -58,7 +58,7 @@ class _Place(NamedTuple):
     turn: float
 
 
-def fit(path: Path, step: Step, wanted: float | None = None) -> Fit | None:
+def fit(path: Path, step: HalfStep, wanted: float | None = None) -> Fit | None:
     """The wheel of an index angle that the path can drive, if there is one.
 
     Of several the gentlest, or the one entered nearest to ``wanted`` (radians).
@@ -84,7 +84,7 @@ def fit(path: Path, step: Step, wanted: float | None = None) -> Fit | None:
     return Fit(*pair, centre, sense)
 
 
-def _double(path: Path, step: Step, entry: float, exit_: float) -> Wheels | None:
+def _double(path: Path, step: HalfStep, entry: float, exit_: float) -> Wheels | None:
     """The wheel of a double root, or of two roots so near that Newton does not part them."""
     pair = _on_family(path, step.b, entry, exit_)
     root = _refined(path, step.b, pair) if pair else None
@@ -163,7 +163,7 @@ def _stationary(path: Path, b: float, pair: Pair) -> Pair | None:
 
 
 def _polished(
-    path: Path, step: Step, entry: float, exit_: float, sense: float
+    path: Path, step: HalfStep, entry: float, exit_: float, sense: float
 ) -> tuple[Decimal, Decimal] | None:
     """A pair in 50 digits: Newton on what is left of both conditions, its slopes in doubles.
 

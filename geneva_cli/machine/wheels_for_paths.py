@@ -13,7 +13,7 @@ import numpy as np
 from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
 from geneva_cli.machine.path_wheels import chosen, wheels
 from geneva_cli.machine.roller_path import LONG_PI, Path, exactly
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def long_point(path: Path, phi: Long) -> tuple[LongComplex, LongComplex]:
     return x + 1j * y, v / np.abs(v)
 
 
-def polished(path: Path, found: Fits, step: Step) -> tuple[Long, Long]:
+def polished(path: Path, found: Fits, step: HalfStep) -> tuple[Long, Long]:
     """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles.
 
     Newton's method in two unknowns, from roots that are known to a double's last digits.

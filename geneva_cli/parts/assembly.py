@@ -143,7 +143,7 @@ def assembly(mechanism: Mechanism) -> Assembly:
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        mechanism = build(spec.but(drive=crank))
+        mechanism = build(spec.replace(drive=crank))
     turn = 360.0 * mechanism.spec.drive.turns
     periods = round(turn / mechanism.period_deg)
     rollers = tuple(

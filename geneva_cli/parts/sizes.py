@@ -53,14 +53,14 @@ class Sizes(NamedTuple):
         return self.arm - self.half_width - self.recess
 
 
-class Ways(NamedTuple):
+class RollerPaths(NamedTuple):
     """What the paths of the rollers' centres leave of wheel and crank, whatever their radius."""
 
     ends: tuple[float, ...]  # of each kind of slot: how near to the wheel's axis, inside how far
     arm: float  # least distance of a roller, and of the slots beside it, from the crank's axis
 
 
-def ways(assembly: Assembly) -> Ways:
+def roller_paths(assembly: Assembly) -> RollerPaths:
     """The ways of a machine's rollers."""
     paths = [_pitch(assembly, s) for s in assembly.kinds]
     reach = [np.hypot(*points.T) for points in paths]
@@ -68,16 +68,16 @@ def ways(assembly: Assembly) -> Ways:
     beside = [
         _to_slot(assembly, s, points) for s, points in zip(assembly.kinds, paths, strict=True)
     ]
-    return Ways(ends, min(_arm(assembly), *beside))
+    return RollerPaths(ends, min(_arm(assembly), *beside))
 
 
-def sizes(assembly: Assembly, known: Ways | None = None) -> Sizes:
+def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     """The sizes of a machine's parts; ``known`` its rollers' ways, where somebody has them.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = assembly.mechanism.spec, assembly.L
-    path = known or ways(assembly)
+    path = known or roller_paths(assembly)
     given, r = spec.size, assembly.mechanism.roller_radius_mm
     w = r + given.slot_clearance_mm
     outside = assembly.sign > 0.0

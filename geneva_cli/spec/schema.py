@@ -93,12 +93,12 @@ class Table:
         if value is None:
             require(type(self), [k for k in known if k != key])
             value = field.default
-        return self.but(**{field.attribute: value})
+        return self.replace(**{field.attribute: value})
 
-    def but(self, **changes: Any) -> Self:
+    def replace(self, **changes: Any) -> Self:
         """The same with some of its fields changed, checked like any other.
 
-        >>> SideCrank(A=0.6).but(n_rpm=30.0)
+        >>> SideCrank(A=0.6).replace(n_rpm=30.0)
         SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
         """
         return dataclasses.replace(self, **changes)

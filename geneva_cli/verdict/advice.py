@@ -1,8 +1,9 @@
-"""The adviser: one change of the spec as it was given that would make a check pass.
+"""The adviser: one change of the given spec by which a failing check would pass.
 
-It changes one value, builds the machine anew and asks the checks; what it says has been tried,
-digits and all, and breaks nothing that passed. It takes a second of the processor's time at most
-for a check; where it has found nothing by then, or no single change helps, it says so.
+It changes one value, builds the machine again and makes the checks. What it advises has been tried
+with the digits shown, and no check that passed fails by it. It spends at most one second of the
+processor's time on a check; where it has found nothing by then, or no single change helps, it says
+so.
 """
 
 from __future__ import annotations
@@ -16,19 +17,20 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.budget import OutOfTime, until
 from geneva_cli.numerics.roots import Falsi
-from geneva_cli.verdict.checks import checks, each, one
-from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.remedies import Value, Way, value_now, ways
+from geneva_cli.verdict.changes import Change, Value, value_now
+from geneva_cli.verdict.checks import checks, checks_quick_first, single_check
+from geneva_cli.verdict.checks.check import NONE, Check
+from geneva_cli.verdict.failures import JAMS
+from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
 
-SECONDS = 1.0  # of the processor, for one check
-NONE = "none found"
-LOOKS = 14  # between a value that fails and one that passes
-NEARLY = 0.02  # of the way to a value that passes: near enough to the nearest, for a round value
+SECONDS = 1.0  # of processor time, for one check
+LOOKS = 14  # trials between a value that fails and one that passes
+NEARLY = 0.02  # share of a change by which the value found may exceed the least one
 
-# Keys that change no part: the parts need not be turned again.
+# Keys that change no outline: the parts need not be turned again.
 APART = (
     ("drive", "n_rpm"),
     ("size", "face_width_mm"),
@@ -45,10 +47,6 @@ APART = (
     ("material.roller", "dynamic_capacity_N"),
 )
 GAPS = ("gap_mm", "idle_roller_mm")
-# A roller that does not find its slot, or meets the rim beside it, jams.
-JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
-# Below the wheel's plane: the wheel can be cut all the same.
-BELOW = ("link_wall_mm", "link_gap_mm")
 # Checks that only a whole turn can answer.
 TURNED = (*JAMS, "dwell_hold", "dwell_play_deg", "motion_play_deg")
 
@@ -64,70 +62,11 @@ def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
     ]
 
 
-def verdict(proof: Proof) -> tuple[str, list[str]]:
-    """Why parts jam or cannot be made; and what else `check` fails, each in words.
-
-    The first is empty where the parts can be written.
-    """
-    turn = None
-    refused, warned, advice = [], [], ""
-    for c in judged(proof.mechanism, proof):
-        if c.passes is not False:
-            continue
-        nearest = c.nearest if c.nearest != NONE else ""
-        if c.name == "full_turn":
-            refused.append(c.nearest)
-        elif c.name in JAMS or (
-            c.name not in BELOW
-            and c.must_be == "at least"
-            and c.name.endswith("_mm")
-            and (c.value or 0.0) < 0.0
-        ):
-            turn = turn or proof.turn
-            refused.append(said(c, turn.smallest.parts))
-            advice = advice or nearest
-        else:
-            warned.append(said(c) + (f"; {nearest} would pass" if nearest else ""))
-    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), warned
-
-
-def said(c: Check, parts: str = "parts") -> str:
-    """A check that fails, in words."""
-    from geneva_cli.verdict.checks.walls import NO_WALL
-
-    where = "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
-    value, limit = c.value or 0.0, c.limit or 0.0
-    if c.name == "gap_mm":
-        return f"{parts} overlap by {-value:.4g} mm{where}"
-    if c.name == "idle_roller_mm":
-        return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
-    if c.name in NO_WALL and value < 0.0:
-        return f"{NO_WALL[c.name]} by {-value:.4g} mm"
-    if c.name == "dwell_hold":
-        return "nothing holds the wheel in its dwell"
-    if c.name == "hand_over_play_deg":
-        return (
-            f"between lock and slot the wheel can turn by {value:.4g} deg{where}, more than the "
-            f"{limit:.4g} at which the roller still finds its slot"
-        )
-    if c.name == "hand_over_pressure_deg":
-        return (
-            f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
-            f"{limit:g}"
-        )
-    if c.name == "motion_play_deg":
-        return (
-            f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
-            f"{limit:.4g}"
-        )
-    return f"{c.name} is {value:.6g}{where}; it must be {c.must_be} {limit:.6g}"
-
-
 class Adviser:
-    """Looks for the one change by which a check passes that fails.
+    """Looks for one change of the spec by which a failing check passes.
 
-    ``rows`` are all the design's checks, ``taken`` the seconds that they took, which a trial of
-    all of them takes again.
+    ``rows`` are all the design's checks; ``taken`` is how many seconds they took, and so how many
+    a trial of all of them takes.
     """
 
     def __init__(
@@ -146,45 +85,44 @@ class Adviser:
         self.deadline, self.longest = time.process_time() + SECONDS, 0.0
         try:
             with until(self.deadline):
-                for way in ways(failing.name, self.mechanism):
-                    found = self._along(way, failing)
+                for change in remedies(failing.name, self.mechanism):
+                    found = self._least(change, failing)
                     if found:
                         return found
         except OutOfTime:
             pass
         return ""
 
-    def _along(self, way: Way, failing: Check) -> str:
-        """The least change along one way that helps and holds."""
-        now = value_now(self.mechanism, way.table, way.key)
+    def _least(self, change: Change, failing: Check) -> str:
+        """The least of one key's changes by which the check passes and no other fails."""
+        now = value_now(self.mechanism, change.table, change.key)
         if now is None:
             return ""
         bad: Value = now
         short = _spare(failing)
-        for good in way.values(now):
-            left = self._left(way, good, failing)
+        for good in change.values(now):
+            left = self._left(change, good, failing)
             if good == now or left < 0.0:
                 bad, short = good, left
                 continue
             numbers = isinstance(good, float) and isinstance(bad, float)
             if numbers and failing.name not in TURNED:
-                near = self._nearest(way, (good, left), (bad, short), failing)
+                near = self._nearest(change, (good, left), (bad, short), failing)
                 near = rounded(near, cast(float, good), cast(float, bad))
-                if near != good and self._holds(way, near, failing):
-                    return line(way.key, near)
-            if self._holds(way, good, failing):
-                return line(way.key, good)
+                if near != good and self._holds(change, near, failing):
+                    return line(change.key, near)
+            if self._holds(change, good, failing):
+                return line(change.key, good)
             bad, short = good, -1.0
         return ""
 
     def _nearest(
-        self, way: Way, good: tuple[Any, float], bad: tuple[Any, float], failing: Check
+        self, change: Change, good: tuple[Any, float], bad: tuple[Any, float], failing: Check
     ) -> float:
         """The value nearest to one that fails, as nearly as there is time for.
 
-        The steps are those of ``numerics.roots.Falsi``, taken here because time may run out. Where
-        what is left of the limit is without bound, as of a value that makes no machine, the search
-        halves.
+        The steps are those of ``numerics.roots.Falsi``, taken here because time may run out. A
+        value that makes no machine leaves minus infinity of the limit: the search then halves.
         """
         start, short = bad
         found, enough = Falsi(*good, *bad), NEARLY * abs(short) if math.isfinite(short) else 0.0
@@ -192,24 +130,25 @@ class Adviser:
             x = found.good
             if found.left <= enough or abs(x - found.bad) <= NEARLY * abs(x - start):
                 break
-            # Time stays to try what is found, and of gaps, should it not hold, what is known.
-            spare = (2.0 if failing.name in GAPS else 1.0) * self._whole(way)
+            # Keep the time for a trial of the value found; for gaps also of the one known before,
+            # should the first fail.
+            spare = (2.0 if failing.name in GAPS else 1.0) * self._whole(change)
             if time.process_time() + self.longest + spare > self.deadline:
                 break
             middle = found.middle(0.02)
-            found.told(middle, self._left(way, middle, failing))
+            found.told(middle, self._left(change, middle, failing))
         return float(found.good)
 
-    def _whole(self, way: Way) -> float:
+    def _whole(self, change: Change) -> float:
         """Seconds that a trial of all checks takes."""
-        return 0.0 if (way.table, way.key) in APART else self.taken
+        return 0.0 if (change.table, change.key) in APART else self.taken
 
-    def _left(self, way: Way, value: Value, failing: Check) -> float:
-        """How far a value keeps the check's limit, negative where it does not.
+    def _left(self, change: Change, value: Value, failing: Check) -> float:
+        """How far inside the failing check's limit a value is, negative outside.
 
-        What is quick to ask, before all is: the one check, or the gap where parts overlap now.
+        Only what is quick is worked out: this one check, or the gap where parts overlap now.
         """
-        spec = changed(self.spec, way.table, way.key, value)
+        spec = changed(self.spec, change.table, change.key, value)
         if spec is None:
             return -math.inf
         if failing.name in TURNED:
@@ -220,32 +159,34 @@ class Adviser:
         try:
             if failing.name in GAPS:
                 return _clears(build(spec), failing.at_deg or 0.0)
-            row = one(build(spec), failing.name)
+            row = single_check(build(spec), failing.name)
             return _spare(row) if row else math.inf
         except GenevaError:
             return -math.inf
         finally:
             self.longest = max(self.longest, time.process_time() - start)
 
-    def _holds(self, way: Way, value: Value, failing: Check) -> bool:
+    def _holds(self, change: Change, value: Value, failing: Check) -> bool:
         """Whether the check passes with a value, and everything that passed before still does."""
-        spec = changed(self.spec, way.table, way.key, value)
+        spec = changed(self.spec, change.table, change.key, value)
         if spec is None:
             return False
         # A machine that jams takes up to twice as long to turn as one that does not.
-        if time.process_time() + 0.5 * self._whole(way) > self.deadline:
+        if time.process_time() + 0.5 * self._whole(change) > self.deadline:
             raise OutOfTime
-        apart = (way.table, way.key) in APART
+        apart = (change.table, change.key) in APART
         must = self.passed | {failing.name, "parts"}
         try:
-            rows = each(build(spec), self.parts and (not apart or failing.name == "dwell_hold"))
+            rows = checks_quick_first(
+                build(spec), self.parts and (not apart or failing.name == "dwell_hold")
+            )
             return all(c.passes is not False for c in rows if c.name in must)
         except GenevaError:
             return False
 
 
 def _clears(mechanism: Mechanism, at_deg: float) -> float:
-    """Whether no parts overlap about one input angle, as an infinity: what touches has no gap."""
+    """Plus infinity where no parts overlap about one input angle, minus infinity where they do."""
     from geneva_cli.parts.outlines import outlines
 
     found = outlines(mechanism)
@@ -262,7 +203,11 @@ def _spare(check: Check) -> float:
 
 
 def rounded(good: float, far: float, bad: float) -> float:
-    """A value that passes, rounded away from one that fails: digits enough to stay near it."""
+    """``good``, rounded away from ``bad`` to as few digits as keep it near.
+
+    >>> rounded(12.3456, 20.0, 10.0)
+    12.35
+    """
     for digits in range(3, 12):
         step = 10.0 ** (math.floor(math.log10(abs(good) or 1.0)) + 1 - digits)
         count = math.ceil(good / step) if far > bad else math.floor(good / step)

@@ -56,7 +56,7 @@ def test_a_load_that_changes_walls():
     theory-loads.md, 8, has the first to all its digits, 324.503703 N, and the last two to 3e-7 and
     1e-4: integrals that run over the second reversal, at 43.03 deg, without a cut (test_roller).
     """
-    still = Cycle(build(STEADY.but(load=Load(0.4, 15.0))))
+    still = Cycle(build(STEADY.replace(load=Load(0.4, 15.0))))
     first, _ = reversals_deg(still)
     assert first == pytest.approx(10.3447585591609, rel=1e-13)
     force = summaries(still)["pin_force_N"]
@@ -75,7 +75,7 @@ def test_the_work_closes(path):
     What the inertia takes it gives back, so the mean of torque times speed is the resistance's.
     """
     mechanism = load(str(path))
-    mechanism = mechanism._replace(spec=mechanism.spec.but(load=Load(0.02, 3.0, friction=0.1)))
+    mechanism = mechanism._replace(spec=mechanism.spec.replace(load=Load(0.02, 3.0, friction=0.1)))
     cycle = Cycle(mechanism)
     w = cycle.given.speed_rad_s
     paid, moved, rubbed, taken = cycle.integrals(
@@ -92,11 +92,11 @@ def test_the_work_closes(path):
 
 LOADED = {
     "external": STEADY,
-    "internal": STEADY.but(wheel=Wheel(5, "internal")),
-    "offset": STEADY.but(wheel=Wheel(6, offset_mm=12.0)),
-    "curved": STEADY.but(motion=Motion("3-4-5", ratio="matched"), load=Load(0.4, 15.0)),
-    "side-crank": load(str(repo.DESIGNS / "side-crank-z6.toml")).spec.but(load=STEADY.load),
-    "cam": load(str(repo.DESIGNS / "cam-geneva.toml")).spec.but(load=STEADY.load),
+    "internal": STEADY.replace(wheel=Wheel(5, "internal")),
+    "offset": STEADY.replace(wheel=Wheel(6, offset_mm=12.0)),
+    "curved": STEADY.replace(motion=Motion("3-4-5", ratio="matched"), load=Load(0.4, 15.0)),
+    "side-crank": load(str(repo.DESIGNS / "side-crank-z6.toml")).spec.replace(load=STEADY.load),
+    "cam": load(str(repo.DESIGNS / "cam-geneva.toml")).spec.replace(load=STEADY.load),
 }
 
 
@@ -127,18 +127,20 @@ def test_scaled_loads_scale_the_forces(name, heavier, larger):
     """
     spec = LOADED[name]
     given = spec.load
-    more = given.but(inertia_kgm2=given.inertia_kgm2 * heavier, torque_Nm=given.torque_Nm * heavier)
+    more = given.replace(
+        inertia_kgm2=given.inertia_kgm2 * heavier, torque_Nm=given.torque_Nm * heavier
+    )
     L = build(spec).center_distance_mm
-    size = spec.size.but(
+    size = spec.size.replace(
         center_distance_mm=L * larger,
         roller_radius_mm=spec.roller_radius_mm(L) * larger,
         pin_mm=None,
     )
     wheel = spec.wheel
     if wheel.as_dict().get("offset_mm"):
-        wheel = wheel.but(offset_mm=wheel.offset_mm * larger)
+        wheel = wheel.replace(offset_mm=wheel.offset_mm * larger)
     one = summaries(Cycle(build(spec)))
-    two = summaries(Cycle(build(spec.but(load=more, size=size, wheel=wheel))))
+    two = summaries(Cycle(build(spec.replace(load=more, size=size, wheel=wheel))))
     for quantity, share in (
         ("pin_force_N", heavier / larger),
         ("crank_bearing_N", heavier / larger),
@@ -155,7 +157,7 @@ def test_scaled_loads_scale_the_forces(name, heavier, larger):
 def test_speed_and_inertia_are_one_number():
     """Twice the speed is four times the inertia for forces; power and speeds double besides."""
     slow, fast = (
-        summaries(Cycle(build(STEADY.but(drive=Drive(n_rpm=n).but(), load=Load(I, 15.0)))))
+        summaries(Cycle(build(STEADY.replace(drive=Drive(n_rpm=n).replace(), load=Load(I, 15.0)))))
         for n, I in ((60.0, 0.4), (120.0, 0.1))
     )
     for quantity, share in (("pin_force_N", 1.0), ("input_torque_Nm", 1.0), ("power_W", 2.0)):
@@ -165,13 +167,13 @@ def test_speed_and_inertia_are_one_number():
 
 def test_where_the_wheel_drives_the_motor():
     """Without friction the input is driven just where the wheel's torque is below 0."""
-    cycle = Cycle(build(STEADY.but(load=Load(0.4, 15.0))))
+    cycle = Cycle(build(STEADY.replace(load=Load(0.4, 15.0))))
     (where,) = back_driven_deg(cycle)
     assert list(where) == pytest.approx(reversals_deg(cycle), rel=1e-14)
     drag = 0.4 * omega(60.0) ** 2 * 1.3496372759019029  # theory.md 7: the peak of psi''
     said = Design.of(cycle.mechanism.spec).load_warnings[0]
     assert f"{drag:.4g} N m in all" in said
-    dragged = Design.of(STEADY.but(load=Load(0.4, drag * (1.0 + 1e-12))))
+    dragged = Design.of(STEADY.replace(load=Load(0.4, drag * (1.0 + 1e-12))))
     assert dragged.loads["input_torque_Nm"].min >= 0.0
 
 

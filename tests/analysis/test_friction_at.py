@@ -18,7 +18,7 @@ SPEC = Spec(Wheel(6), size=SIZE, load=LOAD)
 
 
 def design(friction, size=SIZE, at="pin"):
-    return Design.of(SPEC.but(size=size, load=LOAD.but(friction=friction, friction_at=at)))
+    return Design.of(SPEC.replace(size=size, load=LOAD.replace(friction=friction, friction_at=at)))
 
 
 @pytest.mark.parametrize("friction", [0.02, 0.1, 0.7])
@@ -30,8 +30,8 @@ def test_the_roller_is_in_balance(friction, pin):
     normal; both have the same moment about the centre. The friction opposes the turning.
     """
     r = 8.0
-    size = SIZE.but(pin_mm=pin)
-    along = rubbing(build(SPEC.but(size=size, load=LOAD.but(friction=friction))))
+    size = SIZE.replace(pin_mm=pin)
+    along = rubbing(build(SPEC.replace(size=size, load=LOAD.replace(friction=friction))))
     wall, at = complex(-along, 1.0), complex(0.0, -r)  # from below, against rolling to the right
     rho = math.atan(friction)
     moments = []
@@ -65,7 +65,7 @@ def test_the_cycle_is_that_of_less_friction():
 
 
 def test_a_roller_that_is_its_own_pin():
-    own = design(0.1, SIZE.but(pin_mm=0.0))
+    own = design(0.1, SIZE.replace(pin_mm=0.0))
     assert own.loads == design(0.1, at="slot").loads
 
 

@@ -16,7 +16,7 @@ from geneva_cli.spec.tables import Load, Size
 
 DESIGNS = repo.DESIGNS
 LOAD = Load(0.02, 3.0, friction=0.1)
-LARGE = LOAD.but(friction=0.2)
+LARGE = LOAD.replace(friction=0.2)
 
 
 def curved(z, law, alpha0=0.0, ratio=None, gearing="external"):
@@ -42,7 +42,7 @@ MACHINES = {
     "on ellipses, internal": pushed("elliptical-gears", "internal", eccentricity=0.2),
     "on gears": pushed("noncircular-gears", A=-0.4, gear_distance_mm=70.0),
     "on a wheel": pushed("geneva-pair", z=4, first_z=4, first_distance_mm=60.0),
-    "curved, on ellipses": curved(6, "cycloidal", 20.0).but(
+    "curved, on ellipses": curved(6, "cycloidal", 20.0).replace(
         drive=registry.drive("elliptical-gears")(eccentricity=0.3)
     ),
 }
@@ -70,7 +70,7 @@ def test_forces_against_bodies_cut_free(name, four_bar):
         mechanism = build(MACHINES[name])
     else:
         mechanism = four_bar if name == "four-bar" else load(str(DESIGNS / f"{name}.toml"))
-        mechanism = mechanism._replace(spec=mechanism.spec.but(load=LARGE))
+        mechanism = mechanism._replace(spec=mechanism.spec.replace(load=LARGE))
     spec, engagement = mechanism.spec, mechanism.engagements[0]
     machine = load_witness.machine(spec, NEAR.get(name))
     for share in (0.8, 0.2, -0.15, -0.6):
@@ -119,7 +119,7 @@ def test_friction_on_the_sphere(x):
 
 @pytest.mark.parametrize("name", ["curved, matched", "curved", "offset", "internal"])
 def test_many_angles_at_once_are_the_same(name):
-    mechanism = build(MACHINES[name].but(size=Size(face_width_mm=10.0)))
+    mechanism = build(MACHINES[name].replace(size=Size(face_width_mm=10.0)))
     engagement = mechanism.engagements[0]
     x = np.linspace(engagement.entry_deg, engagement.exit_deg, 21)
     assert 0.0 in x or engagement.entry_deg != -engagement.exit_deg

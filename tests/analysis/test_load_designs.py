@@ -31,7 +31,7 @@ QUANTITIES = (
 def loaded(name):
     """The design with this load alone, whatever it has of its own."""
     spec = load(str(repo.DESIGNS / f"{name}.toml")).spec
-    return build(spec.but(load=LOAD, mass=(), support=Support()))
+    return build(spec.replace(load=LOAD, mass=(), support=Support()))
 
 
 def planar(mechanism, number, x):

@@ -140,7 +140,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     """The press with curved slots: 544 MPa at -1.93 deg was only where the search stopped."""
     size, load = Size(441.89, 20.0, face_width_mm=30.0), Load(6.484556, 497.0)
     mechanism = build(Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=size))
-    mechanism = mechanism._replace(spec=mechanism.spec.but(load=load))
+    mechanism = mechanism._replace(spec=mechanism.spec.replace(load=load))
     engagement = mechanism.engagements[0]
     assert loads.state(mechanism, engagement, -1.0).contact_stress_MPa == pytest.approx(
         2179.5, abs=0.1
@@ -177,13 +177,13 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
 @pytest.mark.parametrize("spec", [crank(5), curved("3-4-5", "matched"), side(5, 0.5)])
 def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
     """Solved at each place, not searched for: the load there is the limit to 64 ulp."""
-    mechanism = build(spec.but(load=load, limits=Limits(**{key: limit})))
+    mechanism = build(spec.replace(load=load, limits=Limits(**{key: limit})))
     n = loads.fastest_rpm(mechanism)
     if spec.motion and quantity == "contact_stress_MPa":
         assert n is None  # without bound beside the cusp
         return
     assert n is not None
-    again = build(mechanism.spec.but(drive=spec.drive.but(n_rpm=n)))
+    again = build(mechanism.spec.replace(drive=spec.drive.replace(n_rpm=n)))
     assert loads.greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
 
 
@@ -199,7 +199,7 @@ def test_a_limit_that_no_speed_keeps():
 
 def test_off_the_mid_condition_no_speed_keeps_a_force():
     limits = Limits(pin_force_max_N=1e4)
-    mechanism = build(curved("modified-sine", 0.4, Load(0.02, 3.0)).but(limits=limits))
+    mechanism = build(curved("modified-sine", 0.4, Load(0.02, 3.0)).replace(limits=limits))
     assert loads.fastest_rpm(mechanism) is None
 
 

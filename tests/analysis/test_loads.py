@@ -21,7 +21,7 @@ PRESS = Spec(
 
 
 def pin_force(motion: Motion) -> float:
-    return loads.greatest(build(PRESS.but(motion=motion)), "pin_force_N").max
+    return loads.greatest(build(PRESS.replace(motion=motion)), "pin_force_N").max
 
 
 def test_the_press_with_straight_slots() -> None:
@@ -54,7 +54,7 @@ def test_off_the_mid_condition_the_force_has_no_bound() -> None:
 
 def test_near_mid_motion_it_grows_as_published() -> None:
     """23.9 kN one degree before mid-motion, 2.1 MN a hundredth before it."""
-    mechanism = build(PRESS.but(motion=Motion("sine-group", ratio=0.5)))
+    mechanism = build(PRESS.replace(motion=Motion("sine-group", ratio=0.5)))
     engagement = mechanism.engagements[0]
     assert loads.state(mechanism, engagement, -1.0).pin_force_N == pytest.approx(23.9e3, rel=0.01)
     # printed to two digits, cut off

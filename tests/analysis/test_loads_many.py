@@ -32,7 +32,7 @@ ULP = 2.0**-52
 def loaded(name, n, seed, **changes):
     """Some designs of a machine, all under loads of their own."""
     spec, rules = MACHINES[name]
-    spec = spec.but(load=LOAD.but(**changes), size=spec.size.but(face_width_mm=10.0))
+    spec = spec.replace(load=LOAD.replace(**changes), size=spec.size.replace(face_width_mm=10.0))
     kept = [rule for rule in CARRIED if rule[0] not in {f"load.{key}" for key in changes}]
     varied = drawn([*rules, *kept], n, seed)
     return spec, varied, many(spec, varied)
@@ -151,7 +151,7 @@ def test_greatest_sizes_as_the_report_tells_them(name):
 def test_blocks_of_designs_answer_as_each_does(name):
     """More than are sampled at a time."""
     spec, rules = MACHINES[name]
-    spec = spec.but(load=LOAD, size=spec.size.but(face_width_mm=10.0))
+    spec = spec.replace(load=LOAD, size=spec.size.replace(face_width_mm=10.0))
     names = ("pin_force_N", "contact_stress_MPa")
     n, few = BLOCK + 40, 8
     varied = drawn([*rules, *CARRIED], n, 4)
@@ -178,7 +178,7 @@ def test_sizes_of_half_a_motion_are_those_of_the_whole(name):
 def test_the_inertia_alone_against_the_theory():
     """theory-loads: the pin force's factor of the classic wheel of six slots, at -19.96 deg."""
     spec, _ = MACHINES["crank"]
-    spec = spec.but(load=Load(inertia_kgm2=1.0))
+    spec = spec.replace(load=Load(inertia_kgm2=1.0))
     found = many(spec, {"wheel.z": np.array([6, 12]), "drive.n_rpm": np.array([60.0, 30.0])})
     force = summaries_of_many(found.machine, ["pin_force_N"])["pin_force_N"]
     L, w = 0.1, np.array([2.0 * np.pi, np.pi])

@@ -16,7 +16,7 @@ MIXED = Load(256.0 / (2.0 * math.pi) ** 2, 497.0)  # Krasniqi's: I w² = 256 and
 
 
 def drive(motion, load=MIXED):
-    return positive_drive(build(PRESS.but(motion=motion, load=load)))
+    return positive_drive(build(PRESS.replace(motion=motion, load=load)))
 
 
 def test_krasniqis_law_lacks_the_wall_on_a_third_of_the_motion():
@@ -44,20 +44,20 @@ def test_resistance_alone_leaves_one_way_loose():
 
 
 def test_straight_slots_always_drive():
-    assert positive_drive(build(PRESS.but(load=MIXED))) is None
+    assert positive_drive(build(PRESS.replace(load=MIXED))) is None
 
 
 def test_the_caution_names_the_cam():
-    said = cautions(build(PRESS.but(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
+    said = cautions(build(PRESS.replace(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
     assert any("not positively driven" in text and '"cam"' in text for text in said)
-    cam = PRESS.but(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
+    cam = PRESS.replace(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
     assert not cautions(build(cam))
 
 
 def test_the_caution_s_gap_lies_where_it_says():
     """Between the branches at the places that lack the wall, not the slot's greatest elsewhere."""
     load = Load(4.0, 40.0)  # the wall is missing near mid-motion and mouth, not where most is cut
-    mechanism = build(PRESS.but(motion=Motion("sine-group", ratio=0.5), load=load))
+    mechanism = build(PRESS.replace(motion=Motion("sine-group", ratio=0.5), load=load))
     found, engagement = positive_drive(mechanism), mechanism.engagements[0]
 
     def apart(degrees):

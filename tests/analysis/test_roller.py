@@ -100,7 +100,7 @@ def test_work_and_turns_of_bodies_cut_free(name):
     1e-10 is that rule's own error over pieces of up to 60 degrees.
     """
     mechanism = build(MACHINES[name]) if name in MACHINES else load(str(DESIGNS / f"{name}.toml"))
-    mechanism = mechanism._replace(spec=mechanism.spec.but(load=RUBS))
+    mechanism = mechanism._replace(spec=mechanism.spec.replace(load=RUBS))
     engagement, given = mechanism.engagements[0], setting(mechanism)
     machine = load_witness.machine(mechanism.spec, None)
     found = passage(engagement, given)
@@ -129,18 +129,20 @@ def test_a_constant_force_is_its_own_mean():
 def test_life_in_turns_motions_and_hours():
     """ISO 281: a million turns under P = C; twice the capacity lasts 2^(10/3) times as long."""
     force = life(build(CASE)).equivalent_force_N
-    rated = life(build(CASE.but(material_roller=RollerMaterial(dynamic_capacity_N=force))))
+    rated = life(build(CASE.replace(material_roller=RollerMaterial(dynamic_capacity_N=force))))
     assert rated.turns == pytest.approx(1e6, rel=1e-13)
     assert rated.motions == pytest.approx(1e6 / rated.turns_per_motion, rel=1e-13)
     assert rated.hours == pytest.approx(rated.motions / 3600.0, rel=1e-13)  # 60 rpm, one roller
-    twice = life(build(CASE.but(material_roller=RollerMaterial(dynamic_capacity_N=2.0 * force))))
+    twice = life(
+        build(CASE.replace(material_roller=RollerMaterial(dynamic_capacity_N=2.0 * force)))
+    )
     assert twice.turns == pytest.approx(1e6 * 2.0 ** (10.0 / 3.0), rel=1e-13)
 
 
 def test_several_rollers_share_the_motions():
     capacity = RollerMaterial(dynamic_capacity_N=2000.0)
-    one = life(build(CASE.but(wheel=Wheel(4), material_roller=capacity)))
-    two = CASE.but(wheel=Wheel(4), drive=Drive(rollers=2), material_roller=capacity)
+    one = life(build(CASE.replace(wheel=Wheel(4), material_roller=capacity)))
+    two = CASE.replace(wheel=Wheel(4), drive=Drive(rollers=2), material_roller=capacity)
     assert life(build(two)).hours == pytest.approx(one.hours, rel=1e-12)  # each once a turn
     assert life(build(two)).motions == pytest.approx(one.motions, rel=1e-12)
 
@@ -148,7 +150,7 @@ def test_several_rollers_share_the_motions():
 def test_of_unequal_steps_the_worst_roller_counts():
     mechanism = load(str(DESIGNS / "unequal-steps.toml"))
     capacity = RollerMaterial(dynamic_capacity_N=2000.0)
-    spec = mechanism.spec.but(material_roller=capacity, load=Load(torque_Nm=5.0))
+    spec = mechanism.spec.replace(material_roller=capacity, load=Load(torque_Nm=5.0))
     mechanism = mechanism._replace(spec=spec)
     hours = []
     for way in passages(mechanism):
@@ -161,7 +163,7 @@ def test_of_unequal_steps_the_worst_roller_counts():
 def test_wear():
     """k 1e-6 mm³/(N m): a million passages wear off k W 1e6 of 20 mm by the travel."""
     assert wear_mm(build(CASE)) is None
-    spec = CASE.but(material_wheel=WheelMaterial(wear_mm3_Nm=1e-6))
+    spec = CASE.replace(material_wheel=WheelMaterial(wear_mm3_Nm=1e-6))
     (way,) = passages(build(CASE))
     volume_mm3 = 1e-6 * way.work * 1e6
     expected = volume_mm3 / (20.0 * 1000.0 * way.travel_m)
@@ -169,5 +171,5 @@ def test_wear():
 
 
 def test_what_is_not_known_is_none():
-    assert life(build(CASE.but(load=Load()))) is None
+    assert life(build(CASE.replace(load=Load()))) is None
     assert life(build(CASE)).hours is None

@@ -88,7 +88,7 @@ def test_the_same_turret_on_a_geneva():
 def test_with_inertia_alone_the_energy_swings_by_what_the_wheel_holds(file):
     """theory-loads.md 4: exactly I w² psi1max²/2, and the form is the exact cycle's peak."""
     design = load(str(file))
-    loaded = Design.of(design.spec.but(load=Load(inertia_kgm2=0.4), mass=(), support=Support()))
+    loaded = Design.of(design.spec.replace(load=Load(inertia_kgm2=0.4), mass=(), support=Support()))
     loaded = loaded.with_("motor.gear_ratio", None).with_("motor.gear_efficiency", None)
     found, _ = sized(loaded)
     w = omega(loaded.spec.drive.n_rpm)
@@ -187,7 +187,7 @@ def test_the_turret_of_the_readme():
 
 @every
 def test_what_is_not_known_is_none_and_says_what_would_give_it(file):
-    found, needs = sized(Design.of(load(str(file)).spec.but(motor=Motor(), support=Support())))
+    found, needs = sized(Design.of(load(str(file)).spec.replace(motor=Motor(), support=Support())))
     said = " ".join(needs)
     for name in ("flywheel_kgm2", "inertia_ratio", "friction_torque_Nm"):
         assert getattr(found, name) is None

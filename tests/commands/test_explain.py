@@ -29,7 +29,7 @@ from geneva_cli.study import batch, survey
 from geneva_cli.study.fields import ALL
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synthesis.table import NAMES as SYNTH
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STANDING, TURNING
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
 from geneva_cli.verdict.report import parts, tolerances
 from geneva_cli.verdict.tolerance.tables import ANGLES
 
@@ -59,7 +59,7 @@ def named_in_calls(function: str) -> set[str]:
 def test_every_check_has_an_entry_and_no_entry_names_none():
     made = named_in_calls("Check")
     assert made >= {"parts", "full_turn"}
-    assert explained("check") == {*MOTION, *LIMITS, *STANDING, *TURNING, *made}
+    assert explained("check") == {*MOTION, *LIMITS, *STATIC, *TURNING, *made}
 
 
 def test_every_warning_has_an_entry_and_no_entry_names_none():

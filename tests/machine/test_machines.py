@@ -334,8 +334,8 @@ def test_lever_and_speed_in_the_slot(machine, witness, case):
 def test_loads_keep_the_energy(machine, case):
     """Without friction the input does what the wheel takes, and nothing is lost between."""
     m = machine(case)
-    load_ = m.spec.load.but(inertia_kgm2=0.02, torque_Nm=3.0)
-    loaded = m._replace(spec=m.spec.but(load=load_))
+    load_ = m.spec.load.replace(inertia_kgm2=0.02, torque_Nm=3.0)
+    loaded = m._replace(spec=m.spec.replace(load=load_))
     w = m.spec.drive.n_rpm * math.pi / 30.0
     L = m.center_distance_mm / 1000.0
     for s in m.engagements:

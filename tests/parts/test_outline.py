@@ -33,7 +33,7 @@ from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.walls.ways import _free
 from geneva_cli.parts.wheel import HELD, wheel_contour
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.registry import turning
+from geneva_cli.verdict.checks.registry import turn_checks
 
 L = 100.0
 FLAT = 1e-5 * L  # how far the witnesses' polygons stray from the arcs
@@ -253,7 +253,7 @@ def test_mouths_of_any_height(lock: float | None) -> None:
 def test_a_low_mouth_is_locked(steps: tuple[float, float]) -> None:
     """The disc of the short arm holds the wheel beside the mouth of the long one too."""
     found = made(z=6, steps=steps)
-    rows = {c.name: c for c in turning(found, full_turn(found))}
+    rows = {c.name: c for c in turn_checks(found, full_turn(found))}
     assert all(c.passes for c in rows.values())
     assert rows["dwell_play_deg"].value < 1e-3
 

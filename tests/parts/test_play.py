@@ -20,7 +20,7 @@ from words import load
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Gaps, NotProved
-from geneva_cli.verdict.checks.registry import turning
+from geneva_cli.verdict.checks.registry import turn_checks
 
 DESIGNS = repo.DESIGNS
 
@@ -113,7 +113,9 @@ def test_hand_over_is_refined_to_its_kink(
         90.0 - 180.0 / z + math.degrees(early), abs=1e-4
     )
     assert turn.push.deg == pytest.approx(math.degrees(angle), rel=1e-5)
-    assert not next(c for c in turning(found, turn) if c.name == "hand_over_pressure_deg").passes
+    assert not next(
+        c for c in turn_checks(found, turn) if c.name == "hand_over_pressure_deg"
+    ).passes
 
 
 def machine(tmp_path: Path, text: str) -> Outlines:
@@ -167,7 +169,7 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     for share in (0.0, 0.2, 0.4, 0.6, 0.8, 0.99, 0.9999):
         assert free(found, p.input_deg[i], way * share * p.either[i])
     assert not free(found, p.input_deg[i], way * (1.0002 * p.either[i] + 0.01))
-    row = next(c for c in turning(found, turn) if c.name == "hand_over_play_deg")
+    row = next(c for c in turn_checks(found, turn) if c.name == "hand_over_play_deg")
     assert row.passes == held
 
 
@@ -195,7 +197,7 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     turn = full_turn(found)
     assert turn.motion.deg == pytest.approx(math.degrees(math.asin(c / 50.0)), rel=1e-6)
     assert turn.motion.at_deg == pytest.approx(0.0, abs=1e-4)
-    row = next(r for r in turning(found, turn) if r.name == "motion_play_deg")
+    row = next(r for r in turn_checks(found, turn) if r.name == "motion_play_deg")
     assert row.passes == (c < 1.0)
 
 
@@ -214,7 +216,7 @@ def test_a_hair_of_overlap_is_contact(tmp_path: Path) -> None:
         found = machine(tmp_path, f"[wheel]\nz = 6\n[size]\nwheel_radius_mm = {rim!r}\n")
         turn = full_turn(found)
         assert turn.driving.mm < -1e-6
-        row = next(c for c in turning(found, turn) if c.name == "gap_mm")
+        row = next(c for c in turn_checks(found, turn) if c.name == "gap_mm")
         assert row.passes == fits
         assert (row.value == 0.0) == fits
 

@@ -54,7 +54,7 @@ def test_what_is_written_is_read_back(turret, tmp_path):
     path = tmp_path / "again.toml"
     path.write_text("\n".join(written(spec)))
     again = design.load(str(path)).spec
-    assert again.but(path="", files=()) == spec.but(path="", files=())
+    assert again.replace(path="", files=()) == spec.replace(path="", files=())
 
 
 @pytest.mark.parametrize(

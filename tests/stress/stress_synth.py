@@ -44,7 +44,7 @@ def row(some, folder):
     except GenevaError:
         return "out of reach", ""
     number = some.randint(1, min(len(found), 40))
-    said = found[number - 1].way.parts
+    said = found[number - 1].candidate.parts
     if said is None:
         return "not flat", ""
     made, text = chosen(wish, found, number)

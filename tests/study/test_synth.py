@@ -45,9 +45,9 @@ def searched(**options):
     return _searched(tuple(sorted(said.items())))
 
 
-def ways(**options):
+def candidates(**options):
     """The machines of a wish."""
-    return [row.way for row in searched(**options)[1].rows]
+    return [row.candidate for row in searched(**options)[1].rows]
 
 
 def plain(found):
@@ -56,14 +56,14 @@ def plain(found):
     return [w for w in alike if w.offset_mm is None]
 
 
-def costs(way):
-    return tuple(getattr(way, name) for name in COSTS)
+def costs(candidate):
+    return tuple(getattr(candidate, name) for name in COSTS)
 
 
 def written(wish, found, number):
     """A row as a spec, without turning its parts."""
-    spec, way, *_ = found[number - 1]
-    return commented(wish, number, way, Built(spec, ""))
+    spec, candidate, *_ = found[number - 1]
+    return commented(wish, number, candidate, Built(spec, ""))
 
 
 def run(*words):
@@ -81,10 +81,10 @@ def natural(z, gearing):
 @pytest.mark.parametrize("z", [3, 4, 6, 9, 24])
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.49, 0.5, 0.6, 0.8, 0.98])
 def test_every_machine_moves_for_as_long_as_wished(z, gearing, share):
-    found = ways(motion_deg=f"{360 * share!r}", z=str(z), **{gearing: True})
+    found = candidates(motion_deg=f"{360 * share!r}", z=str(z), **{gearing: True})
     assert found
-    for way in found:
-        assert way.motion_deg == pytest.approx(360.0 * share, rel=1e-12)
+    for candidate in found:
+        assert candidate.motion_deg == pytest.approx(360.0 * share, rel=1e-12)
 
 
 @pytest.mark.parametrize("gearing", GEARINGS)
@@ -112,13 +112,13 @@ def test_what_is_out_of_a_drive_s_reach_is_not_offered():
     assert closed.side_crank(120.0, 240.0) == pytest.approx(1.0)  # twice as long
     assert closed.side_crank(240.0, 119.0) < -1.0
     assert closed.side_crank(120.0, 350.0) == math.inf
-    assert "side-crank" not in {w.drive for w in ways(motion_deg="240", z="6", external=True)}
-    assert "side-crank" not in {w.drive for w in ways(motion_deg="300", z="6", external=True)}
+    assert "side-crank" not in {w.drive for w in candidates(motion_deg="240", z="6", external=True)}
+    assert "side-crank" not in {w.drive for w in candidates(motion_deg="300", z="6", external=True)}
 
 
 def test_elliptical_gears_make_both_gearings_alike():
     """At equal motion angles the wheel cannot tell which side the crank is on."""
-    found = ways(motion_deg="200", z="7")
+    found = candidates(motion_deg="200", z="7")
     both = [costs(w) for w in found if w.drive == "elliptical-gears" and w.axes_deg is None]
     assert len(both) == 2
     assert both[0] == pytest.approx(both[1], rel=1e-9)
@@ -132,21 +132,21 @@ def test_tau_of_one_roller_outside():
     for z in (*range(3, 13), 17, 24):
         tau = Fraction(z - 2, 2 * z)
         near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
-        (way,) = plain(ways(tau=str(tau), external=True, rollers=1, z=near))
-        assert (way.z, way.tau) == (z, pytest.approx(float(tau), rel=1e-14))
+        (candidate,) = plain(candidates(tau=str(tau), external=True, rollers=1, z=near))
+        assert (candidate.z, candidate.tau) == (z, pytest.approx(float(tau), rel=1e-14))
     for beyond in ("0.1666", "0.4584"):
-        assert not plain(ways(tau=beyond, external=True, rollers=1))
+        assert not plain(candidates(tau=beyond, external=True, rollers=1))
 
 
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (7, 2), (12, 2), (24, 2)])
 def test_rollers_up_to_the_strict_bound(z, most):
-    found = ways(step=f"360/{z}", cycle="1", external=True)
+    found = candidates(step=f"360/{z}", cycle="1", external=True)
     assert sorted(w.rollers for w in plain(found)) == list(range(1, most + 1))
-    for way in plain(found):
-        assert way.tau == pytest.approx(way.rollers * (z - 2) / (2 * z), rel=1e-13)
-        assert way.n_rpm == pytest.approx(60.0 / way.rollers)
+    for candidate in plain(found):
+        assert candidate.tau == pytest.approx(candidate.rollers * (z - 2) / (2 * z), rel=1e-13)
+        assert candidate.n_rpm == pytest.approx(60.0 / candidate.rollers)
     with pytest.raises(GenevaError, match=f"at most {most}"):
-        ways(step=f"360/{z}", cycle="1", external=True, rollers=most + 1)
+        candidates(step=f"360/{z}", cycle="1", external=True, rollers=most + 1)
 
 
 def test_k_of_internal_wheels():
@@ -155,16 +155,18 @@ def test_k_of_internal_wheels():
     assert (12 + 2) / (12 - 2) == 1.4
     for z in range(3, 13):
         near = f"{max(z - 1, 3)}..{min(z + 1, 12)}"
-        (way,) = plain(ways(k=f"{z + 2}/{z - 2}", z=near, internal=True))
-        assert (way.z, way.rollers) == (z, 1)
-        assert way.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
+        (candidate,) = plain(candidates(k=f"{z + 2}/{z - 2}", z=near, internal=True))
+        assert (candidate.z, candidate.rollers) == (z, 1)
+        assert candidate.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
 
 
 @pytest.mark.parametrize(
     ("k", "z", "m"), [("3", 4, 3), ("9", 5, 3), ("1", 4, 2), ("5", 3, 5), ("2", 6, 2)]
 )
 def test_k_above_1_outside(k, z, m):
-    assert (z, m) in {(w.z, w.rollers) for w in plain(ways(k=k, z=f"3..{z + 1}", external=True))}
+    assert (z, m) in {
+        (w.z, w.rollers) for w in plain(candidates(k=k, z=f"3..{z + 1}", external=True))
+    }
 
 
 @pytest.mark.parametrize(
@@ -181,17 +183,21 @@ def test_k_above_1_outside(k, z, m):
 )
 def test_A_from_the_motion_angle(z, motion, A):
     """Formula (1) of the side-crank paper, with the angles of its table."""
-    found = [w.A for w in ways(motion_deg=motion, z=str(z), external=True) if w.A is not None]
+    found = [w.A for w in candidates(motion_deg=motion, z=str(z), external=True) if w.A is not None]
     assert found == ([] if A is None else [pytest.approx(A, abs=5e-7)])
 
 
 def test_the_side_crank_paper_s_half_turn():
-    (way,) = [w for w in ways(motion_deg="180", z="6", external=True) if w.A is not None]
-    assert f"{way.A:.5f}" == "0.57735"
-    ours = plain(ways(motion_deg="120", z="6", external=True))[0]
-    ratios = [getattr(ours, n) / getattr(way, n) for n in ("velocity_max", "acceleration_max")]
+    (candidate,) = [
+        w for w in candidates(motion_deg="180", z="6", external=True) if w.A is not None
+    ]
+    assert f"{candidate.A:.5f}" == "0.57735"
+    ours = plain(candidates(motion_deg="120", z="6", external=True))[0]
+    ratios = [
+        getattr(ours, n) / getattr(candidate, n) for n in ("velocity_max", "acceleration_max")
+    ]
     assert [f"{r:.3f}" for r in ratios] == ["1.577", "2.510"]
-    assert f"{ours.power_max / way.power_max:.3f}" == "3.990"
+    assert f"{ours.power_max / candidate.power_max:.3f}" == "3.990"
 
 
 # A greatest acceleration
@@ -199,12 +205,16 @@ def test_the_side_crank_paper_s_half_turn():
 
 @pytest.mark.parametrize(("limit", "laws"), [("0.3", "modified-sine"), ("0.7", "all")])
 def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit, laws):
-    found = ways(acceleration_max=limit, law=laws, z="3,6,12")
-    for way in found:
-        assert way.acceleration_max <= float(limit)
-        above = way.A is not None or way.eccentricity is not None or (way.law and way.alpha0_deg)
+    found = candidates(acceleration_max=limit, law=laws, z="3,6,12")
+    for candidate in found:
+        assert candidate.acceleration_max <= float(limit)
+        above = (
+            candidate.A is not None
+            or candidate.eccentricity is not None
+            or (candidate.law and candidate.alpha0_deg)
+        )
         if above:
-            assert way.acceleration_max == pytest.approx(float(limit), rel=1e-10)
+            assert candidate.acceleration_max == pytest.approx(float(limit), rel=1e-10)
     cranks = [w for w in found if w.drive == "crank" and w.law is None]
     below = {(w.z, w.gearing) for w in cranks if w.axes_deg in (None, 90.0)}
     assert below == {
@@ -277,16 +287,19 @@ def test_rows_are_sorted_and_numbered(options):
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     wish, found_rows = searched(**options)
-    for number, (_, way, _) in enumerate(found_rows.rows, 1):
+    for number, (_, candidate, _) in enumerate(found_rows.rows, 1):
         file = tmp_path / f"{number}.toml"
         file.write_text(written(wish, found_rows.rows, number), encoding="utf-8")
         machine = load(str(file))
         # the machine is chosen by its motion; the sizes of its parts come after that
         found_checks = checks(machine, parts=False)
-        stands = way.parts is None or not way.parts.startswith("no")
+        stands = candidate.parts is None or not candidate.parts.startswith("no")
         failing = [c for c in found_checks if not c.passes]
-        assert not stands or not failing, (way, failing)
-        assert {c.name for c in failing} <= {"undercut_mm", "groove_pressure_deg"}, (way, failing)
+        assert not stands or not failing, (candidate, failing)
+        assert {c.name for c in failing} <= {"undercut_mm", "groove_pressure_deg"}, (
+            candidate,
+            failing,
+        )
         found, time, spec = worst(machine), timings(machine)[0], machine.spec
         wanted = (
             found.velocity.max,
@@ -295,43 +308,51 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
             found.jerk.max,
             found.power.max,
         )
-        assert costs(way) == pytest.approx(wanted, rel=1e-12, abs=1e-15)
-        shown = (way.ratio, way.motion_deg, way.dwell_deg, way.tau, way.k)
+        assert costs(candidate) == pytest.approx(wanted, rel=1e-12, abs=1e-15)
+        shown = (
+            candidate.ratio,
+            candidate.motion_deg,
+            candidate.dwell_deg,
+            candidate.tau,
+            candidate.k,
+        )
         times = (machine.ratio, time.motion_deg, time.dwell_deg, time.tau, time.k)
         assert shown == pytest.approx(times, rel=1e-12)
-        assert (spec.wheel.z, spec.wheel.NAME, spec.drive.rollers) == way[:3]
+        assert (spec.wheel.z, spec.wheel.NAME, spec.drive.rollers) == candidate[:3]
         if wish.timed:
-            assert way.n_rpm == spec.drive.n_rpm
-            rad_s = way.n_rpm * math.pi / 30.0
-            size = way.acceleration_max * rad_s**2
-            assert way.acceleration_max_rad_s2 == pytest.approx(size, rel=1e-14)
+            assert candidate.n_rpm == spec.drive.n_rpm
+            rad_s = candidate.n_rpm * math.pi / 30.0
+            size = candidate.acceleration_max * rad_s**2
+            assert candidate.acceleration_max_rad_s2 == pytest.approx(size, rel=1e-14)
             assert time.cycle_s == pytest.approx(float(options["cycle"]), rel=1e-12)
             if options.get("motion_s"):
                 assert time.motion_s == pytest.approx(float(options["motion_s"]), rel=1e-12)
 
 
 def test_curved_slots_of_all_laws():
-    found = ways(motion_deg="150", z="6", law="all", external=True)
+    found = candidates(motion_deg="150", z="6", law="all", external=True)
     assert {w.law for w in found if w.law} == set(LAWS)
-    for way in found:
-        if way.law:
-            assert way.alpha0_deg == pytest.approx(-30.0)
-            V = way.velocity_max
-            assert way.ratio == pytest.approx(V / (1.0 + V))  # the mid condition
+    for candidate in found:
+        if candidate.law:
+            assert candidate.alpha0_deg == pytest.approx(-30.0)
+            V = candidate.velocity_max
+            assert candidate.ratio == pytest.approx(V / (1.0 + V))  # the mid condition
 
 
 def test_the_plain_crank_fits_within_a_millionth():
     near, far = 120.0 * (1 + 0.5 * EXACT), 120.0 * (1 + 2 * EXACT)
-    assert len(plain(ways(motion_deg=repr(near), z="6", rollers=1))) == 1
-    assert not plain(ways(motion_deg=repr(far), z="6"))
-    assert plain(ways(tau="0.3333333", z="6"))[0].tau == pytest.approx(1 / 3, rel=1e-15)
+    assert len(plain(candidates(motion_deg=repr(near), z="6", rollers=1))) == 1
+    assert not plain(candidates(motion_deg=repr(far), z="6"))
+    assert plain(candidates(tau="0.3333333", z="6"))[0].tau == pytest.approx(1 / 3, rel=1e-15)
 
 
 def test_several_rollers_share_the_turn():
-    for way in ways(tau="0.6", z="3..7"):
-        assert way.tau == pytest.approx(0.6, rel=1e-12)
-        assert way.rollers * (way.motion_deg + way.dwell_deg) == pytest.approx(360.0)
-        assert way.rollers == 1 or way.drive in ("crank", "cam")
+    for candidate in candidates(tau="0.6", z="3..7"):
+        assert candidate.tau == pytest.approx(0.6, rel=1e-12)
+        assert candidate.rollers * (candidate.motion_deg + candidate.dwell_deg) == pytest.approx(
+            360.0
+        )
+        assert candidate.rollers == 1 or candidate.drive in ("crank", "cam")
 
 
 # Refusals
@@ -390,18 +411,18 @@ def test_several_rollers_share_the_turn():
 )
 def test_refusals(options, wants):
     with pytest.raises(GenevaError) as said:
-        ways(**options)
+        candidates(**options)
     for text in wants:
         assert text in str(said.value)
 
 
 def test_the_reach_that_a_refusal_names_is_right():
     with pytest.raises(GenevaError) as said:
-        ways(acceleration_max="0.02", z="5..9")
+        candidates(acceleration_max="0.02", z="5..9")
     least = float(str(said.value).partition("above ")[2].partition(",")[0])
-    assert ways(acceleration_max=f"{least * 1.001}", z="5..9")
+    assert candidates(acceleration_max=f"{least * 1.001}", z="5..9")
     with pytest.raises(GenevaError):
-        ways(acceleration_max=f"{least * 0.999}", z="5..9")
+        candidates(acceleration_max=f"{least * 0.999}", z="5..9")
 
 
 # The command
@@ -470,13 +491,13 @@ def test_a_limit_comes_along():
 
 def test_rollers_beyond_those_of_straight_slots():
     """Four rollers, 27 degrees each, on z = 4: they leave a dwell, and the parts are built."""
-    found = [w for w in ways(tau="0.3", z="4", external=True) if w.law and w.drive == "crank"]
+    found = [w for w in candidates(tau="0.3", z="4", external=True) if w.law and w.drive == "crank"]
     assert [w.rollers for w in found[:4]] == [1, 2, 3, 4]
     assert found[3].motion_deg == pytest.approx(27.0, rel=1e-14)
     assert found[3].parts == "maybe"
     # the next one up is not built, so the list is complete up to where it ends
     most = found[-1].rollers
-    more = ways(tau="0.3", z="4", external=True, rollers=most + 1)
+    more = candidates(tau="0.3", z="4", external=True, rollers=most + 1)
     (beyond,) = [w for w in more if w.law and w.drive == "crank"]
     assert beyond.parts.startswith("no: ")
     assert [w.rollers for w in found] == list(range(1, most + 1))
@@ -487,7 +508,9 @@ def test_rollers_beyond_those_of_straight_slots():
 def test_shafts_at_an_angle(z, share):
     """Between the motions of parallel shafts, external and internal, there is one angle."""
     motion = 180.0 + (2.0 * share - 1.0) * 360.0 / z
-    found = [w for w in ways(motion_deg=repr(motion), z=str(z), spherical=True) if w.rollers == 1]
+    found = [
+        w for w in candidates(motion_deg=repr(motion), z=str(z), spherical=True) if w.rollers == 1
+    ]
     plain_ = [w for w in found if w.drive == "crank"]
     assert len(plain_) == 1
     assert plain_[0].motion_deg == pytest.approx(motion, rel=1e-13)
@@ -538,18 +561,18 @@ def test_a_title_for_one_row():
 
 def test_the_roller_that_fills_the_way_in_and_out():
     """z = 6, two rollers in 54 degrees each: the two ways are 10.97 mm apart, the slot as wide."""
-    (spec, way) = next(
+    (spec, candidate) = next(
         (s, w)
         for s, w in synthesis(read_wish(tau="0.3", z="6"))
         if w.law and w.rollers == 2 and w.drive == "crank"
     )
     assert spec.size.roller_radius_mm == 5.5
-    assert way.parts == "maybe"
+    assert candidate.parts == "maybe"
 
 
 def test_no_roller_fits_a_loop():
     """z = 5, 120 degrees: 15.4 mm apart, where a roller of 7.7 undercuts or loses the lock."""
-    found = ways(motion_deg="120", z="5", external=True, rollers=1)
+    found = candidates(motion_deg="120", z="5", external=True, rollers=1)
     (number,) = [i for i, w in enumerate(found, 1) if w.law and w.drive == "crank"]
     assert found[number - 1].parts == "no: island"
     words = ["--motion-deg", "120", "--z", "5", "--external", "--rollers", "1"]
@@ -573,7 +596,7 @@ def test_no_roller_fits_a_loop():
 def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
     wish = read_wish(**options)
     found = search(wish)
-    assert found.rows[number - 1].way.parts == "maybe"  # nobody has turned it yet
+    assert found.rows[number - 1].candidate.parts == "maybe"  # nobody has turned it yet
     made, text = chosen(wish, found.rows, number)
     assert made.trouble == ""
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
@@ -589,13 +612,13 @@ def test_rows_are_turned_in_their_order():
     wish, found = searched(motion_deg="105", z="8", external=True, rollers=1)
     shown = list(turned(wish, found, 2))
     assert [one.no for one in shown] == list(range(1, len(found.rows) + 1))
-    said = [one.row.way.parts for one in shown]
+    said = [one.row.candidate.parts for one in shown]
     assert all(s == "yes" or s.startswith("no: ") for s in said[:2])
     assert "maybe" in said[2:]
     assert "yes" not in said[2:]
     only = list(turned(wish, found, 1, buildable=True))
-    assert [one.row.way.parts for one in only] == ["yes"]
-    assert all(one.row.way[:10] == found.rows[one.no - 1].way[:10] for one in only)
+    assert [one.row.candidate.parts for one in only] == ["yes"]
+    assert all(one.row.candidate[:10] == found.rows[one.no - 1].candidate[:10] for one in only)
 
 
 def test_a_written_row_is_cut(tmp_path):

@@ -30,7 +30,7 @@ KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_d
 def four_bars(**options):
     """The four-bars of a wish, with their rows, searched for once."""
     found = search(read_wish(**options)).rows
-    return [row for row in found if row.way.drive == "four-bar"]
+    return [row for row in found if row.candidate.drive == "four-bar"]
 
 
 def reach(drive):
@@ -56,8 +56,10 @@ def test_a_four_bar_makes_the_motion(z, motion):
     machine = build(row.spec)
     assert machine.engagements[0].motion_deg == pytest.approx(motion, rel=1e-12)
     assert machine.center_distance_mm == pytest.approx(100.0, rel=1e-12)
-    assert row.way.motion_deg == machine.engagements[0].motion_deg
-    assert [getattr(row.way, key) for key in KEYS] == [getattr(row.spec.drive, key) for key in KEYS]
+    assert row.candidate.motion_deg == machine.engagements[0].motion_deg
+    assert [getattr(row.candidate, key) for key in KEYS] == [
+        getattr(row.spec.drive, key) for key in KEYS
+    ]
     # the search looks at 192 places: a joint goes no farther between them than 1/1000
     assert reach(row.spec.drive) <= 300.0 * (1.0 + 1e-3)
 
@@ -86,7 +88,9 @@ def test_it_takes_one_roller_on_an_external_wheel():
 def test_the_same_in_every_run():
     one = four_bars(motion_deg="120", z="6")
     other = [
-        r for r in search(read_wish(motion_deg="120", z="6")).rows if r.way.drive == "four-bar"
+        r
+        for r in search(read_wish(motion_deg="120", z="6")).rows
+        if r.candidate.drive == "four-bar"
     ]
     assert [r.spec.drive for r in one] == [r.spec.drive for r in other]
 
@@ -97,8 +101,8 @@ def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
     """
     wish = read_wish(motion_deg="168", z="6", external=True)
     found = search(wish).rows
-    (number,) = [i for i, row in enumerate(found, 1) if row.way.drive == "four-bar"]
-    assert found[number - 1].way.parts == "maybe"
+    (number,) = [i for i, row in enumerate(found, 1) if row.candidate.drive == "four-bar"]
+    assert found[number - 1].candidate.parts == "maybe"
     made, text = chosen(wish, found, number)
     assert not made.trouble
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
@@ -123,26 +127,26 @@ def test_it_keeps_bounds(bounds, name, low, high):
     (row,) = four_bars(
         motion_deg="90..200", cycle="1", z="6", external=True, subject_to=tuple(bounds)
     )
-    assert low * (1 - 1e-9) <= getattr(row.way, name) <= high * (1 + 1e-9)
-    assert 90.0 * (1 - 1e-9) <= row.way.motion_deg <= 200.0 * (1 + 1e-9)
+    assert low * (1 - 1e-9) <= getattr(row.candidate, name) <= high * (1 + 1e-9)
+    assert 90.0 * (1 - 1e-9) <= row.candidate.motion_deg <= 200.0 * (1 + 1e-9)
 
 
 def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
     """The plain crank of z = 6 has 1.35 in 120 degrees, which four-bars do better."""
     (row,) = four_bars(acceleration_max="1.2", z="6", external=True)
-    assert row.way.acceleration_max <= 1.2
-    assert row.way.motion_deg == pytest.approx(120.0, rel=1e-12)
+    assert row.candidate.acceleration_max <= 1.2
+    assert row.candidate.motion_deg == pytest.approx(120.0, rel=1e-12)
     (row,) = four_bars(acceleration_max="0.5", z="6", external=True)
-    assert row.way.acceleration_max <= 0.5
-    assert row.way.motion_deg > 120.0
+    assert row.candidate.acceleration_max <= 0.5
+    assert row.candidate.motion_deg > 120.0
 
 
 def test_what_it_sorts_by_is_the_least():
     wish = {"motion_deg": "100..180", "z": "6", "external": True}
     (gentle,) = four_bars(**wish)
     (slow,) = four_bars(**wish, sort="velocity.max")
-    assert slow.way.velocity_max < gentle.way.velocity_max
-    assert slow.way.acceleration_max >= gentle.way.acceleration_max
+    assert slow.candidate.velocity_max < gentle.candidate.velocity_max
+    assert slow.candidate.acceleration_max >= gentle.candidate.acceleration_max
 
 
 @functools.cache

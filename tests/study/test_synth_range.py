@@ -54,14 +54,14 @@ def test_spans(text, low, high):
 def test_wishes_for_times_leave_motions_and_cycles():
     """Half a second of motion, a whole one of rest: tau is a third, whatever the cycle is."""
     for row in rows(motion_s="0.5", dwell_s="1", z="6", external=True):
-        assert row.way.tau == pytest.approx(1.0 / 3.0, rel=1e-12)
-        assert row.way.motion_s == pytest.approx(0.5, rel=1e-12)
-        assert row.way.dwell_s == pytest.approx(1.0, rel=1e-12)
+        assert row.candidate.tau == pytest.approx(1.0 / 3.0, rel=1e-12)
+        assert row.candidate.motion_s == pytest.approx(0.5, rel=1e-12)
+        assert row.candidate.dwell_s == pytest.approx(1.0, rel=1e-12)
     for row in rows(dwell_s="2", tau="1/3", z="6", external=True):
-        assert row.way.dwell_s == pytest.approx(2.0, rel=1e-12)
+        assert row.candidate.dwell_s == pytest.approx(2.0, rel=1e-12)
     # at 60 rpm a turn takes a second: with nothing else said the speed stays
     for row in rows(dwell_s="0.1..", k="1/2", z="6", rollers=1):
-        assert row.way.n_rpm == 60.0
+        assert row.candidate.n_rpm == 60.0
     with pytest.raises(GenevaError, match="no machine does both"):
         rows(motion_s="0.5", dwell_s="1", tau="0.5")
 
@@ -81,14 +81,21 @@ def test_every_row_keeps_every_wish(options):
     for row in found:
         for name, wanted in wish.spans.items():
             value = (
-                row.way.motion_s + row.way.dwell_s if name == "cycle" else getattr(row.way, name)
+                row.candidate.motion_s + row.candidate.dwell_s
+                if name == "cycle"
+                else getattr(row.candidate, name)
             )
-            assert wanted.low * (1 - 1e-9) <= value <= wanted.high * (1 + 1e-9), (name, row.way)
+            assert wanted.low * (1 - 1e-9) <= value <= wanted.high * (1 + 1e-9), (
+                name,
+                row.candidate,
+            )
         if wish.acceleration_max:
-            assert row.way.acceleration_max <= wish.acceleration_max * (1 + 1e-9)
+            assert row.candidate.acceleration_max <= wish.acceleration_max * (1 + 1e-9)
         design = Design.of(row.spec)
-        assert design.peaks.acceleration.max == pytest.approx(row.way.acceleration_max, rel=1e-12)
-        assert design.timing.motion_deg == pytest.approx(row.way.motion_deg, rel=1e-12)
+        assert design.peaks.acceleration.max == pytest.approx(
+            row.candidate.acceleration_max, rel=1e-12
+        )
+        assert design.timing.motion_deg == pytest.approx(row.candidate.motion_deg, rel=1e-12)
 
 
 def swept(spec, key, values, low, high):
@@ -111,9 +118,12 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     found = rows(motion_deg=f"{low}..{high}", z=str(z), rollers=1, **{gearing: True})
     ours = {}
     for row in found:
-        way = row.way
-        kind = (way.drive, way.phase or way.fixed or (way.law and "law") or "")
-        ours[kind] = min(ours.get(kind, math.inf), way.acceleration_max)
+        candidate = row.candidate
+        kind = (
+            candidate.drive,
+            candidate.phase or candidate.fixed or (candidate.law and "law") or "",
+        )
+        ours[kind] = min(ours.get(kind, math.inf), candidate.acceleration_max)
     wheel = Wheel(z, gearing)
     fine = np.linspace(-0.9999, 0.9999, 2001)
     theirs = {
@@ -152,7 +162,7 @@ def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
     found = search(
         read_wish(frame=frame, motion_deg="80..140", rollers=1, external=True, sort=sort)
     ).rows
-    (ours,) = [r for r in found if r.way.drive == "side-crank"]
+    (ours,) = [r for r in found if r.candidate.drive == "side-crank"]
     fine = many(ours.spec, {"drive.A": np.linspace(-0.9, 0.9, 1801)})
     motion, value = columns(fine.machine, ["timing.motion_deg", name], len(fine.which))
     theirs = sign * value[(motion >= 80.0) & (motion <= 140.0)]
@@ -161,17 +171,17 @@ def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
 
 def test_a_drive_that_does_nothing_is_no_row():
     """Where the plain crank is the gentlest, gears of no eccentricity are not listed beside it."""
-    found = [row.way for row in rows(motion_deg="100..180", z="8", spherical=True, rollers=1)]
-    assert [(way.drive, way.axes_deg) for way in found] == [("crank", 90.0)]
+    found = [row.candidate for row in rows(motion_deg="100..180", z="8", spherical=True, rollers=1)]
+    assert [(candidate.drive, candidate.axes_deg) for candidate in found] == [("crank", 90.0)]
 
 
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
     """In a range the machine of a kind is the gentlest of those that keep the bound."""
     wish = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}
-    free = {r.way.drive: r.way for r in rows(**wish)}
+    free = {r.candidate.drive: r.candidate for r in rows(**wish)}
     assert free["side-crank"].velocity_max < 0.9
     kept = rows(**wish, subject_to=["velocity.max >= 0.95"])
-    (side,) = [r.way for r in kept if r.way.drive == "side-crank"]
+    (side,) = [r.candidate for r in kept if r.candidate.drive == "side-crank"]
     assert side.velocity_max >= 0.95 * (1 - 1e-9)
     fine = np.linspace(-0.9, 0.9, 4001)
     found = many(Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.1)), {"drive.A": fine})
@@ -186,7 +196,7 @@ def test_a_bound_that_little_keeps_is_kept():
     """A band of a hundredth of the velocity: no place of a range is in it at first."""
     wish = {"motion_deg": "60..270", "z": "6", "rollers": 1, "external": True}
     found = rows(**wish, subject_to=["velocity.max >= 1.49", "velocity.max <= 1.5"])
-    assert {r.way.drive for r in found} >= {"crank", "cam"}
+    assert {r.candidate.drive for r in found} >= {"crank", "cam"}
     for row in found:
         assert 1.49 * (1 - 1e-9) <= Design.of(row.spec).peaks.velocity.max <= 1.5 * (1 + 1e-9)
 
@@ -194,29 +204,29 @@ def test_a_bound_that_little_keeps_is_kept():
 def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bounds():
     """The velocity of z = 6 is 1; down to 0.8 with the least change of each kind, and no less."""
     found = rows(z="6", external=True, rollers=1, subject_to=["velocity.max <= 0.8"])
-    ours = {r.way.drive: r for r in found}
+    ours = {r.candidate.drive: r for r in found}
     assert {"side-crank", "elliptical-gears", "cam"} <= set(ours)
     for drive in ("side-crank", "elliptical-gears", "cam"):
-        assert ours[drive].way.velocity_max == pytest.approx(0.8, rel=1e-8)
+        assert ours[drive].candidate.velocity_max == pytest.approx(0.8, rel=1e-8)
     # the modified sine's C_v is 4 pi / (4 + pi), over a step of 60 degrees
     C_v = 4.0 * math.pi / (4.0 + math.pi)
-    assert ours["cam"].way.motion_deg == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
+    assert ours["cam"].candidate.motion_deg == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
     # a side-crank's peak velocity is at mid-motion, where it is the plain crank's 1 over 1 + A
-    assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].way.A
+    assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
 
 
 def test_limits_do_not_turn_the_parts_of_a_sphere():
     """A frame's limits are checked on a spherical wheel; of parts nothing is known."""
     frame = Spec(Wheel(6), limits=Limits(velocity_max=0.9))
     found = rows(frame=frame, motion_deg="180", spherical=True)
-    assert {row.way.parts for row in found} == {None}
+    assert {row.candidate.parts for row in found} == {None}
 
 
 def test_what_no_array_has_is_asked_of_each_machine():
     """Curved slots have no loads as arrays: their rows stay, with the machine's own."""
     wish = {"frame": load(os.path.join(DESIGNS, "press-345.toml")).spec, "motion_deg": "120"}
     found = search(read_wish(**wish, external=True, rollers=1, sort="loads.pin_force_N.max")).rows
-    (row,) = [r for r in found if r.way.law and r.way.drive == "crank"]
+    (row,) = [r for r in found if r.candidate.law and r.candidate.drive == "crank"]
     greatest = Design.of(row.spec).loads["pin_force_N"].max
     assert row.asked[0] == pytest.approx(greatest, rel=1e-12)
 
@@ -238,11 +248,11 @@ def test_a_frame_and_an_order():
     assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal
     for row in found.rows[:4]:
         assert (row.spec.load, row.spec.wheel.z) == (own.load, own.wheel.z)
-        assert row.spec.drive.n_rpm == own.drive.n_rpm == row.way.n_rpm
+        assert row.spec.drive.n_rpm == own.drive.n_rpm == row.candidate.n_rpm
         rms = Design.of(row.spec).loads["input_torque_Nm"].rms
         assert row.asked[0] == pytest.approx(rms, rel=1e-12)
     turned_round = search(wish._replace(sort="-acceleration.max")).rows
-    peaks = [row.way.acceleration_max for row in turned_round]
+    peaks = [row.candidate.acceleration_max for row in turned_round]
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 
 

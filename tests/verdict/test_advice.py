@@ -14,8 +14,9 @@ from geneva_cli.numerics.budget import OutOfTime, until
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
-from geneva_cli.verdict.advice import NONE, Adviser, judged, rounded
+from geneva_cli.verdict.advice import Adviser, judged, rounded
 from geneva_cli.verdict.checks import Check, checks
+from geneva_cli.verdict.checks.check import NONE
 
 DESIGNS = repo.DESIGNS
 CURVED = "[wheel]\nz = 6\n[motion]\nlaw = 'cycloidal'\nratio = 'matched'\n"

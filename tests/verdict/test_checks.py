@@ -20,7 +20,7 @@ from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks import Check, checks
-from geneva_cli.verdict.checks.registry import standing
+from geneva_cli.verdict.checks.registry import static_checks
 from geneva_cli.verdict.turn_cautions import turn_cautions
 
 DESIGNS = repo.DESIGNS
@@ -35,7 +35,7 @@ def failing(spec: Spec) -> list[str]:
 
 
 def test_a_sound_design_passes() -> None:
-    assert not failing(LOADED.but(limits=Limits(acceleration_max=1.4, pin_force_max_N=1e4)))
+    assert not failing(LOADED.replace(limits=Limits(acceleration_max=1.4, pin_force_max_N=1e4)))
     assert not failing(CURVED)
     assert not cautions(build(LOADED))
     assert not cautions(build(CURVED))
@@ -45,11 +45,11 @@ def test_a_sound_design_passes() -> None:
     ("spec", "said"),
     [
         (Spec(Wheel(25)), "z = 25"),
-        (CURVED.but(motion=Motion("cycloidal", ratio=0.45)), "mid condition"),
-        (CURVED.but(motion=Motion("sine-group", 0.13)), "turns back"),
-        (CURVED.but(motion=Motion("sine-group", -0.13)), "turns back"),
-        (CURVED.but(motion=Motion("harmonic", ratio="matched")), "soft shock"),
-        (CURVED.but(size=Size(100.0, 20.0)), "undercut"),
+        (CURVED.replace(motion=Motion("cycloidal", ratio=0.45)), "mid condition"),
+        (CURVED.replace(motion=Motion("sine-group", 0.13)), "turns back"),
+        (CURVED.replace(motion=Motion("sine-group", -0.13)), "turns back"),
+        (CURVED.replace(motion=Motion("harmonic", ratio="matched")), "soft shock"),
+        (CURVED.replace(size=Size(100.0, 20.0)), "undercut"),
     ],
 )
 def test_cautions(spec: Spec, said: str) -> None:
@@ -57,7 +57,7 @@ def test_cautions(spec: Spec, said: str) -> None:
 
 
 def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
-    said = cautions(build(CURVED.but(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0)))))
+    said = cautions(build(CURVED.replace(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0)))))
     assert [c.name for c in said if "soft shock" in c] == [
         "soft-shock-at-ends",
         "soft-shock-at-mid",
@@ -66,7 +66,7 @@ def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
 
 @pytest.mark.parametrize("shape", [-0.125, 0.0, 0.125])
 def test_the_sine_group_does_not_turn_back_up_to_an_eighth(shape: float) -> None:
-    spec = CURVED.but(motion=Motion("sine-group", shape, ratio="matched"))
+    spec = CURVED.replace(motion=Motion("sine-group", shape, ratio="matched"))
     assert not any("turns back" in text for text in cautions(build(spec)))
 
 
@@ -87,9 +87,9 @@ def test_something_must_hold_the_wheel_in_the_dwell() -> None:
     without = Spec(Wheel(6), size=Size(lock_radius_mm=0.0))
     assert rows(Spec(Wheel(6)))["dwell_hold"].passes
     assert rows(without)["dwell_hold"].passes is False
-    assert rows(without.but(wheel=Wheel(6, held_by="brake")))["dwell_hold"].passes
+    assert rows(without.replace(wheel=Wheel(6, held_by="brake")))["dwell_hold"].passes
     assert any("nothing holds the wheel" in said for said in cautions(build(without)))
-    assert not cautions(build(without.but(wheel=Wheel(6, held_by="brake"))))
+    assert not cautions(build(without.replace(wheel=Wheel(6, held_by="brake"))))
 
 
 @pytest.mark.parametrize(
@@ -149,7 +149,7 @@ def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
 def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
     path = tmp_path / "bore.toml"
     path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
-    rows = {c.name: c for c in standing(outlines(load(str(path))))}
+    rows = {c.name: c for c in static_checks(outlines(load(str(path))))}
     assert rows[row].value == pytest.approx(value, abs=1e-5)
     assert rows[row].limit == 0.5
     assert rows[row].passes == (value >= 0.5)
@@ -159,7 +159,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     path = tmp_path / "ring.toml"
     size = "[size]\nwheel_outer_radius_mm = 155.5\n"
     path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
-    rows = {c.name: c for c in standing(outlines(load(str(path))))}
+    rows = {c.name: c for c in static_checks(outlines(load(str(path))))}
     # L + R + r + r/20 is 155.25 mm
     assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
     assert not rows["outer_wall_mm"].passes

@@ -10,7 +10,7 @@ from geneva_cli import Design, External, Limits, Load, Size, Spherical, Toleranc
 from geneva_cli.analysis import change_of_sides, shock
 from geneva_cli.analysis.blows import entry_blow, reversal_blow
 from geneva_cli.analysis.shock_force import force_N
-from geneva_cli.verdict.checks import one
+from geneva_cli.verdict.checks import single_check
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)
@@ -22,7 +22,7 @@ def design(force=None, **more):
 
 
 def row(of, name):
-    return one(of.mechanism, name)
+    return single_check(of.mechanism, name)
 
 
 def test_no_tolerance_no_row():

@@ -90,9 +90,9 @@ def test_each_can_fail_and_one_key_mends_it(name):
     ],
 )
 def test_what_is_not_known_is_said_with_its_key(without, name, said):
-    spec = WHOLE.but(limits=Limits(lock_stress_max_MPa=800.0))
+    spec = WHOLE.replace(limits=Limits(lock_stress_max_MPa=800.0))
     if without == "size.face_width_mm":
-        spec = WHOLE.but(limits=Limits())
+        spec = WHOLE.replace(limits=Limits())
     check = rows(spec.with_(without, None))[name]
     assert check.value is None
     assert check.passes is None
@@ -175,7 +175,7 @@ def test_the_crank_shaft_takes_the_crank_s_torque(A):
     shaft = Shaft(crank_overhang_mm=30.0, crank_diameter_mm=20.0, torsion_factor=2.0)
     drive = Drive("side-crank", n_rpm=40.0)
     spec = Spec(Wheel(8), drive, {"A": A}, size=Size(250.0, 12.0), load=Load(1.2, 20.0))
-    mechanism = build(spec.but(shaft=shaft))
+    mechanism = build(spec.replace(shaft=shaft))
     engagement = mechanism.engagements[0]
     x = np.linspace(engagement.entry_deg, engagement.exit_deg, 20001)
     px, py = (0.250 * jet.c[0] for jet in engagement.path(x, 0))
@@ -201,7 +201,7 @@ def test_margins():
 def test_every_machine_of_the_family(path):
     """With a load and a face width: numbers, and a None only with its reason or where none is."""
     mechanism = load(str(path))
-    spec = mechanism.spec.but(load=Load(0.001, 5.0, friction=0.05))
+    spec = mechanism.spec.replace(load=Load(0.001, 5.0, friction=0.05))
     of = Strength(build(spec.with_("size.face_width_mm", 10.0)))
     for name in ("slot_travel_m", "friction_work_J", "equivalent_force_N", "pin_stress_MPa"):
         assert of.life[name] > 0.0, name

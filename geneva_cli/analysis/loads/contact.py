@@ -75,21 +75,21 @@ def contact(
     engagement: Engagement,
     input_deg: Number,
     order: int = 0,
-    joints: bool = True,
+    reactions: bool = True,
     spins: bool = True,
 ) -> Contact[Jet]:
     """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
-    Without ``joints`` nothing is asked of what holds the roller's body, and without ``spins``
+    Without ``reactions`` nothing is asked of what holds the roller's body, and without ``spins``
     nothing of how that turns: ``spin`` is then 0, as suits whoever asks for no sliding. At
     mid-motion of a curved slot only the values have a limit, that of the way in: there ``order``
     must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
-        return _beside(engagement, input_deg, order, joints=joints, spins=spins)
+        return _beside(engagement, input_deg, order, reactions=reactions, spins=spins)
 
     def beside(x: Number) -> Jet:
-        *jets, _ = _beside(engagement, x, order, joints=False)
+        *jets, _ = _beside(engagement, x, order, reactions=False)
         return Jet([c for jet in jets for c in jet.c])
 
     def middle(x: Number) -> Jet:
@@ -99,7 +99,7 @@ def contact(
     # one piece each side of mid-motion, and mid-motion itself
     every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
     jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
-    held = _held(engagement, input_deg, jets[2], jets[3]) if joints else None
+    held = _held(engagement, input_deg, jets[2], jets[3]) if reactions else None
     return Contact._make([*jets, held])
 
 
@@ -113,7 +113,7 @@ def _beside(
     x: Number,
     order: int,
     rates: Jet | None = None,
-    joints: bool = True,
+    reactions: bool = True,
     spins: bool = True,
 ) -> Contact[Jet]:
     """Wherever the pin moves in its slot, or the slot is straight.
@@ -126,9 +126,9 @@ def _beside(
         rates = motion.derivative()
     velocity, acceleration = _cut(rates, order), rates.derivative()
     constant = velocity * 0.0
-    rail = engagement.slot.axis(x, order)
-    if rail:
-        lever, along = rail
+    straight_axis = engagement.slot.axis(x, order)
+    if straight_axis:
+        lever, along = straight_axis
         aside, curvature = constant + engagement.slot.offset, constant
     else:
         # the slot is the path seen from the wheel, whose angle is known already
@@ -148,7 +148,7 @@ def _beside(
     if spins:
         spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
-    held = _held(engagement, x, lever, aside) if joints else None
+    held = _held(engagement, x, lever, aside) if reactions else None
     return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches, held)
 
 
@@ -156,7 +156,7 @@ def _held(
     engagement: Engagement, x: Number, lever: Jet, aside: Jet
 ) -> tuple[tuple[Vector, Vector], ...] | None:
     """The joints' reactions to three unit loads at the pin."""
-    if engagement.joints is None:
+    if engagement.reactions is None:
         return None
     path = engagement.path(x, lever.order + 1)
     px, py = (_cut(jet, lever.order) for jet in path)
@@ -170,7 +170,7 @@ def _held(
         (tangent, none),
         ((none, none), none + 1.0),
     )
-    return tuple(engagement.joints(x, path, loads))
+    return tuple(engagement.reactions(x, path, loads))
 
 
 def _middle(engagement: Engagement) -> list[Number]:
@@ -186,7 +186,7 @@ def _middle(engagement: Engagement) -> list[Number]:
 
 
 def _crossing(engagement: Engagement) -> list[Number]:
-    values = [jet.c[0] for jet in _beside(engagement, 0.0, 0, joints=False)[:-1]]
+    values = [jet.c[0] for jet in _beside(engagement, 0.0, 0, reactions=False)[:-1]]
     values[Contact._fields.index("lever")] = 0.0
     return values
 
@@ -203,7 +203,7 @@ def _cusp(engagement: Engagement) -> list[Number]:
     curvature = choose(
         at.turning * at.turning > BENT * BENT,
         m.copysign(math.inf, way * at.turning),
-        _beside(engagement, NEAR * engagement.entry_deg, 0, joints=False).curvature.c[0],
+        _beside(engagement, NEAR * engagement.entry_deg, 0, reactions=False).curvature.c[0],
     )
     return [v, a, way * lever, aside, 0.0, curvature, spin, 1.0, 1.0]
 

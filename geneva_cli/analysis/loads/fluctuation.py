@@ -81,7 +81,7 @@ def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float
     signs = np.array([piece[2:] for piece in pieces]).T
 
     def torque(x: Array, span: Whole) -> Array:
-        at = contact(engagement, x, joints=False)
+        at = contact(engagement, x, reactions=False)
         return values(instant(given, at, *signs[:, of[span]])).input_torque_Nm
 
     works = integral_of_each(torque, spans)
@@ -95,7 +95,7 @@ def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> Array:
     signs = np.array([piece[2:] for piece in pieces]).T
 
     def above(x: Array, span: Whole) -> tuple[Array, Array]:
-        at = contact(engagement, x, 1, joints=False)
+        at = contact(engagement, x, 1, reactions=False)
         value, slope = instant(given, at, *signs[:, span]).input_torque_Nm.arrays()
         return value - mean, slope * DEGREE
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
-JOINTS = ("crank_bearing_N", "guide_force_N")
+REACTIONS = ("crank_bearing_N", "guide_force_N")
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
 At: TypeAlias = tuple[Setting, Contact[Any], tuple[int, ...]]  # and the shape of the places
 
@@ -42,11 +42,11 @@ class Loaded:
         self.names = names
         self.kinds = kinds(engagement, given)
         self.signs, self.wanted = len(self.kinds), len(names)
-        self.joints = any(name in JOINTS for name in names)
+        self.reactions = any(name in REACTIONS for name in names)
         self.spins = given.rubs or any(name in SLIDING for name in names)
         motion, slot = engagement.motion, engagement.slot
         straight = not slot.curved and all_true(slot.offset == 0.0)
-        self.mirrored = straight and motion.symmetric and not self.joints
+        self.mirrored = straight and motion.symmetric and not self.reactions
         # of the block of designs that is sampled: which, their machine, and places and contact
         self.kept: tuple[slice | None, Any] = (None, None)
         self.last: tuple[Array, Contact[Any]] | None = None
@@ -80,7 +80,7 @@ class Loaded:
         return given, self.last[1], x.shape
 
     def _contact(self, engagement: Engagement, x: Array, order: int) -> Contact[Any]:
-        return contact(engagement, x, order, self.joints, self.spins)
+        return contact(engagement, x, order, self.reactions, self.spins)
 
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None

@@ -45,7 +45,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> St
 
     given = setting(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
-    at = contact(engagement, x, joints=False)
+    at = contact(engagement, x, reactions=False)
     torque = array(at.acceleration.c[0]) * given.inertia_Nm + given.resists_Nm
     drives = np.copysign(1.0, torque)
     slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])

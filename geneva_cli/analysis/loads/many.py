@@ -24,7 +24,7 @@ from geneva_cli.analysis.loads.contact import NEAR
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import Setting, setting
 from geneva_cli.analysis.loads.loaded_many import (
-    JOINTS,
+    REACTIONS,
     Loaded,
     at_mid_motion,
     look,
@@ -89,7 +89,7 @@ def summaries_of_many(
     Extremes are within some units in the last place of a quantity's greatest size of those of one
     design; means, and roots of the mean square, within 1e-12 of that size: both are sums of what
     quadrature leaves of 1e-13, over stretches that may cancel. ``told`` says which of the two are
-    asked for; of ``JOINTS`` there are no means. One that is not told is None.
+    asked for; of ``REACTIONS`` there are no means. One that is not told is None.
     """
     known = shares(Cycle(mechanism))
     lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
@@ -102,7 +102,7 @@ def summaries_of_many(
             best[name] = _outer(best[name], here) if name in best else here
         if total is not None:
             sums = total if sums is None else sums + total
-    joined = any(engagement.joints for engagement in mechanism.engagements)
+    joined = any(engagement.reactions for engagement in mechanism.engagements)
     period = np.ravel(mechanism.period_deg) * DEGREE
     for i, name in enumerate(sources):
         one = best[name]
@@ -116,7 +116,7 @@ def summaries_of_many(
         if sums is not None:
             square = np.where(bounded, sums[i] / period, np.inf)
             one = one._replace(rms=np.sqrt(square))
-            if "mean" in told and not (joined and name in JOINTS):
+            if "mean" in told and not (joined and name in REACTIONS):
                 mean = np.where(bounded, sums[len(sources) + i] / period, np.inf)
                 nought = bounded & (mean * mean <= NOUGHT * square)
                 one = one._replace(mean=np.where(nought, 0.0, mean))

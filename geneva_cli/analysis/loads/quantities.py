@@ -32,7 +32,7 @@ QUANTITIES: dict[str, Quantity] = {
 def known(cycle: Cycle) -> list[str]:
     """The quantities of which there is a value."""
     missing = {KINETIC} if cycle.given.hertz is not None else {KINETIC, *PRESSED}
-    if not any(engagement.joints for engagement in cycle.mechanism.engagements):
+    if not any(engagement.reactions for engagement in cycle.mechanism.engagements):
         missing.add("guide_force_N")
     found = QUANTITIES if cycle.is_loaded else MOVES
     return [name for name in found if name not in missing]

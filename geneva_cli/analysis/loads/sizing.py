@@ -75,9 +75,11 @@ def _form(cycle: Cycle) -> Sizing:
     best: tuple[MakersForm, CamFactors] | None = None
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
-        known = engagement.motion.known
+        closed_peak = engagement.motion.closed_peak
         velocity, acceleration, power = (
-            found.size if (found := known(invariant)) else _greatest(cycle, quantity, number) / unit
+            found.size
+            if (found := closed_peak(invariant))
+            else _greatest(cycle, quantity, number) / unit
             for invariant, quantity, unit in (
                 ("velocity", "omega_rad_s", w),
                 ("acceleration", "alpha_rad_s2", w * w),

@@ -105,7 +105,7 @@ class Signs:
         self.fastest = 0.0  # of the samples, the wheel's greatest speed over the input's
 
         def sampled(x: Array, _: Whole) -> tuple[Array, Array]:
-            at = contact(engagement, x, 1, joints=False)
+            at = contact(engagement, x, 1, reactions=False)
             self.fastest = float(np.max(abs(at.velocity.arrays()[0]), initial=self.fastest))
             return columns([of(at) for of in functions], x)
 
@@ -144,7 +144,7 @@ class Signs:
         if inside.any():
             values = self.found.value[row, inside]
             return math.copysign(1.0, float(values[np.argmax(abs(values))]))
-        middle = contact(self.engagement, 0.5 * (a + b), joints=False)
+        middle = contact(self.engagement, 0.5 * (a + b), reactions=False)
         return math.copysign(1.0, float(np.ravel(value(self.functions[row](middle)))[0]))
 
 

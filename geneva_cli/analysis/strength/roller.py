@@ -70,7 +70,7 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
     drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
 
     def rows(x: Array, span: Whole) -> list[Array]:
-        at = contact(engagement, x, joints=False)
+        at = contact(engagement, x, reactions=False)
         found = forces(given, at, drives[span], slides[span])
         rubs = abs(sliding(at, drives[span], given.radius).arrays()[0]) * given.L
         with np.errstate(all="ignore"):

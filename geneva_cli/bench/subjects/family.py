@@ -145,7 +145,7 @@ def _task(kind: Kind, count: int) -> Task:
 
 def _loads_task(kind: Kind, count: int, friction: float) -> Task:
     load = Load(inertia_kgm2=1.0, friction=friction)
-    spec = kind.spec.but(load=load, size=kind.spec.size.but(face_width_mm=10.0))
+    spec = kind.spec.replace(load=load, size=kind.spec.size.replace(face_width_mm=10.0))
     machine, built, alone = _drawn(kind, spec, count)
     methods = [
         _one_by_one(alone, built, _one_loaded),

@@ -34,7 +34,7 @@ SIZE = Size(center_distance_mm=100.0, roller_radius_mm=5.0)
 KINDS = (
     Kind("6 straight slots", Spec(External(6), size=SIZE)),
     Kind("6 curved slots", Spec(External(6), motion=Motion(ModifiedSine()), size=SIZE)),
-    Kind("24 straight slots", Spec(External(24), size=SIZE.but(roller_radius_mm=2.0))),
+    Kind("24 straight slots", Spec(External(24), size=SIZE.replace(roller_radius_mm=2.0))),
     Kind("4 slots, 3 rollers", Spec(External(4), Crank(rollers=3), size=SIZE)),
 )
 

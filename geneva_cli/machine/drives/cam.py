@@ -69,8 +69,10 @@ class Cam(PinPath):
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
         body = Turning(-wheel.SIGN)  # the roller slides along the crank, and turns with it
-        slot, joints = RadialSlot(path), Slide()
-        engagement = Engagement(0.0, path, slot, turned, groove=path, body=body, joints=joints)
+        slot, reactions = RadialSlot(path), Slide()
+        engagement = Engagement(
+            0.0, path, slot, turned, groove=path, body=body, reactions=reactions
+        )
         ratio = parameter(path.distances(0.0, 0)[1].c[0])
         return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
 

@@ -16,7 +16,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import Joints, Path
+from geneva_cli.machine.engagement import Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -80,7 +80,7 @@ class EllipticalGears(Transmission):
             Dimension("index in the gears' phase", self.phase),
         )
 
-    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
         """The driver's teeth push the driven gear, which is fast on the crank."""
         return Mesh(path, self.gear_distance_mm / L)
 

@@ -92,16 +92,16 @@ class Epicyclic(PinPath):
         path = AnchoredPath(anchors)
         motion = Followed(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
-        joints = PlanetJoints(R0, rp, c)
-        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c), joints)
+        reactions = PlanetReactions(R0, rp, c)
+        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c), reactions)
         return self.planned(engagement, R0 + rp, spec.given_distance_mm)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Carrier, planet crank and gears; at input 0 both arms point at the wheel."""
-        joints = cast(PlanetJoints, plan.engagements[0].joints)
+        reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L = plan.center_distance_mm
-        R0, rp, teeth = L * joints.R0, L * joints.rp, abs(joints.c - 1.0)
-        planet = R0 / abs(joints.c)
+        R0, rp, teeth = L * reactions.R0, L * reactions.rp, abs(reactions.c - 1.0)
+        planet = R0 / abs(reactions.c)
         return (
             Pivot("planet axis", L - R0, 0.0),
             Dimension("carrier R0", R0, "mm"),
@@ -114,9 +114,9 @@ class Epicyclic(PinPath):
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """Carrier, the planet's arm, and the pitch circles of planet and fixed gear."""
-        joints = cast(PlanetJoints, plan.engagements[0].joints)
+        reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L, still, turn = plan.center_distance_mm, 0.0 * input_deg, radians(input_deg)
-        R0, rp, c = L * joints.R0, L * joints.rp, joints.c
+        R0, rp, c = L * reactions.R0, L * reactions.rp, reactions.c
         m, axis = library(turn), (still + L, still)
         planet = L - R0 * m.cos(turn), R0 * m.sin(turn)
         roller = planet[0] - rp * m.cos(c * turn), planet[1] + rp * m.sin(c * turn)
@@ -129,7 +129,7 @@ class Epicyclic(PinPath):
         )
 
 
-class PlanetJoints(NamedTuple):
+class PlanetReactions(NamedTuple):
     """The planet cut free: the carrier's pin holds it, and the fixed gear where they mesh.
 
     The mesh is -R0/c farther out than the planet's axis: nearer on a sun, farther in a ring.
@@ -166,7 +166,7 @@ class Arms(NamedTuple):
     c: float
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's way since then, along the ray and across it."""
+        """The pin's displacement since then, along the ray and across it."""
         u: Jet | None = None
         v: Jet | None = None
         for (slope, bend), rate in zip(self.arms, (1.0, self.c), strict=True):

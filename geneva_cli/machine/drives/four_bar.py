@@ -16,7 +16,7 @@ from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
-from geneva_cli.machine.roller_path import Way, rounded
+from geneva_cli.machine.roller_path import PointDisplacement, rounded
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
@@ -144,7 +144,7 @@ class CouplerPath(RodPath):
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
-    def about(self, sine: float, cosine: float) -> Way:
+    def about(self, sine: float, cosine: float) -> PointDisplacement:
         """The change of each of A, D, 1/D, N, k and e, from the one before it."""
         a, g, b, c, p, q = self.exact
         D0 = g * g + a * a - 2 * g * a * cosine
@@ -155,10 +155,10 @@ class CouplerPath(RodPath):
             *(a * sine, a * cosine, above, below, above - below, N0, 1 / D0, 2 * g, *k0),
             *(m / (2 * b), self.side / (2 * b), g - cosine * a, -sine * a, p, q),
         )
-        return CouplerWay._make(rounded(x) for x in numbers)
+        return CouplerDisplacement._make(rounded(x) for x in numbers)
 
 
-class CouplerWay(NamedTuple):
+class CouplerDisplacement(NamedTuple):
     """What the coupler's point moves by, from the numbers of one crank angle."""
 
     s: float
@@ -179,7 +179,7 @@ class CouplerWay(NamedTuple):
     Q: float
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The point's way, from sin d and 1 - cos d of the crank's angle d since."""
+        """The point's displacement, from sin d and 1 - cos d of the crank's angle d since then."""
         x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
         D = x * -self.span
         u = 1.0 / (D + 1.0 / self.inverse)

@@ -233,9 +233,9 @@ def _slot(b: float) -> tuple[Engagement, RadialSlot]:
     degrees = library(b).degrees(b)
     if isinstance(degrees, float):
         p, q = degrees.as_integer_ratio()
-        step = poses.Step(p, 180 * q)
+        step = poses.HalfStep(p, 180 * q)
     else:
-        step = poses.Step(degrees, 180)
+        step = poses.HalfStep(degrees, 180)
 
     entry, middle, exit_ = (
         Anchor(pose.crank_deg, pose.wheel, pose.along, Carried(pose, same))

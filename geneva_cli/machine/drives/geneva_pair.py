@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import Joints, Path, Vector
+from geneva_cli.machine.engagement import Path, Reactions, Vector
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.wheels import poses
@@ -72,12 +72,14 @@ class GenevaPair(Transmission):
             Pivot("first crank axis", L + first, 0.0),
             Dimension("first wheel's slots", self.first_z),
             Dimension("first centre distance", first, "mm"),
-            Dimension("first crank radius", first * poses.Step(1, self.first_z).sin_cos[0], "mm"),
+            Dimension(
+                "first crank radius", first * poses.HalfStep(1, self.first_z).sin_cos[0], "mm"
+            ),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The first crank, and the first wheel's rim."""
-        L, step = plan.center_distance_mm, poses.Step(1, self.first_z)
+        L, step = plan.center_distance_mm, poses.HalfStep(1, self.first_z)
         turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
         m, R, far = library(turn), first * step.sin_cos[0], L + first
         pin = far - R * m.cos(turn), -sign * R * m.sin(turn)
@@ -90,16 +92,16 @@ class GenevaPair(Transmission):
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm
 
-    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
         """The first crank's roller pushes across the first wheel's slot."""
         if self.first_distance_mm is None:
             return None
-        l = poses.Step(1, self.first_z).sin_cos[0]
+        l = poses.HalfStep(1, self.first_z).sin_cos[0]
         return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
 
     def about(self, crank_deg: float) -> About:
         """About an angle of the second crank within the first wheel's step, degrees."""
-        entry, middle, exit_ = poses.radial(1.0, poses.Step(1, self.first_z))
+        entry, middle, exit_ = poses.radial(1.0, poses.HalfStep(1, self.first_z))
         reach = self.reach_deg
         inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
         running = _running(middle, _crank_at(self.first_z, inside))
@@ -147,7 +149,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
         each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
         return each
-    step = poses.Step(1, first_z)
+    step = poses.HalfStep(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q
     here, less = 180 * d * step.p, n * step.q  # b and psi, in parts of pi

@@ -24,11 +24,11 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.machine.link import LinkJoints
+from geneva_cli.machine.link import LinkReactions
 from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
 from geneva_cli.machine.roller_path import LONG_PI, Path, rounded
 from geneva_cli.machine.wheel_for_path import fit
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels_for_paths import fits_many
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
@@ -95,7 +95,7 @@ class Linkage(PinPath):
 
     def linked(self, plan: Plan) -> Layout:
         """Joints of crank and roller at input 0; the sense in which the crank turns."""
-        at = cast(LinkJoints, plan.engagements[0].joints)
+        at = cast(LinkReactions, plan.engagements[0].reactions)
         direction = sin_cos(Jet((at.middle,)))
         pin, roller = at.path.joint(*direction), at.path.place(*direction)
         return (
@@ -106,7 +106,7 @@ class Linkage(PinPath):
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """Crank, the link that carries the roller, and what holds that link besides."""
-        at = cast(LinkJoints, plan.engagements[0].joints)
+        at = cast(LinkReactions, plan.engagements[0].reactions)
         turn = radians(input_deg) + at.middle
         direction = sin_cos(Jet((turn,)))
         pin, unit, roller = (
@@ -128,7 +128,7 @@ class Linkage(PinPath):
 
     def _placed(self, plan: Plan, x: Place, y: Place) -> tuple[Place, Place]:
         """Places of the linkage's own frame, about the crank's axis, in the machine's."""
-        at = cast(LinkJoints, plan.engagements[0].joints)
+        at = cast(LinkReactions, plan.engagements[0].reactions)
         ahead, aside = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
         return plan.center_distance_mm + ahead, aside
 
@@ -155,7 +155,7 @@ class Linkage(PinPath):
         one.__post_init__()
         return one
 
-    def _of_many(self, step: Step) -> tuple[Engagement, float]:
+    def _of_many(self, step: HalfStep) -> tuple[Engagement, float]:
         """The engagements and the centre distances of many designs; those without are marked."""
         path = self.roller_path.in_long_doubles()
         found = fits_many(path, step.b, self._wanted)
@@ -163,7 +163,7 @@ class Linkage(PinPath):
             p, q = (int(np.broadcast_to(x, found.entry.shape)[i, 0]) for x in step)
             try:
                 one = self._one(i)
-                fit_i = fit(one.roller_path, Step(p, q), one._wanted)
+                fit_i = fit(one.roller_path, HalfStep(p, q), one._wanted)
             except GenevaError:
                 fit_i = None
             values = (

@@ -19,7 +19,7 @@ from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import Joints, Path, PeakKnown
+from geneva_cli.machine.engagement import ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
@@ -97,7 +97,7 @@ class NoncircularGears(Transmission):
             law,
         )
 
-    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
         """The driver's teeth push the driven gear, which is fast on the crank."""
         return Mesh(path, self.gear_distance_mm / L)
 
@@ -108,9 +108,9 @@ class NoncircularGears(Transmission):
         assert self.ratio is not None  # one of the two is
         return _through(_turned(self.ratio.pairs), crank_deg)
 
-    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+    def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
         """As of the side-crank whose ratio it is."""
-        return None if self.A is None else whitworth.known(self.A, wheel, place)
+        return None if self.A is None else whitworth.closed_peaks(self.A, wheel, place)
 
     def doubt(self, input_deg: float) -> Doubt | None:
         """What the rounding of the ratio's points leaves unknown of the crank's jerk."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import Joints, Path, PeakKnown
+from geneva_cli.machine.engagement import ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
@@ -86,12 +86,12 @@ class SideCrank(Transmission):
         own = plan.ratio * plan.center_distance_mm
         return own if self.input_crank_mm is None else self.input_crank_mm
 
-    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
         """The block on the input crank pushes across the coulisse."""
         if self.input_crank_mm is None:
             return None
         return whitworth.Block(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
-    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+    def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
         """The peak acceleration of plain wheels."""
-        return whitworth.known(self.A, wheel, place)
+        return whitworth.closed_peaks(self.A, wheel, place)

@@ -15,7 +15,7 @@ from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
-from geneva_cli.machine.roller_path import Way, rounded
+from geneva_cli.machine.roller_path import PointDisplacement, rounded
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
@@ -108,7 +108,7 @@ class SlidingRod(RodPath):
         _, b, *_ = self.rough
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
-    def about(self, sine: float, cosine: float) -> Way:
+    def about(self, sine: float, cosine: float) -> PointDisplacement:
         """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
         a, b, h, _, _ = self.exact
         level = (h - sine * a) / b
@@ -116,10 +116,10 @@ class SlidingRod(RodPath):
         ex = sqrt(Jet((less * more,))).c[0]
         numbers = [rounded(x) for x in (sine, cosine, level, ex, less, more)]
         a, b, _, p, q = self.rough
-        return RodWay._make((*numbers, a, b, p, q))
+        return RodDisplacement._make((*numbers, a, b, p, q))
 
 
-class RodWay(NamedTuple):
+class RodDisplacement(NamedTuple):
     """What the rod's point moves by, from the numbers of one crank angle."""
 
     s: float
@@ -134,7 +134,7 @@ class RodWay(NamedTuple):
     q: float
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The point's way, from sin d and 1 - cos d of the crank's angle d since."""
+        """The point's displacement, from sin d and 1 - cos d of the crank's angle d since then."""
         a, s, c = self.a, self.s, self.c
         x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
         dy = y / -self.b

@@ -11,11 +11,11 @@ from geneva_cli.machine import path_and_motion
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
 from geneva_cli.machine.engagement import (
     Anchor,
+    ClosedPeaks,
     Displacement,
     Engagement,
-    Joints,
     Path,
-    PeakKnown,
+    Reactions,
     Turning,
 )
 from geneva_cli.machine.law_motion import refuse_alpha0
@@ -55,7 +55,7 @@ class Carried(NamedTuple):
     advance: Displacement
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's way since then, along the pose's ray and across it."""
+        """The pin's displacement since then, along the pose's ray and across it."""
         return self.pose.displacement(*self.advance(tau, order))
 
 
@@ -75,7 +75,7 @@ class Transmission(Drive):
         """How far from mid-motion the crank may be while it moves the wheel."""
         return 180.0
 
-    def known(self, wheel: Gearing, place: Place) -> PeakKnown | None:
+    def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
         """Closed forms of the peaks behind this transmission, or quicker ways to them."""
         return None
 
@@ -102,7 +102,7 @@ class Transmission(Drive):
         most = rollers_max(2.0 * found[0].half_motion_deg)
         return Plan(engagements, period, found[0].ratio, most, spec.given_distance_mm)
 
-    def joints(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Joints | None:
+    def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
         """What holds the crank besides its shaft; None where a length is not known.
 
         Of the roller that crosses the line of centres at an input angle.
@@ -119,14 +119,14 @@ class Transmission(Drive):
         if closed:
             motion = Classic(path, place.step.b, *closed)
         else:
-            motion.peaks_known = self.known(wheel, place)
+            motion.closed_peaks = self.closed_peaks(wheel, place)
         body = wheel.body(place, here.advance)
         if self.direct:
             body = body or Turning(-wheel.SIGN)
         mid = here.input_deg
-        joints = self.joints(wheel, path, mid, L) if wheel.FLAT else None
+        reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
         hub = wheel.hub(place)
-        return Engagement(mid, path, slot, motion, body=body, hub=hub, joints=joints)
+        return Engagement(mid, path, slot, motion, body=body, hub=hub, reactions=reactions)
 
     @property
     def direct(self) -> bool:
@@ -152,8 +152,8 @@ class Transmission(Drive):
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         anchor = self._anchor(pose, 0.0)
         L, path = spec.given_distance_mm, MiddlePath(anchor)
-        joints = self.joints(wheel, path, 0.0, L) if wheel.FLAT else None
-        engagement = path_and_motion.engagement(0.0, motion_deg, wheel.step.b, law, path, joints)
+        reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
+        engagement = path_and_motion.engagement(0.0, motion_deg, wheel.step.b, law, path, reactions)
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)
         return Plan((engagement,), period, ratio, most, spec.given_distance_mm)

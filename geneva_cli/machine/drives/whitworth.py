@@ -13,7 +13,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About
-from geneva_cli.machine.engagement import Known, Vector
+from geneva_cli.machine.engagement import PeakValue, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.side_crank_peaks import (
     acceleration_peak,
@@ -39,34 +39,34 @@ def refuse_rounding(A: float) -> None:
     )
 
 
-class PeakOf(NamedTuple):
+class SideCrankPeak(NamedTuple):
     """The peak acceleration of a plain wheel behind a side-crank, without the general search."""
 
     A: float
     z: int
     sign: float
 
-    def __call__(self, quantity: str) -> Known | None:
+    def __call__(self, quantity: str) -> PeakValue | None:
         """The peak of a quantity, if it is this one; of many designs the velocity's too."""
         if isinstance(self.A, float) and isinstance(self.z, int):
             if quantity != "acceleration" or abs(self.A) > A_SURE:
                 return None
-            return Known(*acceleration_peak(self.z, self.sign, self.A))
+            return PeakValue(*acceleration_peak(self.z, self.sign, self.A))
         peaks = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}.get(quantity)
         if peaks is None:
             return None
         size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
         sure = abs(self.A) <= A_SURE
-        return Known(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
+        return PeakValue(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
-def known(A: float, wheel: Gearing, place: Place) -> PeakOf | None:
+def closed_peaks(A: float, wheel: Gearing, place: Place) -> SideCrankPeak | None:
     """The peak of a plain wheel's first roller; None for others."""
     closed = wheel.closed_form(place)
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
     if closed is None or wheel.steps or not plain:
         return None
-    return PeakOf(A, wheel.z, wheel.SIGN)
+    return SideCrankPeak(A, wheel.z, wheel.SIGN)
 
 
 class Coulisse(NamedTuple):

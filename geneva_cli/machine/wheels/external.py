@@ -13,7 +13,7 @@ from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.offset_slot import OffsetFollowed, OffsetSlot
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels.skew import room, skew
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import LENGTH, Range
@@ -88,7 +88,7 @@ class External(Gearing):
         """Whether slots are not radial or not alike."""
         return True if self.steps_deg else self.offset_mm != 0.0
 
-    def half_motion_deg(self, step: Step) -> float:
+    def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle from entry to the line of centres: 90° - b."""
         return classic.half_motion_deg(self.SIGN, *step)
 
@@ -97,7 +97,7 @@ class External(Gearing):
         """How far its slots miss the wheel's axis."""
         return (Dimension("slots' axes beside the wheel's", self.offset_mm, "mm"),)
 
-    def place(self, step: Step, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
         """A roller's passage; GenevaError where an offset slot cannot be entered without shock."""
         half = self.half_motion_deg(step)
         e = self.offset_mm / center_distance_mm

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
-from geneva_cli.machine.wheels.poses import Pose, Step
+from geneva_cli.machine.wheels.poses import HalfStep, Pose
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
@@ -29,7 +29,7 @@ class Place(NamedTuple):
     and ``cone`` the cosine of the pin's cone.
     """
 
-    step: Step
+    step: HalfStep
     half_motion_deg: float
     poses: tuple[Pose, Pose, Pose]
     ratio: float
@@ -65,9 +65,9 @@ class Gearing(Table):
     ] = field(default=None, kw_only=True)
 
     @property
-    def step(self) -> Step:
+    def step(self) -> HalfStep:
         """Half of an equal step, exactly."""
-        return Step(1, self.z)
+        return HalfStep(1, self.z)
 
     @property
     def steps(self) -> tuple[float, ...]:
@@ -101,11 +101,11 @@ class Gearing(Table):
         return self.steps[i] if self.steps else 360.0 / self.z
 
     @abstractmethod
-    def half_motion_deg(self, step: Step) -> float:
+    def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle from entry to the line of centres, for a slot entered without shock."""
 
     @abstractmethod
-    def place(self, step: Step, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
         """A roller's passage through a straight slot. Raises GenevaError where there is none."""
 
     def rest(self, ratio: float) -> float:

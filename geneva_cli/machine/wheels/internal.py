@@ -9,7 +9,7 @@ from typing import ClassVar
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.poses import Step
+from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
 
 
@@ -29,11 +29,11 @@ class Internal(Gearing):
     )
     SIGN: ClassVar[float] = -1.0
 
-    def half_motion_deg(self, step: Step) -> float:
+    def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle from entry to the line of centres: 90° + b."""
         return classic.half_motion_deg(self.SIGN, *step)
 
-    def place(self, step: Step, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
         """A roller's passage through a radial slot."""
         all_three = poses.radial(self.SIGN, step)
         return Place(step, self.half_motion_deg(step), all_three, step.sin_cos[0])

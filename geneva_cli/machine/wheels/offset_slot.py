@@ -28,7 +28,7 @@ class OffsetSlot(Slot):
         return Axis(Jet(depth.c[:-1]), depth.derivative())
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
-        return _depth(self.skew, self.path.middle.way(input_deg, order)[0])[0]
+        return _depth(self.skew, self.path.middle.displacement_at(input_deg, order)[0])[0]
 
 
 class OffsetFollowed(Followed):
@@ -73,7 +73,7 @@ class OffsetFollowed(Followed):
     def _inside(self, x: Number, order: int) -> Jet:
         """About mid-motion: the pin's direction, and less what the slot's gains on it."""
         e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
-        toward, across = mid.way(x, order)
+        toward, across = mid.displacement_at(x, order)
         s, rho2 = _depth(self.skew, toward)
         along = toward + mid.along
         m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]

@@ -32,13 +32,13 @@ class Pose(NamedTuple):
     bend: tuple[float, float]  # second derivative
 
     def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The pin's way since the pose, after the crank has turned by d: sin d and 1 - cos d."""
+        """The pin's displacement since the pose, from sin d and 1 - cos d of the crank's turn d."""
         u = sine * self.slope[0] + versine * self.bend[0]
         v = sine * self.slope[1] + versine * self.bend[1]
         return u, v
 
 
-class Step(NamedTuple):
+class HalfStep(NamedTuple):
     """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z.
 
     Of an array of designs p or q is an array; p may then be degrees, and q 180.
@@ -63,7 +63,7 @@ def middle(sign: float, l: float, gap: float) -> Pose:
     return Pose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
 
 
-def radial(sign: float, step: Step) -> tuple[Pose, Pose, Pose]:
+def radial(sign: float, step: HalfStep) -> tuple[Pose, Pose, Pose]:
     """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
     l, cos_b = step.sin_cos
     half = half_motion_deg(sign, *step)

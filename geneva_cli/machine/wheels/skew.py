@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.machine.wheels.classic import gap, half_motion_deg
-from geneva_cli.machine.wheels.poses import Pose, Step, middle
+from geneva_cli.machine.wheels.poses import HalfStep, Pose, middle
 from geneva_cli.numerics.angles import cos_squared_less, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 
@@ -28,13 +28,13 @@ class Skew(NamedTuple):
     # centre; in the middle in that of the line of centres
 
 
-def room(step: Step, e: float) -> float:
+def room(step: HalfStep, e: float) -> float:
     """cos² b - |e|: above 0 where there is a slot of offset e for half an index angle b."""
     spare: float = cos_squared_less(*step, abs(e))
     return spare
 
 
-def skew(step: Step, e: float, spare: float) -> Skew:
+def skew(step: HalfStep, e: float, spare: float) -> Skew:
     """The slot of offset e for half an index angle b; ``spare`` is its ``room``, above 0."""
     m = library(e, step.p, step.q)
     sin_b, cos_b = step.sin_cos

@@ -10,7 +10,7 @@ from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
 from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.poses import Pose, Step
+from geneva_cli.machine.wheels.poses import HalfStep, Pose
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, atan2
@@ -65,11 +65,11 @@ class Spherical(Gearing):
         """The angle of the shafts."""
         return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
 
-    def half_motion_deg(self, step: Step) -> float:
+    def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle from entry to mid-motion."""
         return sphere(step, self.axes_deg).half_motion_deg
 
-    def place(self, step: Step, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
         """A roller's passage through a meridian slot; its arm is over the sphere's radius."""
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
@@ -145,7 +145,7 @@ class Sphere(NamedTuple):
         return half
 
 
-def sphere(step: Step, axes_deg: float) -> Sphere:
+def sphere(step: HalfStep, axes_deg: float) -> Sphere:
     """The proportions of a spherical wheel with shafts at ``axes_deg``."""
     sin_b, cos_b = step.sin_cos
     sin_S, cos_S = sin_cos_deg(axes_deg)
@@ -155,7 +155,7 @@ def sphere(step: Step, axes_deg: float) -> Sphere:
     return Sphere(sin_S, cos_S, sin_th, cos_th, sin_b * cos_S / cos_th, cos_b / cos_th)
 
 
-def poses(step: Step, ball: Sphere) -> tuple[Pose, Pose, Pose]:
+def poses(step: HalfStep, ball: Sphere) -> tuple[Pose, Pose, Pose]:
     """Entry, middle and exit of a spherical wheel's pin, in its projection along the wheel's axis.
 
     Lengths are in units of the sphere's radius.

@@ -22,7 +22,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.sizes import Ways, sizes, ways
+from geneva_cli.parts.sizes import RollerPaths, roller_paths, sizes
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def parts(mechanism: Mechanism) -> Parts:
     if not spec.is_flat:
         return Parts(spec, None)
     where = assembly(mechanism)
-    known = ways(where)
+    known = roller_paths(where)
     points = _slot(where, where.kinds[0])
     L, curved = where.L, where.kinds[0].slot.curved
     least = 0.5 * float(np.hypot(*(points - points[::-1]).T).max()) if curved else 0.0
@@ -106,7 +106,7 @@ def parts(mechanism: Mechanism) -> Parts:
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
     """The spec with another roller; None for the usual one."""
-    return spec.but(size=spec.size.but(roller_radius_mm=radius_mm))
+    return spec.replace(size=spec.size.replace(roller_radius_mm=radius_mm))
 
 
 def exact(x: float) -> float:
@@ -149,7 +149,7 @@ def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[floa
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
-def _obstacle(where: Assembly, known: Ways, r: float, between: float) -> str:
+def _obstacle(where: Assembly, known: RollerPaths, r: float, between: float) -> str:
     """What stands in the way of a roller; nothing if it does."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))

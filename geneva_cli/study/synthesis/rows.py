@@ -17,14 +17,14 @@ from geneva_cli.study.synthesis.parts import Parts, suited
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, greatest
+from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 
 GROOVE = "groove_pressure_deg"
 NEAR_DEG = 3.0  # of its limit, within which the pressure angle is looked for between places
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
-class Way(NamedTuple):
+class Candidate(NamedTuple):
     """One machine, and one row: what it is, then what it costs (invariants)."""
 
     z: int
@@ -68,7 +68,7 @@ class Row(NamedTuple):
     """A machine: its spec, what it is and costs, and the quantities asked for beside these."""
 
     spec: Spec
-    way: Way
+    candidate: Candidate
     asked: tuple[float | int | str | bool | None, ...] = ()
 
 
@@ -106,7 +106,7 @@ def _wedged(machine: Mechanism) -> str:
     groove = machine.engagements[0].groove
     if groove is None or seen_pressure(groove) < GROOVE_MAX_DEG - NEAR_DEG:
         return ""
-    check = greatest(GROOVE, machine)
+    check = groove_pressure(GROOVE, machine)
     return GROOVE if check and check.passes is False else ""
 
 
@@ -128,16 +128,18 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
         law = machine.spec.motion
         values = five if law is None else _law_costs(machine, law.law.NAME)
         if values is not None:
-            out.append(Row(found.parts.spec, _way(machine, wish, values, found.parts.said)))
+            out.append(Row(found.parts.spec, _candidate(machine, wish, values, found.parts.said)))
     return out
 
 
-def _way(machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | None) -> Way:
+def _candidate(
+    machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | None
+) -> Candidate:
     spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
     own = spec.wheel.as_dict() | spec.drive.as_dict()
     n = spec.drive.n_rpm if wish.timed else None
     velocity, acceleration, entry, jerk, power = costs
-    return Way(
+    return Candidate(
         z=spec.wheel.z,
         gearing=spec.wheel.NAME,
         rollers=spec.drive.rollers,

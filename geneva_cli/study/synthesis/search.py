@@ -20,7 +20,7 @@ from geneva_cli.study.synthesis.families.every import families
 from geneva_cli.study.synthesis.families.family import holds, natural_deg
 from geneva_cli.study.synthesis.families.straight import plain
 from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
-from geneva_cli.study.synthesis.rows import Row, Way, rows
+from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -94,20 +94,20 @@ def _limited(wish: Wish, spec: Spec) -> Spec:
     """The spec with the limit that the wish is, beside its own."""
     if wish.acceleration_max is None:
         return spec
-    return spec.but(limits=spec.limits.but(acceleration_max=wish.acceleration_max))
+    return spec.replace(limits=spec.limits.replace(acceleration_max=wish.acceleration_max))
 
 
 def _kept(wish: Wish, row: Row) -> bool:
     """Whether the machine as built moves as wished: a linkage may drive another wheel as well."""
-    limit, motion = wish.acceleration_max, wish.motion_for(row.way.rollers)
-    if motion is not None and not holds(motion, row.way.motion_deg):
+    limit, motion = wish.acceleration_max, wish.motion_for(row.candidate.rollers)
+    if motion is not None and not holds(motion, row.candidate.motion_deg):
         return False
-    return limit is None or keeps(row.way.acceleration_max, "at most", limit)
+    return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
 
 
 def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
     """The quantity asked for, then peaks; those that differ by rounding only are equal."""
-    way = row.way
+    candidate = row.candidate
     first: list[object] = []
     if wanted.sort:
         value = row.asked[wanted.names.index(wanted.sort)]
@@ -119,23 +119,23 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
             float(f"{number:.12g}"),
             "" if is_number(value) else str(value),
         ]
-    peaks = (way.acceleration_max, way.jerk_max)
+    peaks = (candidate.acceleration_max, candidate.jerk_max)
     return (
         *first,
         *[float(f"{x:.12g}") for x in peaks],
-        way.rollers,
-        way.z,
-        way.gearing,
-        way.drive,
+        candidate.rollers,
+        candidate.z,
+        candidate.gearing,
+        candidate.drive,
     )
 
 
-def synthesis(wish: Wish) -> list[tuple[Spec, Way]]:
+def synthesis(wish: Wish) -> list[tuple[Spec, Candidate]]:
     """The machines that grant the wish, the lowest peak acceleration first, no part turned.
 
     Raises GenevaError, saying what is within reach, where there is none.
     """
-    return [(row.spec, row.way) for row in search(wish).rows]
+    return [(row.spec, row.candidate) for row in search(wish).rows]
 
 
 def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:

@@ -9,12 +9,12 @@ from typing import NamedTuple
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.parts import MAYBE, YES
-from geneva_cli.study.synthesis.rows import Row, Way
+from geneva_cli.study.synthesis.rows import Candidate, Row
 from geneva_cli.study.synthesis.search import Found, search
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
 
-NAMES = ("no", *Way._fields)
+NAMES = ("no", *Candidate._fields)
 TURNED = 20  # rows whose parts are turned where nothing is said
 
 
@@ -23,7 +23,10 @@ def synthesis_table(
 ) -> Table:
     """One row a machine, numbered from 1, as ``turned`` gives them."""
     found = found or search(wish)
-    rows = [(one.no, *one.row.way, *one.row.asked) for one in turned(wish, found, count, buildable)]
+    rows = [
+        (one.no, *one.row.candidate, *one.row.asked)
+        for one in turned(wish, found, count, buildable)
+    ]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
     by = wish.sort or "lowest peak acceleration"
     title = f"{what}, {by} first" if len(rows) > 1 else what
@@ -53,24 +56,24 @@ def turned(
     """
     every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
     among = every if buildable else every[:count]
-    some = [one.row for one in among if one.row.way.parts == MAYBE]
+    some = [one.row for one in among if one.row.candidate.parts == MAYBE]
     work = partial(built, fixed=fixed(wish))
     shown = mapped(work, [row.spec for row in some], min(len(some), cores()), "machines")
     passed = 0
     for one in every:
-        maybe = one.row.way.parts == MAYBE
+        maybe = one.row.candidate.parts == MAYBE
         if buildable and (passed >= count or not maybe):
             continue
         row = told(one.row, next(shown)) if maybe and (buildable or one.no <= count) else one.row
-        passed += row.way.parts == YES
-        if not buildable or row.way.parts == YES:
+        passed += row.candidate.parts == YES
+        if not buildable or row.candidate.parts == YES:
             yield Numbered(one.no, row)
 
 
 def told(row: Row, result: Built) -> Row:
     """A row whose parts were turned."""
     said = f"no: {result.trouble}" if result.trouble else YES
-    return row._replace(spec=result.spec, way=row.way._replace(parts=said))
+    return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=said))
 
 
 def fixed(wish: Wish) -> frozenset[str]:

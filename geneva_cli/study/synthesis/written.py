@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.synthesis.built import Built, built
-from geneva_cli.study.synthesis.rows import Row, Way
+from geneva_cli.study.synthesis.rows import Candidate, Row
 from geneva_cli.study.synthesis.table import fixed
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -23,26 +23,26 @@ def chosen(wish: Wish, found: Sequence[Row], number: int) -> tuple[Built, str]:
     if not 1 <= number <= len(found):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(found)}")
     row = found[number - 1]
-    no, _, why = (row.way.parts or "").partition(": ")
+    no, _, why = (row.candidate.parts or "").partition(": ")
     made = Built(row.spec, why) if no == "no" else built(row.spec, fixed(wish))
-    return made, commented(wish, number, row.way, made)
+    return made, commented(wish, number, row.candidate, made)
 
 
-def commented(wish: Wish, number: int, way: Way, found: Built) -> str:
+def commented(wish: Wish, number: int, row: Candidate, found: Built) -> str:
     """The text of a spec that synthesis found."""
-    return "\n".join([*_heading(wish, number, way, found), *written(found.spec)]) + "\n"
+    return "\n".join([*_heading(wish, number, row, found), *written(found.spec)]) + "\n"
 
 
-def _heading(wish: Wish, number: int, way: Way, found: Built) -> list[str]:
-    z = f"{way.z} slots, {way.gearing}"
-    slots = f"{way.drive}, {way.law}" if way.law else way.drive
+def _heading(wish: Wish, number: int, row: Candidate, found: Built) -> list[str]:
+    z = f"{row.z} slots, {row.gearing}"
+    slots = f"{row.drive}, {row.law}" if row.law else row.drive
     lines = [
         f"title = {quoted(f'{wish.words}: {z}, {slots}')}",
         "",
-        f"# Row {number} of `geneva synth`. It moves for {way.motion_deg:.7g} deg of the input and",
-        f"# rests for {way.dwell_deg:.7g}: tau = {way.tau:.7g}, k = {way.k:.7g}.",
-        "# Invariants: " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[:3]) + ",",
-        "# " + ", ".join(f"{n} {getattr(way, n):.7g}" for n in COSTS[3:]) + ".",
+        f"# Row {number} of `geneva synth`. It moves for {row.motion_deg:.7g} deg of the input and",
+        f"# rests for {row.dwell_deg:.7g}: tau = {row.tau:.7g}, k = {row.k:.7g}.",
+        "# Invariants: " + ", ".join(f"{n} {getattr(row, n):.7g}" for n in COSTS[:3]) + ",",
+        "# " + ", ".join(f"{n} {getattr(row, n):.7g}" for n in COSTS[3:]) + ".",
     ]
     if found.trouble:
         lines.append(f"# Beware: its parts cannot be built: {found.trouble}.")

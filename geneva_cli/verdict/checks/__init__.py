@@ -1,4 +1,4 @@
-"""Does the design work? Each check with its value and its limit.
+"""The checks of a design, each with its value and its limit.
 
 A check is one file, or a function in a file of like ones, and one line in ``registry``.
 """
@@ -13,7 +13,14 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION, ask, of_machine, standing, turning
+from geneva_cli.verdict.checks.registry import (
+    LIMITS,
+    MOTION,
+    check_named,
+    motion_checks,
+    static_checks,
+    turn_checks,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
@@ -21,32 +28,32 @@ if TYPE_CHECKING:
 
 def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
-    motion = list(of_machine(MOTION, mechanism))
+    motion = list(motion_checks(MOTION, mechanism))
     shown = list(_parts(mechanism, proof)) if parts else []
-    return [*motion, *shown, *of_machine(LIMITS, mechanism)]
+    return [*motion, *shown, *motion_checks(LIMITS, mechanism)]
 
 
-def each(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
-    """The same checks one by one as they are made, the dearest last."""
-    yield from of_machine(MOTION, mechanism)
-    yield from of_machine(LIMITS, mechanism)
+def checks_quick_first(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
+    """The same checks one after the other, those that take longest last."""
+    yield from motion_checks(MOTION, mechanism)
+    yield from motion_checks(LIMITS, mechanism)
     if parts:
         yield from _parts(mechanism)
 
 
-def one(mechanism: Mechanism, name: str) -> Check | None:
-    """A single check, for no more work than it takes; None if the design has none of this name."""
+def single_check(mechanism: Mechanism, name: str) -> Check | None:
+    """The check of this name, without making the others; None if the design has no such check."""
     for among in (MOTION, LIMITS):
-        found = ask(among, name, mechanism)
+        found = check_named(among, name, mechanism)
         if found:
             return found
     return next((c for c in _parts(mechanism) if c.name == name), None)
 
 
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
-    """Walls, shafts and the full turn, where the machine has flat parts.
+    """Walls, shafts and the full turn of a machine with flat parts.
 
-    Where these cannot be made, or turned, one check says so in place of the rest.
+    Where the parts cannot be made, or turned, one check says so in place of the rest.
     """
     if not mechanism.spec.is_flat:
         yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
@@ -56,7 +63,7 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
 
     proof = proof or Proof(mechanism)
     try:
-        rows = list(standing(proof.found))
+        rows = list(static_checks(proof.found))
     except GenevaError as error:
         yield Check("parts", 0.0, "at least", 1.0, False, str(error))
         return
@@ -66,7 +73,7 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     except NotProved as error:
         yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
         return
-    yield from turning(proof.found, turn)
+    yield from turn_checks(proof.found, turn)
 
 
 def _unturned(mechanism: Mechanism) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm, walls
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 KEYS = (
     "arm_bore_mm",
@@ -41,4 +41,4 @@ def _asked(
         made = crank_arm(found)
     except GenevaError as error:
         return Check(name, None, "at least", limit, False, str(error))
-    return held(name, value(made), "at least", limit)
+    return compared(name, value(made), "at least", limit)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 LOOKS = 400  # places at which they are compared
 
@@ -35,4 +35,4 @@ def _greatest(name: str, found: Outlines, side: float) -> Check | None:
     gap = 2.0 * found.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
     i = int(np.argmax(gap))
     at_deg = found.assembly.given.shown_deg(engagement.mid_deg + float(t[i]))
-    return held(name, max(float(gap[i]), 0.0), "at most", 2.0 * found.sizes.half_width, at_deg)
+    return compared(name, max(float(gap[i]), 0.0), "at most", 2.0 * found.sizes.half_width, at_deg)

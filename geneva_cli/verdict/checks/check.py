@@ -7,13 +7,15 @@ from typing import NamedTuple
 
 from geneva_cli.numerics.keeps import keeps
 
+NONE = "none found"  # ``nearest`` of a failing check for which the adviser found no change
+
 
 class Check(NamedTuple):
     """One check of one design.
 
-    ``passes`` is None where it cannot be told; ``nearest`` then says why, and where a check fails
-    it is the nearest change that would pass. ``at_deg`` is the input angle at which the value
-    occurs, where it is of one place.
+    ``passes`` is None where that is not known, and ``nearest`` then says why; of a check that fails
+    ``nearest`` is the nearest change that would pass. ``at_deg`` is the input angle at which the
+    value occurs, None where it is not a value at one angle.
     """
 
     name: str
@@ -25,7 +27,7 @@ class Check(NamedTuple):
     at_deg: float | None = None
 
 
-def held(
+def compared(
     name: str,
     value: float,
     must_be: str,
@@ -33,11 +35,11 @@ def held(
     at_deg: float | None = None,
     noise: float = 0.0,
 ) -> Check:
-    """A value held to a limit: "at least", "at most" or "above".
+    """The check that a value is "at least", "at most" or "above" a limit.
 
-    ``noise`` is the rounding of the value, where that is larger than the limit's.
+    ``noise`` is the rounding error of the value, where that is larger than the limit's.
 
-    >>> held("jerk_max", 31.4, "at most", 30.0).passes
+    >>> compared("jerk_max", 31.4, "at most", 30.0).passes
     False
     """
     passes = keeps(value, must_be, limit, noise)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
-def of_gear(name: str, mechanism: Mechanism) -> Check | None:
+def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
     """The least curvature of the driving or the driven gear."""
     gears = mechanism.spec.drive.gears
     if not gears:
@@ -14,4 +14,4 @@ def of_gear(name: str, mechanism: Mechanism) -> Check | None:
     from geneva_cli.parts.gear_curves import convexity
 
     least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
-    return held(name, least, "above", 0.0)
+    return compared(name, least, "above", 0.0)

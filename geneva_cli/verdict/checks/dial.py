@@ -9,7 +9,7 @@ from geneva_cli.curves.shapes import Circle, backwards
 from geneva_cli.parts.hole_walls import apart, beyond
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.wheel import wheel_circles
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
 def wall(name: str, found: Outlines) -> Check | None:
@@ -26,4 +26,4 @@ def wall(name: str, found: Outlines) -> Check | None:
         assert isinstance(hole, Circle)  # an internal wheel has no bore
         x, y = hole.centre
         walls.append(found.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
-    return held(name, min(walls), "at least", found.sizes.wall_min)
+    return compared(name, min(walls), "at least", found.sizes.wall_min)

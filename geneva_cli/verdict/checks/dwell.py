@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
-def shortest(name: str, mechanism: Mechanism) -> Check:
+def shortest_dwell(name: str, mechanism: Mechanism) -> Check:
     """The shortest dwell, degrees of the input: below 0 a roller enters before one has left."""
     least = min(mechanism.dwell_deg(i) for i in range(len(mechanism.engagements)))
-    return held(name, least, "at least", 0.0)
+    return compared(name, least, "at least", 0.0)

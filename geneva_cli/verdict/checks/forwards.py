@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.cautions import turns_back
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
 def least_velocity(name: str, mechanism: Mechanism) -> Check | None:
@@ -12,4 +12,4 @@ def least_velocity(name: str, mechanism: Mechanism) -> Check | None:
     if mechanism.law is None:
         return None
     value, at_deg = turns_back(mechanism) or (0.0, None)
-    return held(name, value, "at least", 0.0, at_deg)
+    return compared(name, value, "at least", 0.0, at_deg)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 # Steeper, a roller is wedged in its groove rather than led by it; as where it enters a slot.
 GROOVE_MAX_DEG = 60.0
 
 
-def greatest(name: str, mechanism: Mechanism) -> Check | None:
+def groove_pressure(name: str, mechanism: Mechanism) -> Check | None:
     """The greatest pressure angle in the groove."""
     groove = mechanism.engagements[0].groove
     if groove is None:
@@ -19,4 +19,4 @@ def greatest(name: str, mechanism: Mechanism) -> Check | None:
     value, at_deg = greatest_pressure(groove)
     given = mechanism.spec.limits.pressure_angle_max_deg
     limit = GROOVE_MAX_DEG if given is None else given
-    return held(name, value, "at most", limit, mechanism.shown_deg(at_deg))
+    return compared(name, value, "at most", limit, mechanism.shown_deg(at_deg))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from geneva_cli.analysis.peaks import Peaks, worst
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 VALUES: dict[str, Callable[[Peaks], float]] = {
     "velocity_max": lambda p: p.velocity.max,
@@ -16,7 +16,9 @@ VALUES: dict[str, Callable[[Peaks], float]] = {
 }
 
 
-def greatest(name: str, mechanism: Mechanism) -> Check | None:
+def limited_peak(name: str, mechanism: Mechanism) -> Check | None:
     """The peak that a key of ``[limits]`` bounds."""
     limit = mechanism.spec.limits.as_dict()[name]
-    return None if limit is None else held(name, VALUES[name](worst(mechanism)), "at most", limit)
+    return (
+        None if limit is None else compared(name, VALUES[name](worst(mechanism)), "at most", limit)
+    )

@@ -6,7 +6,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links, link_wall
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.planes import planes
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 KEYS = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
 
@@ -21,7 +21,7 @@ def wall(name: str, found: Outlines) -> Check | None:
     except GenevaError as error:
         return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
     least = min(map(link_wall, made.plates), default=None)
-    return None if least is None else held(name, least, "at least", found.sizes.wall_min)
+    return None if least is None else compared(name, least, "at least", found.sizes.wall_min)
 
 
 def gap(name: str, found: Outlines) -> Check | None:
@@ -45,4 +45,6 @@ def gap(name: str, found: Outlines) -> Check | None:
         )
     if seen.nearest is None:
         return None
-    return held(name, seen.nearest.gap, "at least", 0.0, given.shown_deg(seen.nearest.input_deg))
+    return compared(
+        name, seen.nearest.gap, "at least", 0.0, given.shown_deg(seen.nearest.input_deg)
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 QUANTITIES = {
     "pin_force_max_N": "pin_force_N",
@@ -13,10 +13,10 @@ QUANTITIES = {
 }
 
 
-def greatest(name: str, mechanism: Mechanism) -> Check | None:
+def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     """The load that a key of ``[limits]`` bounds, and where it is greatest."""
     limit = mechanism.spec.limits.as_dict()[name]
     if limit is None:
         return None
     found = loads.greatest(mechanism, QUANTITIES[name])
-    return held(name, found.max, "at most", limit, found.at_deg)
+    return compared(name, found.max, "at most", limit, found.at_deg)

@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
 # Of a step, either way, in a slot: where the driving wall changes the wheel falls behind by twice
@@ -47,7 +47,7 @@ def motion_play_max(found: Outlines) -> float:
 
 
 def _at_most(name: str, found: Most, limit: float) -> Check:
-    return held(name, found.deg, "at most", limit, found.at_deg if found.deg else None)
+    return compared(name, found.deg, "at most", limit, found.at_deg if found.deg else None)
 
 
 def _finds_slot(found: Outlines) -> float:

@@ -8,7 +8,7 @@ from geneva_cli.numerics.keeps import keeps
 from geneva_cli.verdict.checks.check import Check
 
 
-def of_curved_slots(name: str, mechanism: Mechanism) -> Check | None:
+def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
     """Curved slots without a limit of their own: the wall must drive at all."""
     given = mechanism.spec.limits.pressure_angle_max_deg is not None
     if given or not mechanism.engagements[0].slot.curved:
@@ -16,7 +16,7 @@ def of_curved_slots(name: str, mechanism: Mechanism) -> Check | None:
     return _greatest(name, mechanism, 90.0)
 
 
-def as_asked(name: str, mechanism: Mechanism) -> Check | None:
+def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
     """Any slots, with the limit that the spec gives."""
     limit = mechanism.spec.limits.pressure_angle_max_deg
     return None if limit is None else _greatest(name, mechanism, limit)

@@ -1,7 +1,7 @@
-"""The checks, each loaded when it is asked for, in the order shown.
+"""The list of checks, in the order shown; each is imported when it is made.
 
-A new check is one file, or a function in a file of like ones, and one line here. It is called with
-its name and what it is a check of, and gives None where there is nothing to check.
+A new check is one file, or a function in a file of related ones, and one line here. The function
+gets its name and the object that is checked, and returns None where the check does not apply.
 """
 
 from __future__ import annotations
@@ -19,39 +19,39 @@ if TYPE_CHECKING:
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
-# Of a machine: what every one of its kind must pass.
+# Of the machine: made for each that they apply to.
 MOTION: Checks = {
-    "dwell_deg": "dwell:shortest",
-    "driver_gear_convexity": "convexity:of_gear",
-    "driven_gear_convexity": "convexity:of_gear",
+    "dwell_deg": "dwell:shortest_dwell",
+    "driver_gear_convexity": "convexity:gear_convexity",
+    "driven_gear_convexity": "convexity:gear_convexity",
     "velocity_min": "forwards:least_velocity",
-    "groove_pressure_deg": "groove:greatest",
-    "pressure_angle_deg": "pressure:of_curved_slots",
-    "undercut_mm": "undercut:deepest",
-    "entry_shock_N": "shocks:of_entry",
-    "reversal_shock_N": "shocks:of_reversal",
+    "groove_pressure_deg": "groove:groove_pressure",
+    "pressure_angle_deg": "pressure:curved_slot_pressure",
+    "undercut_mm": "undercut:undercut_depth",
+    "entry_shock_N": "shocks:entry_shock",
+    "reversal_shock_N": "shocks:reversal_shock",
 }
-# Of a machine: what its spec asks for.
+# Of the machine: made where the spec sets the limit.
 LIMITS: Checks = {
-    "velocity_max": "invariants:greatest",
-    "acceleration_max": "invariants:greatest",
-    "acceleration_entry_max": "invariants:greatest",
-    "jerk_max": "invariants:greatest",
-    "pin_force_max_N": "load_limits:greatest",
-    "input_torque_max_Nm": "load_limits:greatest",
-    "pressure_angle_deg": "pressure:as_asked",
-    "contact_stress_max_MPa": "load_limits:greatest",
-    "pv_max_W_m2": "strength:borne",
-    "roller_life_min_h": "strength:borne",
-    "pin_stress_MPa": "strength:borne",
-    "horn_stress_MPa": "strength:borne",
-    "lock_horn_stress_MPa": "strength:borne",
-    "lock_stress_max_MPa": "strength:borne",
-    "wheel_shaft_stress_MPa": "strength:borne",
-    "crank_shaft_stress_MPa": "strength:borne",
+    "velocity_max": "invariants:limited_peak",
+    "acceleration_max": "invariants:limited_peak",
+    "acceleration_entry_max": "invariants:limited_peak",
+    "jerk_max": "invariants:limited_peak",
+    "pin_force_max_N": "load_limits:limited_load",
+    "input_torque_max_Nm": "load_limits:limited_load",
+    "pressure_angle_deg": "pressure:limited_pressure",
+    "contact_stress_max_MPa": "load_limits:limited_load",
+    "pv_max_W_m2": "strength:strength_limit",
+    "roller_life_min_h": "strength:strength_limit",
+    "pin_stress_MPa": "strength:strength_limit",
+    "horn_stress_MPa": "strength:strength_limit",
+    "lock_horn_stress_MPa": "strength:strength_limit",
+    "lock_stress_max_MPa": "strength:strength_limit",
+    "wheel_shaft_stress_MPa": "strength:strength_limit",
+    "crank_shaft_stress_MPa": "strength:strength_limit",
 }
-# Of flat parts as they stand.
-STANDING: Checks = {
+# Of flat parts, without turning them.
+STATIC: Checks = {
     "wall_between_slots_mm": "walls:between_slots",
     "horn_mm": "walls:horn",
     "wheel_bore_wall_mm": "walls:wheel_bore",
@@ -68,7 +68,7 @@ STANDING: Checks = {
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
 }
-# Of flat parts and a whole turn of them.
+# Of flat parts in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
     "gap_mm": "touching:smallest_gap",
@@ -80,23 +80,23 @@ TURNING: Checks = {
 }
 
 
-def of_machine(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
-    """Those of MOTION or LIMITS, one by one as they are made."""
+def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
+    """The checks of MOTION or LIMITS that apply to a machine."""
     yield from _made(among, mechanism)
 
 
-def standing(found: Outlines) -> Iterator[Check]:
-    """The checks of the parts as they stand: walls, shafts, branches of a slot."""
-    yield from _made(STANDING, found)
+def static_checks(found: Outlines) -> Iterator[Check]:
+    """The checks of parts at rest: walls, shafts, branches of a slot."""
+    yield from _made(STATIC, found)
 
 
-def turning(found: Outlines, turn: FullTurn) -> Iterator[Check]:
-    """What a whole turn shows: no parts overlap, the wheel is held, pushed into line and led."""
+def turn_checks(found: Outlines, turn: FullTurn) -> Iterator[Check]:
+    """The checks of a whole turn: no parts overlap; the wheel is held and led."""
     yield from _made(TURNING, found, turn)
 
 
-def ask(among: Checks, name: str, *of: object) -> Check | None:
-    """The check of this name; None where there is none, or nothing to check."""
+def check_named(among: Checks, name: str, *of: object) -> Check | None:
+    """The check of this name; None where the list has none, or it does not apply."""
     found: Check | None = None
     if name in among:
         found = named(f"verdict.checks.{among[name]}")(name, *of)
@@ -104,4 +104,4 @@ def ask(among: Checks, name: str, *of: object) -> Check | None:
 
 
 def _made(among: Checks, *of: object) -> Iterator[Check]:
-    yield from (check for name in among if (check := ask(among, name, *of)))
+    yield from (check for name in among if (check := check_named(among, name, *of)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
 def crank_shaft(name: str, found: Outlines) -> Check | None:
@@ -16,7 +16,7 @@ def crank_shaft(name: str, found: Outlines) -> Check | None:
         return None
     # An internal wheel's horns sweep over the crank's axis, and there is no room at all.
     room = assembly.L - size.rim - shaft if assembly.sign > 0.0 else -shaft
-    return held(name, room, "at least", 0.0)
+    return compared(name, room, "at least", 0.0)
 
 
 def crank_hub(name: str, found: Outlines) -> Check | None:
@@ -24,7 +24,7 @@ def crank_hub(name: str, found: Outlines) -> Check | None:
     shaft = _shaft(found.sizes)
     if not (shaft and found.crank and is_whole(found.assembly, found.sizes)):
         return None
-    return held(name, found.relief_depth - shaft, "at least", 0.0)
+    return compared(name, found.relief_depth - shaft, "at least", 0.0)
 
 
 def wheel_shaft(name: str, found: Outlines) -> Check | None:
@@ -33,7 +33,7 @@ def wheel_shaft(name: str, found: Outlines) -> Check | None:
     hub = max(size.wheel_bore, size.wheel_hub)
     if not (hub and found.assembly.sign > 0.0):
         return None
-    return held(name, size.slot_end - hub, "at least", 0.0)
+    return compared(name, size.slot_end - hub, "at least", 0.0)
 
 
 def _shaft(size: Sizes) -> float:

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.tables import Tolerance
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.blows import Blow
 
 
-def of_entry(name: str, mechanism: Mechanism) -> Check | None:
-    """The blow of a roller that does not come in along its slot, R/L being wrong."""
+def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
+    """The blow at entry where R/L is wrong, and the roller does not come in along its slot."""
     given = mechanism.spec.tolerance
     if not (given.crank_radius_mm or given.center_distance_mm):
         return None
@@ -30,8 +30,8 @@ def of_entry(name: str, mechanism: Mechanism) -> Check | None:
     return check._replace(nearest=_share(mechanism, check.limit or 0.0))
 
 
-def of_reversal(name: str, mechanism: Mechanism) -> Check | None:
-    """The blow of a roller that leaves one wall of its slot for the other."""
+def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
+    """The blow where the roller leaves one wall of its slot for the other."""
     if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
         return None
     from geneva_cli.analysis.blows import reversal_blow
@@ -58,7 +58,7 @@ def _judged(name: str, mechanism: Mechanism, blow: Blow) -> Check:
     """The blow's force, held to the pin's where that is limited."""
     limit = mechanism.spec.limits.pin_force_max_N
     if blow.force_N is not None and limit is not None:
-        return held(name, blow.force_N, "at most", limit, blow.at_deg)
+        return compared(name, blow.force_N, "at most", limit, blow.at_deg)
     spec, lacks = mechanism.spec, []
     if not spec.is_loaded:
         lacks.append("inertia_kgm2 in [load]")

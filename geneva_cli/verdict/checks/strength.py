@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -73,7 +73,7 @@ BOUNDS = {
 }
 
 
-def borne(name: str, mechanism: Mechanism) -> Check | None:
+def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     """A value held to its limit; none without a limit, or of what the machine has not.
 
     It cannot be told where a key is missing.
@@ -88,7 +88,7 @@ def borne(name: str, mechanism: Mechanism) -> Check | None:
     of = strength(mechanism)
     value, at_deg = bound.found(of)
     if value is not None:
-        return held(name, value, bound.must_be, limit, at_deg)
+        return compared(name, value, bound.must_be, limit, at_deg)
     if name not in of.needs:
         return None
     return Check(name, None, bound.must_be, limit, None, f"not known: it needs {of.needs[name]}")

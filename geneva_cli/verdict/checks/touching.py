@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.full_turn import FullTurn
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
 def smallest_gap(name: str, found: Outlines, turn: FullTurn) -> Check:
     """The smallest gap of wheel and crank, mm, negative where they overlap."""
     smallest, touch = turn.smallest, found.contact
     value = 0.0 if abs(smallest.mm) <= touch else smallest.mm
-    return held(name, value, "at least", 0.0, smallest.at_deg, touch)
+    return compared(name, value, "at least", 0.0, smallest.at_deg, touch)
 
 
 def idle_roller(name: str, found: Outlines, turn: FullTurn) -> Check | None:
@@ -20,4 +20,4 @@ def idle_roller(name: str, found: Outlines, turn: FullTurn) -> Check | None:
     if idle is None:
         return None
     gap = max(idle.mm, 0.0) if idle.mm >= -touch else idle.mm
-    return held(name, gap, "at least", 0.0, idle.at_deg, touch)
+    return compared(name, gap, "at least", 0.0, idle.at_deg, touch)

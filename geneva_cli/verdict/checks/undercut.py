@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 
-def deepest(name: str, mechanism: Mechanism) -> Check | None:
+def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
     """The depth of the undercut, mm, 0 where there is none."""
     if not mechanism.engagements[0].slot.curved:
         return None
@@ -15,4 +15,4 @@ def deepest(name: str, mechanism: Mechanism) -> Check | None:
 
     found = undercut(mechanism)
     depth, at_deg = (found.depth_mm, found.at_deg) if found else (0.0, None)
-    return held(name, depth, "at most", SHOWN_UNDERCUT, at_deg)
+    return compared(name, depth, "at most", SHOWN_UNDERCUT, at_deg)

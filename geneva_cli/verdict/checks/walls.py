@@ -9,7 +9,7 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Line, backwards, closed
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.verdict.checks.check import Check, held
+from geneva_cli.verdict.checks.check import Check, compared
 
 NO_WALL = {  # what it means that a wall is less than nothing
     "wall_between_slots_mm": "neighbouring slots cut each other",
@@ -67,4 +67,4 @@ def crank_bore(name: str, found: Outlines) -> Check | None:
 
 
 def _wall(name: str, value: float, found: Outlines) -> Check:
-    return held(name, value, "at least", found.sizes.wall_min)
+    return compared(name, value, "at least", found.sizes.wall_min)

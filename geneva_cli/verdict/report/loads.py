@@ -11,8 +11,8 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
 
 
-def greatest(proof: Proof) -> Values:
-    """None without a load, and where nothing bounds them, as a caution says."""
+def greatest_loads(proof: Proof) -> Values:
+    """The greatest loads and their input angles; None without a load, and for an unbounded one."""
     mechanism = proof.mechanism
     loaded = mechanism.spec.is_loaded
     values: Values = {}

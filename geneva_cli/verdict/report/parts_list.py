@@ -8,8 +8,8 @@ from geneva_cli.table import rows_table
 from geneva_cli.verdict.report.values import Values
 
 
-def listed(proof: Proof) -> Values:
-    """None for a table without rows, as the parts of a sphere."""
+def parts_list_tables(proof: Proof) -> Values:
+    """The three tables; None for one without rows, such as the parts of a spherical wheel."""
     rows = parts_list(proof).to_rows()
     values: Values = {}
     for kind, names in KINDS.items():

@@ -1,8 +1,7 @@
-"""The sections of a report, each loaded when it is asked for, in the order shown.
+"""The list of a report's sections, in the order shown; each is imported when it is made.
 
-A new section is one file, or a function in a file, and one line here, which says too whether it
-makes the parts of the machine, or turns them, which may take seconds: whoever wants only what is
-quick leaves it out.
+A new section is one file, or a function in a file, and one line here. The line also says whether
+the section makes the machine's parts or turns them, which may take seconds.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from geneva_cli.verdict.report.values import Values
 
 
 class Section(NamedTuple):
-    """A part of the report: who gives it, as module:function, and whether that makes parts."""
+    """A section: the function that gives it, as module:function, and whether that makes parts."""
 
     by: str
     makes_parts: bool = False
@@ -29,14 +28,14 @@ class Section(NamedTuple):
 SECTIONS = (
     Section("verdict.report.inputs:inputs"),
     Section("verdict.report.stations:stations"),
-    Section("verdict.report.loads:greatest"),
+    Section("verdict.report.loads:greatest_loads"),
     Section("verdict.report.cycle:cycle"),
     Section("verdict.report.shocks:shocks"),
-    Section("verdict.report.slot:driven"),
+    Section("verdict.report.slot:slot"),
     Section("verdict.report.vibration:vibration"),
     Section("verdict.report.sizes:sizes"),
     Section("verdict.report.parts:parts", makes_parts=True),
-    Section("verdict.report.parts_list:listed", makes_parts=True),
+    Section("verdict.report.parts_list:parts_list_tables", makes_parts=True),
     Section("verdict.report.tolerances:tolerances", makes_parts=True),
-    Section("verdict.report.strength:strong"),
+    Section("verdict.report.strength:strength_values"),
 )

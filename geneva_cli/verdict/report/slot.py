@@ -1,4 +1,4 @@
-"""Of curved slots: whether they drive the wheel positively under the spec's load."""
+"""The section on curved slots: whether they drive the wheel positively under the spec's load."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
 
 
-def driven(proof: Proof) -> Values:
-    """Where a wall that is needed is cut away, and how far the slot's two branches are apart."""
+def slot(proof: Proof) -> Values:
+    """Where the wall that must push is cut away, and the distance of the slot's two branches."""
     mechanism = proof.mechanism
     drive = positive_drive(mechanism) if mechanism.law is not None else None
     return {

@@ -9,7 +9,7 @@ from geneva_cli.verdict.report.values import Values
 from geneva_cli.verdict.strength import Strength, margin, strength
 
 
-def strong(proof: Proof) -> Values:
+def strength_values(proof: Proof) -> Values:
     """None without a load and a face width; ``strength.needs`` says which keys are missing."""
     of = strength(proof.mechanism)
     given = of.spec.shaft

@@ -21,7 +21,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
-from geneva_cli.verdict.checks.registry import turning
+from geneva_cli.verdict.checks.registry import turn_checks
 
 WORDS = "largest roller and locking disc, narrowest slot and recess"
 LOOSE = "smallest roller and locking disc, widest slot and recess"
@@ -100,7 +100,7 @@ def corner(
     roller = size.roller - sign * 0.5 * sizes["roller_diameter_mm"]
     clearance = max(given.slot_clearance_mm + sign * slot, 0.0)
     end = size.slot_bottom + size.half_width - roller - clearance
-    changed = given.but(
+    changed = given.replace(
         roller_radius_mm=roller,
         slot_clearance_mm=clearance,
         slot_bottom_clearance_mm=max(end, 0.0),
@@ -116,15 +116,15 @@ def corner(
         pin_mm=2.0 * size.pin,
     )
     if size.outer:
-        changed = changed.but(wheel_outer_radius_mm=size.outer)
-    return spec.but(size=changed)
+        changed = changed.replace(wheel_outer_radius_mm=size.outer)
+    return spec.replace(size=changed)
 
 
 def _fails(spec: Spec) -> tuple[bool | None, str] | None:
     """Which check of a whole turn fails; None where all pass."""
     try:
         proof = Proof(build(spec))
-        rows = list(turning(proof.found, proof.turn))
+        rows = list(turn_checks(proof.found, proof.turn))
     except GenevaError as error:
         return None, f"not proved: {error}"
     for row in rows:

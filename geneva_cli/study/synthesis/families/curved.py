@@ -93,7 +93,7 @@ def cam(spec: Spec) -> Spec:
     given = spec.drive
     assert spec.motion is not None
     drive = Cam(n_rpm=given.n_rpm, rollers=given.rollers)
-    return spec.but(drive=drive, motion=spec.motion.but(ratio=None))
+    return spec.replace(drive=drive, motion=spec.motion.replace(ratio=None))
 
 
 def more_rollers(wish: Wish, natural: float, make: Callable[[int], Spec | None]) -> Iterator[Spec]:

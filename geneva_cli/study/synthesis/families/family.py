@@ -53,7 +53,7 @@ def machine(
     """
     own = wish.frame or BARE
     found = drive(wish.n_rpm(m, motion_deg))
-    return own.but(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
+    return own.replace(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
 
 
 def natural_deg(wheel: Gearing) -> float:

@@ -124,13 +124,13 @@ def _spec(wish: Wish, wheel: Gearing, found: Pool, i: int) -> Spec | None:
     else:
         return None
     wheel_ = followed(path, ends.at.phi + step, sense[0])
-    return own.but(drive=keys) if len(wheel_.which) else None
+    return own.replace(drive=keys) if len(wheel_.which) else None
 
 
 def _machine(wish: Wish, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
     """A machine of the wish's frame; its centre distance follows from the links."""
-    held = wheel.but(held_by="detent")  # there is no locking disc
-    spec = machine(wish, held, lambda n: drive.but(n_rpm=n), 1, motion_deg)
+    held = wheel.replace(held_by="detent")  # there is no locking disc
+    spec = machine(wish, held, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
-    return spec.but(size=spec.size.but(center_distance_mm=None, wheel_hub_mm=hub))
+    return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

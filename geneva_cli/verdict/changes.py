@@ -1,0 +1,107 @@
+"""A change of one key of a spec: which values to try, given the value that it has now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sizes import Sizes
+
+Value: TypeAlias = float | int | str | None  # None: the key is left out
+# Keys that are not given by default, and take a word.
+WORDS = ("ratio", "held_by")
+STEPS = (
+    24  # from the present value to the last one tried: beyond one that passes may be one that fails
+)
+
+# The value of a key of [size], from the sizes that the machine's parts get.
+_SIZES: dict[str, Callable[[Sizes], float]] = {
+    "wheel_radius_mm": lambda s: s.rim,
+    "lock_radius_mm": lambda s: s.lock,
+    "relief_clearance_mm": lambda s: s.relief,
+    "slot_bottom_clearance_mm": lambda s: s.slot_bottom,
+    "wheel_outer_radius_mm": lambda s: s.outer,
+    "roller_radius_mm": lambda s: s.roller,
+    "wheel_bore_mm": lambda s: 2.0 * s.wheel_bore,
+    "wheel_hub_mm": lambda s: 2.0 * s.wheel_hub,
+    "crank_bore_mm": lambda s: 2.0 * s.crank_bore,
+    "crank_hub_mm": lambda s: 2.0 * s.crank_hub,
+    "pin_mm": lambda s: 2.0 * s.pin,
+}
+
+
+class Change(NamedTuple):
+    """A key to change, and the values to try as a function of its present one, nearest first.
+
+    Where one number passes and the next does not, the adviser searches between the two.
+    """
+
+    table: str
+    key: str
+    values: Callable[[Any], list[Value]]
+
+
+def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
+    """A key's present value: of a size that is not given its default; None where it has none."""
+    spec = mechanism.spec
+    value: Value = spec.table(table).get(key)
+    if value is not None or table != "size":
+        return value or ("" if key in WORDS else value)
+    if key == "roller_radius_mm":
+        return mechanism.roller_radius_mm
+    if key == "center_distance_mm":
+        return mechanism.center_distance_mm
+    return size_now(mechanism, key)
+
+
+def size_now(mechanism: Mechanism, key: str) -> float | None:
+    """A size of the parts by its key; None for a key that is no size, and where none can be cut."""
+    if key not in _SIZES:
+        return None
+    from geneva_cli.parts.assembly import assembly
+    from geneva_cli.parts.sizes import sizes
+
+    try:
+        return _SIZES[key](sizes(assembly(mechanism)))
+    except GenevaError:
+        return None
+
+
+def scaled(table: str, key: str, *factors: float) -> Change:
+    """The present value times some factors."""
+    return Change(table, key, lambda now: [factor * now for factor in factors])
+
+
+def replaced(table: str, key: str, *values: Value) -> Change:
+    """Other values of a key that has one which is not 0."""
+    return Change(table, key, lambda now: list(values) if now else [])
+
+
+def set_to(table: str, key: str, value: Value) -> Change:
+    """One value, whatever the present one is."""
+    return Change(table, key, lambda now: [value])
+
+
+def left_out(table: str, key: str) -> Change:
+    """The key's default."""
+    return set_to(table, key, None)
+
+
+def towards(table: str, key: str, end: float) -> Change:
+    """Even steps from a present number to an end."""
+
+    def values(now: Any) -> list[Value]:
+        if not isinstance(now, float):
+            return []
+        return [now + (end - now) * i / STEPS for i in range(1, STEPS + 1)]
+
+    return Change(table, key, values)
+
+
+def increased(table: str, key: str, most: float) -> Change:
+    """Even steps from the present number to one larger by ``most``, which may be negative."""
+    return Change(table, key, lambda now: [now + most * i / STEPS for i in range(1, STEPS + 1)])

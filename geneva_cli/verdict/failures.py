@@ -1,0 +1,74 @@
+"""The checks that a design fails, in words: those for which its parts cannot be cut, and others."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geneva_cli.verdict.checks.check import NONE, Check
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.proof import Proof
+
+# A roller that does not find its slot, or meets the rim beside it, jams.
+JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
+# Below the wheel's plane: the wheel can be cut all the same.
+BELOW = ("link_wall_mm", "link_gap_mm")
+
+
+def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
+    """Why the parts jam or cannot be cut, in words; and a sentence on each other failing check.
+
+    The first text is empty where the parts can be written.
+    """
+    turn = None
+    refused, warned, advice = [], [], ""
+    for c in rows:
+        if c.passes is not False:
+            continue
+        nearest = c.nearest if c.nearest != NONE else ""
+        if c.name == "full_turn":
+            refused.append(c.nearest)
+        elif c.name in JAMS or (
+            c.name not in BELOW
+            and c.must_be == "at least"
+            and c.name.endswith("_mm")
+            and (c.value or 0.0) < 0.0
+        ):
+            turn = turn or proof.turn
+            refused.append(in_words(c, turn.smallest.parts))
+            advice = advice or nearest
+        else:
+            warned.append(in_words(c) + (f"; {nearest} would pass" if nearest else ""))
+    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), warned
+
+
+def in_words(c: Check, parts: str = "parts") -> str:
+    """A failing check in words; ``parts`` names those that overlap."""
+    from geneva_cli.verdict.checks.walls import NO_WALL
+
+    where = "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
+    value, limit = c.value or 0.0, c.limit or 0.0
+    if c.name == "gap_mm":
+        return f"{parts} overlap by {-value:.4g} mm{where}"
+    if c.name == "idle_roller_mm":
+        return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
+    if c.name in NO_WALL and value < 0.0:
+        return f"{NO_WALL[c.name]} by {-value:.4g} mm"
+    if c.name == "dwell_hold":
+        return "nothing holds the wheel in its dwell"
+    if c.name == "hand_over_play_deg":
+        return (
+            f"between lock and slot the wheel can turn by {value:.4g} deg{where}, more than the "
+            f"{limit:.4g} at which the roller still finds its slot"
+        )
+    if c.name == "hand_over_pressure_deg":
+        return (
+            f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
+            f"{limit:g}"
+        )
+    if c.name == "motion_play_deg":
+        return (
+            f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
+            f"{limit:.4g}"
+        )
+    return f"{c.name} is {value:.6g}{where}; it must be {c.must_be} {limit:.6g}"
