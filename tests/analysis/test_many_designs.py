@@ -34,7 +34,7 @@ def designs(name):
     """Four designs of a machine together, and two of those that can be built each alone."""
     spec, rules = MACHINES[name]
     given = Load(inertia_kgm2=1.0, friction=0.1)
-    spec = spec.but(load=given, tolerance=Tolerance(roller_diameter_mm=0.01))
+    spec = spec.replace(load=given, tolerance=Tolerance(roller_diameter_mm=0.01))
     if spec.drive.ONE_ARM:
         spec = spec.with_("tolerance.crank_radius_mm", 0.02)
     varied = drawn([*rules, *CARRIED], 24, 7)
