@@ -199,9 +199,9 @@ def _without(
 
     def slope(x: float) -> tuple[float, float]:
         _, s, bend = f(x)
-        if not d_p:
+        if not d_p and x > p:  # between neighbouring doubles the middle is one of them
             bend -= s / (x - p)
-        if not d_q:
+        if not d_q and x < q:
             bend += s / (q - x)
         return s, bend
 

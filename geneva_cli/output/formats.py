@@ -9,7 +9,12 @@ from typing import Any
 from geneva_cli.errors import GenevaError, cut
 
 # --format -> module; the extension of a file names a format too
-FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
+FORMATS = {
+    "table": "text",
+    "csv": "delimited",
+    "json": "jsonfile",
+    "md": "markdown",
+}
 # of drawings only; they are written in FORMATS as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
 SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs

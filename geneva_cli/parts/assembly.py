@@ -121,8 +121,9 @@ def assembly(mechanism: Mechanism) -> Assembly:
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
-            'gearing = "spherical": its parts are not flat; as tables (-o FILE.csv) `--part wheel` '
-            "writes the slots on the sphere, and `--part slot` the flat development of one",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat; as tables (-o FILE.csv) '
+            "`--part wheel` writes the slots on the sphere, and `--part slot` the flat development "
+            "of one",
             ("wheel", "gearing"),
         )
     if not spec.drive.OUTLINED:

@@ -117,6 +117,14 @@ def test_stationary_points_on_scan_points_are_found_once():
     assert extrema(f, -2.0, 2.0) == [-1.0, 0.0, 1.0]
 
 
+def test_stationary_points_in_an_interval_without_a_middle():
+    """As of a motion over the least double there is: halves of it are its ends."""
+    least = math.ulp(0.0)
+    for a, b in ((0.0, least), (1.0, 1.0 + math.ulp(1.0))):
+        found = extrema(lambda x, a=a, b=b: (0.0, (x - a) * (b - x), 1.0), a, b)
+        assert all(x in (a, b) for x in found)
+
+
 def test_monotone_and_constant():
     assert extrema(lambda x: (x, 1.0, 0.0), 0.0, 1.0) == []
     assert extrema(lambda x: (math.exp(x), math.exp(x), math.exp(x)), -3.0, 3.0) == []
