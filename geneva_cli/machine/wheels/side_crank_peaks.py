@@ -1,39 +1,32 @@
-"""Peak velocity and acceleration of very many wheels at once, or the latter of one in plain
-Python: straight slots behind a side-crank (A = 0: a plain crank).
+"""Peak velocity and acceleration of straight slots behind a side-crank, of many designs at once.
 
-With f the crank's angle from mid-motion, C = sqrt(1 - A² sin² f) and rho = C + A cos f,
-
-    f1 = C / rho,   f2 = A (1-A²) sin f / rho³        (by the input angle)
-    acceleration = g2 f1² + g1 f2                     (g: the wheel over f, as in kernel.py)
-
-so that everything is a function of f, in which even |A| near 1 is tame: over the input angle all
-would happen within a sliver of it. C is a sum of squares and rho = (1-A²)/(C - A cos f) where
-A cos f < 0, so nothing cancels. The slope over f, divided by f1² and the wheel's constant, is
-scanned for changes of sign, each is refined by Newton kept in its bracket, and the end of the
-motion competes.
-
-The velocity is greatest where the acceleration, without what vanishes with sin f, is zero:
-
-    h = (1-l²) C² rho - g (c - g l) D A (1-A²)        (g = 1 outside, -1 inside; c = cos f)
-
-The velocity falls where h > 0. Outside h has no zero, and the peak is at mid-motion: D <= 1 - l²
-and c - l <= c for c >= l, and C² >= 1 - A², so that h >= (1-l²) (1-A²) (rho - A c) > 0 for A > 0,
-and a sum of positive terms for A < 0. Inside it has none for A <= 0.
-
-Source: theory of the side-crank, f = atan2(sin phi, A + cos phi) and its derivatives, with the
-triangle of base, crank and coulisse put in for phi.
+The acceleration's slope over the crank's angle (see ``side_crank_formulas``) is scanned for changes
+of sign; each is refined by Newton kept in its bracket, and the values found compete with the jump
+at the end of the motion. The velocity's peak is found likewise. The acceleration's peak of one
+design needs no NumPy.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.wheels.classic import half_motion_deg
+from geneva_cli.machine.wheels.side_crank_formulas import (
+    Wheel,
+    acceleration,
+    acceleration_at_end,
+    acceleration_slope_sign,
+    acceleration_slopes,
+    velocity,
+    velocity_fall,
+    velocity_fall_slope,
+    wheel_of,
+)
 from geneva_cli.numerics.angles import DEGREE, one_minus_sin_pi, sin_cos_pi
-from geneva_cli.numerics.arrays import PLAIN, choose, library
+from geneva_cli.numerics.arrays import PLAIN, library
 from geneva_cli.numerics.roots import root
 from geneva_cli.spec.rules import Z_MAX
 
@@ -48,147 +41,6 @@ SOON, STEPS = 3, 60  # steps of Newton: in a block, and at most
 EXACT_Z = 64  # from here on, rounding pi/z costs less than half a unit in the last place
 
 
-K = TypeVar("K", float, "Array")
-
-
-class Wheel(NamedTuple, Generic[K]):
-    """One design, or arrays of many: what the formulas need of it."""
-
-    sign: K  # +1 external, -1 internal
-    l: K  # sin(pi/z)
-    rest: K  # 1 - l
-    tan: K  # tan(pi/z)
-    half: K  # crank angle of half the motion, radians
-    A: K
-    end: tuple[K, K]  # sine and cosine of ``half``, exactly: cos b and +-l
-    big: K  # 1 + 4 l + l²
-    rest2: K  # (1-l)²
-    minus: K  # 1 - A²
-
-
-def _wheel(sign: K, l: K, rest: K, cos_b: K, half: K, A: K) -> Wheel[K]:
-    big = 1.0 + l * (4.0 + l)
-    minus = (1.0 - A) * (1.0 + A)
-    return Wheel(sign, l, rest, l / cos_b, half, A, (cos_b, sign * l), big, rest * rest, minus)
-
-
-def _front(m: Library, w: Wheel[K], s: K, c: K) -> tuple[K, K]:
-    """C and rho where the crank's sine and cosine are s and c."""
-    C = m.sqrt(c * c + w.minus * (s * s))
-    Ac = w.A * c
-    long = C + abs(Ac)
-    if isinstance(Ac, float):
-        return C, w.minus / long if Ac < 0.0 else long
-    return C, choose(Ac < 0.0, w.minus / long, long)
-
-
-def _value(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
-    """The size of the acceleration at the crank angle f, and the input angle there."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
-    D = w.rest2 + 2.0 * w.l * v
-    f1 = C / rho
-    # l sin f is common to both terms
-    wheel = w.rest * (1.0 + w.l) * (f1 / D) * (f1 / D)
-    front = w.sign * (w.rest - v) / D * (w.A * w.minus / rho) / (rho * rho)
-    return w.l * s * abs(wheel - front), _input(m, w, s, c, C, rho)
-
-
-def _versine(m: Library, w: Wheel[K], sine: K, cosine: K) -> K:
-    """1 - cos f outside, 1 + cos f inside, from the half angle."""
-    if isinstance(sine, float):
-        half = sine if w.sign > 0.0 else cosine
-    else:
-        half = choose(w.sign > 0.0, sine, cosine)
-    return 2.0 * half * half
-
-
-def _input(m: Library, w: Wheel[K], s: K, c: K, C: K, rho: K) -> K:
-    """The input angle, radians: the end of the coulisse as seen from the input crank's axis."""
-    return m.atan2(rho * s, C * c - w.A * (s * s))
-
-
-def _end(m: Library, w: Wheel[K]) -> tuple[K, K]:
-    """The acceleration's jump at entry and exit, tan(b) f1², and the input angle there."""
-    s, c = w.end
-    C, rho = _front(m, w, s, c)
-    f1 = C / rho
-    return w.tan * f1 * f1, _input(m, w, s, c, C, rho)
-
-
-def _slope(m: Library, w: Wheel[K], c: K) -> K:
-    """The acceleration's slope over f, divided by f1² and by l (1-l²): only its sign counts.
-
-    It is taken times (C D)³, which is positive; (1-A²) / rho is C - A cos f.
-    """
-    Ac, c2 = w.A * c, c * c
-    s2, C2 = 1.0 - c2, w.minus + Ac * Ac
-    C = m.sqrt(C2)
-    v = 1.0 - w.sign * c
-    lv = 2.0 * w.l * v
-    D = w.rest2 + lv
-    N = v * (w.big - lv) - w.rest2
-    g1 = w.sign * (w.rest - v) / (w.rest * (1.0 + w.l))
-    front = w.A * (C - Ac) * D  # f2 / (f1² sin f), times C² D
-    return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
-
-
-def _slopes(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
-    """First and second derivative of the acceleration over f, both over f1² l (1-l²) / D³."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
-    l, A, sign = w.l, w.A, w.sign
-    D = w.rest2 + 2.0 * l * v
-    N = v * (w.big - 2.0 * l * v) - w.rest2
-    g1 = sign * (w.rest - v) / (w.rest * (1.0 + l)) * D * D  # each times D³
-    g2 = -s * D
-    g3 = sign * N
-    g4 = s * ((w.big - 4.0 * l * v) - 6.0 * l * N / D)
-    p = A * w.minus / (rho * C * C)
-    u = A * s / C
-    q = c + 3.0 * u * s
-    f2 = p * s  # each over f1²
-    f2_f = p * q
-    f2_ff = p * (3.0 * u * q - s + 3.0 * u * c * (2.0 + u * u))
-    return g3 + 3.0 * g2 * f2 + g1 * f2_f, g4 + 5.0 * g3 * f2 + 4.0 * g2 * f2_f + g1 * f2_ff
-
-
-def _rest(m: Library, w: Wheel[K], c: K) -> K:
-    """h / rho, by its sign the acceleration without what vanishes with sin f."""
-    Ac = w.A * c
-    C2 = w.minus + Ac * Ac
-    v = 1.0 - w.sign * c
-    D = w.rest2 + 2.0 * w.l * v
-    # (1-A²) / rho is C - A cos f
-    return w.rest * (1.0 + w.l) * C2 - w.sign * (w.rest - v) * D * w.A * (m.sqrt(C2) - Ac)
-
-
-def _rests(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
-    """h and its slope over f."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
-    D = w.rest2 + 2.0 * w.l * v
-    own, front = w.rest * (1.0 + w.l), w.A * w.minus
-    slope = front * (D - 2.0 * w.l * (w.rest - v)) - own * w.A * rho * (2.0 * w.A * c + C)
-    return own * C * C * rho - w.sign * (w.rest - v) * D * front, s * slope
-
-
-def _velocity(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
-    """The velocity at the crank angle f, and the input angle there."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
-    D = w.rest2 + 2.0 * w.l * v
-    return w.sign * w.l * (w.rest - v) / D * (C / rho), _input(m, w, s, c, C, rho)
-
-
 def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     """Peak |acceleration| of one design (invariant) and its signed input angle, degrees.
 
@@ -197,15 +49,15 @@ def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     _refuse(3 <= z <= Z_MAX, sign in (1.0, -1.0), -1.0 < A < 1.0)
     l, cos_b = sin_cos_pi(1, z)
     half = half_motion_deg(sign, 1, z) * DEGREE
-    w = _wheel(sign, l, one_minus_sin_pi(1, z), cos_b, half, A)
-    best = _end(PLAIN, w)
+    w = wheel_of(sign, l, one_minus_sin_pi(1, z), cos_b, half, A)
+    best = acceleration_at_end(PLAIN, w)
     step = half / SCAN_ONE
     before = 0.0
     for i in range(SCAN_ONE + 1):
-        here = _slope(PLAIN, w, math.cos(i * step) if i < SCAN_ONE else w.end[1])
+        here = acceleration_slope_sign(PLAIN, w, math.cos(i * step) if i < SCAN_ONE else w.end[1])
         if before * here < 0.0:
-            f = root(lambda f: _slopes(PLAIN, w, f), (i - 1) * step, i * step, before)
-            best = max(best, _value(PLAIN, w, f))
+            f = root(lambda f: acceleration_slopes(PLAIN, w, f), (i - 1) * step, i * step, before)
+            best = max(best, acceleration(PLAIN, w, f))
         before = here
     return best[0], -best[1] / DEGREE
 
@@ -225,7 +77,7 @@ def acceleration_peaks(
     """
 
     w, shape = _designs(z, internal, A)
-    size, at = _end(library(w.l), w)
+    size, at = acceleration_at_end(library(w.l), w)
     _compete(w, size, at, ACCELERATION)
     at /= -DEGREE
     return size.reshape(shape), at.reshape(shape)
@@ -290,7 +142,7 @@ def _wheels(z: Array, internal: Mask, A: Array) -> Wheel[Array]:
     small = np.flatnonzero(z < EXACT_Z)
     l[small], cos_b[small], rest[small] = exact[z[small].astype(int) - 3].T
     sign = np.where(internal, -1.0, 1.0)
-    return _wheel(sign, l, rest, cos_b, 0.5 * np.pi - sign * b, A)
+    return wheel_of(sign, l, rest, cos_b, 0.5 * np.pi - sign * b, A)
 
 
 # of the crank angle f
@@ -298,7 +150,7 @@ OfAngle: TypeAlias = "Callable[[Library, Wheel[Array], Array], tuple[Array, Arra
 
 
 class Search(NamedTuple):
-    """A quantity: what is zero where it may be greatest, that with its slope, and its size."""
+    """A quantity: what is zero where it may be greatest, that with its slope, and its value."""
 
     zero: Callable[[Library, Wheel[Array], Array], Array]  # of cos f
     slopes: OfAngle
@@ -307,8 +159,8 @@ class Search(NamedTuple):
     only_rising: bool = False  # where it falls through zero, the quantity is least
 
 
-ACCELERATION = Search(_slope, _slopes, _value)
-VELOCITY = Search(_rest, _rests, _velocity, 1e-11, True)
+ACCELERATION = Search(acceleration_slope_sign, acceleration_slopes, acceleration)
+VELOCITY = Search(velocity_fall, velocity_fall_slope, velocity, 1e-11, True)
 
 
 class Brackets(NamedTuple):
