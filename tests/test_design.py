@@ -270,7 +270,7 @@ FULL = Design(
         ("motion.alpha0_deg", 5.0, 0.0),
         ("motion.ratio", 0.45, None),
         ("size.center_distance_mm", 160.0, None),
-        ("size.slot_clearance_mm", 0.1, 0.0),
+        ("size.slot_clearance_mm", 0.1, None),
         ("load.inertia_kgm2", 0.02, 0.0),
         ("limits.velocity_max", 1.0, None),
     ],

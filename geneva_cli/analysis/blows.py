@@ -94,7 +94,7 @@ def clearance_mm(mechanism: Mechanism) -> float:
     """Roller to slot, per side, of the smallest roller in the widest slot."""
     given = mechanism.spec.tolerance
     both = given.roller_diameter_mm + given.slot_width_mm
-    return mechanism.spec.size.slot_clearance_mm + 0.5 * both
+    return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
 
 
 def reversal_blow(mechanism: Mechanism) -> Blow | None:

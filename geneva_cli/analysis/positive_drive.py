@@ -74,7 +74,7 @@ def positive_drives(mechanism: Mechanism) -> Drives | None:
         engagement.motion(side * x, 2).arrays()[2] * given.inertia_Nm + given.resists_Nm
         for side in (1.0, -1.0)
     ]
-    played = gap > PLAY_MM + 2.0 * mechanism.spec.size.slot_clearance_mm
+    played = gap > PLAY_MM + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
     missing = [
         played & (side * np.sign(lead) * turned < 0.0)
         for side, turned in zip((1.0, -1.0), torque, strict=True)

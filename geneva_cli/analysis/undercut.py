@@ -63,7 +63,7 @@ def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
     if not engagement.slot.curved:
         return None
     L = mechanism.center_distance_mm
-    r = (mechanism.roller_radius_mm + size.slot_clearance_mm) / L
+    r = (mechanism.roller_radius_mm + size.allowances.slot_clearance_mm) / L
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
     share = (1.0 - np.arange(samples) / samples) ** 2
     x = np.atleast_2d(engagement.entry_deg * share)

@@ -29,7 +29,7 @@ SAMPLES = 20_001  # of the flank
 def left_flank(mechanism: Mechanism) -> tuple[Curve, float, float]:
     """The left flank on the pin's way in, of a slot where it has no corner there."""
     entry = mechanism.engagements[0].entry_deg
-    reach = mechanism.roller_radius_mm + mechanism.spec.size.slot_clearance_mm
+    reach = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
 
     def curve(input_deg: Array) -> tuple[Array, Array]:
         found = slot(mechanism, input_deg)

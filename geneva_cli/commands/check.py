@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, told
+from geneva_cli.commands.options import Format, Given, Output, Process, settings, told
 from geneva_cli.errors import clean
 
 EXAMPLES = (
@@ -18,6 +18,7 @@ EXAMPLES = (
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
+    process: Process = None,
     given: Given = None,
     output: Output = "-",
     format: Format = "",
@@ -30,7 +31,7 @@ def run(
     from geneva_cli.output import show
     from geneva_cli.study.batch import checks_table, verdicts
 
-    found = list(verdicts(specs, given or ()))
+    found = list(verdicts(specs, settings(given, process)))
     judged = [v for v in found if not v.error]
     if judged:
         show(checks_table(judged), output, format, [file for v in judged for file in v.files])

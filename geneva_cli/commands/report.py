@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, SpecPath, one_of, say
+from geneva_cli.commands.options import Given, Output, Process, SpecPath, one_of, say, settings
 from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
 EXAMPLES = (
@@ -21,6 +21,7 @@ WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 def run(
     spec: SpecPath,
+    process: Process = None,
     given: Given = None,
     output: Output = "-",
     format: Annotated[
@@ -45,7 +46,7 @@ def run(
     from geneva_cli.output.formats import is_document
 
     is_whole = is_document(output, format)
-    design = load(spec, given or ())
+    design = load(spec, settings(given, process))
     found = design.report
     if is_whole:
         from geneva_cli.study.document import document

@@ -97,7 +97,10 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
         ("lock_bolt_mm", 2.0 * short, "twice the roller's way"),
         ("lock_bolt_circle_mm", 2.0 * short, "twice the roller's way"),
     ]
+    allowed = size.allowances._asdict()  # of the process, where a key is left out
     for key, below, what in given:
-        value = getattr(size, key)
+        value = allowed.get(key, getattr(size, key))
+        if value is not None and getattr(size, key) is None:
+            what += f'; it is the one of process = "{size.process}"'
         if value is not None:
             yield Bound(key, value, below, what)

@@ -23,7 +23,7 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
     step = min(steps) if steps else 360.0 / spec.wheel.z
     roller = 2.0 * spec.roller_radius_mm(L)
-    slot = roller + 2.0 * spec.size.slot_clearance_mm
+    slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),

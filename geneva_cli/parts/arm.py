@@ -67,11 +67,11 @@ def crank_arm(found: Outlines) -> CrankArm:
             "--part parts lists its links",
             ("drive", "kind"),
         )
-    hole = sizes.pin - 0.5 * spec.size.press_fit_mm
+    hole = sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
     if hole <= 0.0:
         raise GenevaError(
             f"--part arm: there is no hole for a pin of pin_mm = {2.0 * sizes.pin:g} with "
-            f"press_fit_mm = {spec.size.press_fit_mm:g}; the pin must be the larger",
+            f"press_fit_mm = {spec.size.allowances.press_fit_mm:g}; the pin must be the larger",
             ("size", "press_fit_mm" if sizes.pin else "pin_mm"),
         )
     centres = roller_centres(assembly)
@@ -143,7 +143,7 @@ def shaft_bore(found: Outlines) -> float:
         return found.sizes.crank_bore
     if spec.shaft.crank_diameter_mm is not None:
         return 0.5 * spec.shaft.crank_diameter_mm
-    hole = found.sizes.pin - 0.5 * spec.size.press_fit_mm
+    hole = found.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
     room = min(math.hypot(*c) for c in roller_centres(found.assembly)) - hole
     return even(min(found.assembly.L / 20.0, 0.35 * room))
 

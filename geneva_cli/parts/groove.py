@@ -154,8 +154,8 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
         raise GenevaError(
             f'--part groove: kind = "{mechanism.spec.drive.NAME}" has none; kind = "cam" has'
         )
-    size = mechanism.spec.size
-    L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + size.slot_clearance_mm
+    clearance = mechanism.spec.size.allowances.slot_clearance_mm
+    L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + clearance
     x = np.linspace(groove.motion.entry_deg, groove.motion.exit_deg, samples or SAMPLES)
     R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
     px, py = groove.groove(x, 2)

@@ -95,11 +95,11 @@ def link_sizes(
     size, links = spec.size, [link for link in links if not link.radius_mm]
     wall, thick = wall_min(size, L), thicknesses(size, L)
     stands = pin_radius(size, mechanism.roller_radius_mm)
-    roller = stands - 0.5 * size.press_fit_mm if stands else 0.0
+    roller = stands - 0.5 * size.allowances.press_fit_mm if stands else 0.0
     if roller < 0.0 or stands > roller == 0.0:
         raise GenevaError(
             f"--part links: there is no hole for a pin of pin_mm = {2.0 * stands:g} with "
-            f"press_fit_mm = {size.press_fit_mm:g}; the pin must be the larger",
+            f"press_fit_mm = {size.allowances.press_fit_mm:g}; the pin must be the larger",
             ("size", "press_fit_mm"),
         )
     nearest = min((way for link in links for way in _ways(link)), default=L)
@@ -162,6 +162,6 @@ def _beside_hub(mechanism: Mechanism, links: Iterable[Link]) -> float:
     ]
     if not near:
         return math.inf
-    w = mechanism.roller_radius_mm * 1.05 + size.slot_clearance_mm
+    w = mechanism.roller_radius_mm * 1.05 + size.allowances.slot_clearance_mm
     hub = 0.75 * (min(near) - w) if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
     return min(near) - hub

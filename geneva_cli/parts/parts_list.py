@@ -122,7 +122,7 @@ def _pivots(mechanism: Mechanism) -> Iterator[dict[str, object]]:
 
 def _dimensions(mechanism: Mechanism) -> Iterator[dict[str, object]]:
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    r, clear = mechanism.roller_radius_mm, spec.size.slot_clearance_mm
+    r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
     found = [
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),

@@ -79,10 +79,10 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     spec, L = assembly.mechanism.spec, assembly.L
     path = known or roller_paths(assembly)
     given, r = spec.size, assembly.mechanism.roller_radius_mm
-    w = r + given.slot_clearance_mm
+    w = r + given.allowances.slot_clearance_mm
     outside = assembly.sign > 0.0
     rim = _or(given.wheel_radius_mm, max(mouth(assembly, s, r) for s in assembly.kinds))
-    bottom = _or(given.slot_bottom_clearance_mm, max(given.slot_clearance_mm, r / 20.0))
+    bottom = _or(given.slot_bottom_clearance_mm, max(given.allowances.slot_clearance_mm, r / 20.0))
     gaps = [0.0 if s.slot.curved else bottom for s in assembly.kinds]
     end = (
         min(e * assembly.sign - g - w for e, g in zip(path.ends, gaps, strict=True)) * assembly.sign
@@ -106,7 +106,7 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
         slot_end=end,
         arm=arm,
         lock=lock,
-        recess=lock + given.lock_clearance_mm if lock else 0.0,
+        recess=lock + given.allowances.lock_clearance_mm if lock else 0.0,
         relief=relief,
         wall_min=wall,
         wheel_bore=wheel_bore,
@@ -235,7 +235,7 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
         return 0.0
-    room = arm - w - size.lock_clearance_mm
+    room = arm - w - size.allowances.lock_clearance_mm
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
     if room <= least:
         raise GenevaError(

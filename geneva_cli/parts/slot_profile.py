@@ -56,7 +56,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     """The slot of a mechanism at ascending input angles of its first engagement."""
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     L = mechanism.center_distance_mm
-    offset = mechanism.roller_radius_mm + size.slot_clearance_mm
+    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
     back = retraces(engagement)
     if back:
         input_deg = np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg)
@@ -146,7 +146,7 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
     Of a symmetric motion the first half's.
     """
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
-    offset = mechanism.roller_radius_mm + size.slot_clearance_mm
+    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
     offset /= mechanism.center_distance_mm
 
     def excess(x: Array, side: float) -> Array:
@@ -217,7 +217,7 @@ def _integrated_density(mechanism: Mechanism, grid: Array) -> tuple[Array, float
     """The integral of the node density over the grid as a share of one, and its total."""
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     L = mechanism.center_distance_mm
-    offset = mechanism.roller_radius_mm + size.slot_clearance_mm
+    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
     at = pitch_at(engagement, grid, retraces(engagement))
     turning = np.abs(at.turning)
     # sqrt(k) ds for the outer flank: its curve is longer by turning * offset

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Table
 
@@ -35,8 +36,15 @@ class Size(Table):
         "centre distance L (spherical: the sphere's radius), 100; linkages solve for it",
     ] = None
     roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; L/20 if not given"] = None
-    slot_clearance_mm: Annotated[float, NOT_NEGATIVE, "per side, roller to slot"] = 0.0
-    lock_clearance_mm: Annotated[float, NOT_NEGATIVE, "per side, locking disc to wheel"] = 0.0
+    process: Annotated[
+        str | None, OneOf(PROCESSES), "how the parts are made; sets clearances and press fit"
+    ] = None
+    slot_clearance_mm: Annotated[
+        float | None, NOT_NEGATIVE, "per side, roller to slot; 0, or the process's"
+    ] = None
+    lock_clearance_mm: Annotated[
+        float | None, NOT_NEGATIVE, "per side, locking disc to wheel; 0, or the process's"
+    ] = None
     face_width_mm: Annotated[float | None, POSITIVE, "length of the roller's line of contact"] = (
         None
     )
@@ -79,8 +87,10 @@ class Size(Table):
     ] = None
     pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; r"] = None
     press_fit_mm: Annotated[
-        float, NOT_NEGATIVE, "pin's diameter less that of its hole in the crank arm"
-    ] = 0.0
+        float | None,
+        NOT_NEGATIVE,
+        "pin's diameter less that of its hole in the crank arm; 0, or the process's",
+    ] = None
     arm_bore_mm: Annotated[
         float | None, POSITIVE, "diameter of the crank arm's bore; crank_bore_mm if there is one"
     ] = None
@@ -139,6 +149,17 @@ class Size(Table):
     washer_mm: Annotated[
         float, NOT_NEGATIVE, "thickness of the washers between links one below the other"
     ] = 0.0
+
+    @property
+    def allowances(self) -> Allowances:
+        """Clearances and press fit as they are given, or else the process's.
+
+        >>> Size(process="laser", lock_clearance_mm=0.1).allowances[:3]
+        (0.2, 0.1, 0.15)
+        """
+        usual = Allowances() if self.process is None else PROCESSES[self.process]
+        given = {key: value for key, value in self.as_dict().items() if key in usual._fields}
+        return usual._replace(**{key: v for key, v in given.items() if v is not None})
 
 
 @dataclass(frozen=True)

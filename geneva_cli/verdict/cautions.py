@@ -161,8 +161,8 @@ def _undercut(mechanism: Mechanism) -> list[Caution]:
     found = undercut(mechanism)
     if found is None or found.depth_mm < SHOWN_UNDERCUT:
         return []
-    r = mechanism.roller_radius_mm + mechanism.spec.size.slot_clearance_mm
-    free = found.radius_mm - mechanism.spec.size.slot_clearance_mm
+    r = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
+    free = found.radius_mm - mechanism.spec.size.allowances.slot_clearance_mm
     helps = (
         "a smaller roller or a longer motion makes it less"
         if found.to_cusp or free <= 0.0

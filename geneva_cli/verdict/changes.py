@@ -51,6 +51,9 @@ def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
     value: Value = spec.table(table).get(key)
     if value is not None or table != "size":
         return value or ("" if key in WORDS else value)
+    allowed = spec.size.allowances._asdict()  # of the process, where a key is left out
+    if key in allowed:
+        return float(allowed[key])
     if key == "roller_radius_mm":
         return mechanism.roller_radius_mm
     if key == "center_distance_mm":

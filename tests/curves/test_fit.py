@@ -271,7 +271,7 @@ def sides(mechanism):
         return rows
 
     for side in (-1.0, 0.0, 1.0):
-        offset = side * (mechanism.roller_radius_mm + size.slot_clearance_mm) / L
+        offset = side * (mechanism.roller_radius_mm + size.allowances.slot_clearance_mm) / L
 
         def along(t, outwards, offset=offset):
             *_, speed, turning = pieces(t)

@@ -194,7 +194,7 @@ def theory(found: Outlines) -> tuple[list[Slot], list[float]]:
     wheel, size, r = mechanism.spec.wheel, mechanism.spec.size, mechanism.roller_radius_mm
     bottom = size.slot_bottom_clearance_mm
     if bottom is None:
-        bottom = max(size.slot_clearance_mm, r / 20.0)
+        bottom = max(size.allowances.slot_clearance_mm, r / 20.0)
     offset = wheel.as_dict().get("offset_mm", 0.0)
     return slots_of(wheel.z, wheel.NAME, r, bottom, offset, wheel.steps)
 
@@ -296,8 +296,8 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
     with mpmath.workdps(30):
         b, r = mpmath.pi / z, mpmath.mpf(found.assembly.mechanism.roller_radius_mm)
         R, rim = L * mpmath.sin(b), mpmath.sqrt((L * mpmath.cos(b)) ** 2 + r**2)
-        w = r + mpmath.mpf(spec.size.slot_clearance_mm)
-        recess = mpmath.mpf(size.lock) + mpmath.mpf(spec.size.lock_clearance_mm)
+        w = r + mpmath.mpf(spec.size.allowances.slot_clearance_mm)
+        recess = mpmath.mpf(size.lock) + mpmath.mpf(spec.size.allowances.lock_clearance_mm)
         bottom = L - sign * R - sign * mpmath.mpf(size.slot_bottom)
         common, seen, bent = lens(rim, recess, mpmath.mpf(L))
         slot = slot_area(rim, bottom, w)

@@ -448,7 +448,7 @@ def test_arcs_are_half_as_many_as_chords(name):
 def test_walls_are_where_the_roller_passes(name):
     """Against the roller itself, moved along its pitch curve by shapely."""
     machine = load(str(DESIGNS[name]))
-    w = machine.roller_radius_mm + machine.spec.size.slot_clearance_mm
+    w = machine.roller_radius_mm + machine.spec.size.allowances.slot_clearance_mm
     way = [(row["x_mm"], row["y_mm"]) for row in table_of(name, "slot", "--tolerance", "1e-5")]
     swept = LineString(way).buffer(w, quad_segs=512)
     edge = LineString(swept.exterior.coords)  # an island falls out

@@ -40,6 +40,7 @@ ONE_WAY = ("gear-sector", "geneva-pair", "epicyclic", *LINKAGES)
 
 WORDED = {
     "relief": ("arc", "sector"),
+    "process": ("laser", "mill", "print"),
     "pin_held": ("cantilever", "supported", "fixed"),
     "crank_keyway": ("DIN 6885-1",),
     "wheel_keyway": ("DIN 6885-1",),

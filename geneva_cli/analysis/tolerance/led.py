@@ -81,7 +81,7 @@ def _asin(height: Jet, square: Jet) -> Jet:
 
 def led(mechanism: Mechanism) -> list[Led]:
     """Every engagement of a machine with straight slots; none where they are solved for."""
-    L, clearance = mechanism.center_distance_mm, mechanism.spec.size.slot_clearance_mm
+    L, clearance = mechanism.center_distance_mm, mechanism.spec.size.allowances.slot_clearance_mm
     if mechanism.engagements[0].slot.curved:
         return []
     return [Led(e, L, arm_mm(mechanism, e), clearance) for e in mechanism.engagements]

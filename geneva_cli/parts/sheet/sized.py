@@ -30,14 +30,14 @@ def slot_width(mechanism: Mechanism, half: float) -> str:
 def roller(mechanism: Mechanism, radius: float) -> str:
     """The roller's diameter: with play in the slot by its fit where the spec gives none."""
     spec = mechanism.spec
-    fit = "h6" if spec.size.slot_clearance_mm else "g6"
+    fit = "h6" if spec.size.allowances.slot_clearance_mm else "g6"
     return fitted(2.0 * radius, "Ø ", fit, spec.tolerance.roller_diameter_mm)
 
 
 def lock(mechanism: Mechanism, radius: float) -> str:
     """The locking disc's diameter, likewise in the wheel's recesses."""
     spec = mechanism.spec
-    fit = "h6" if spec.size.lock_clearance_mm else "g6"
+    fit = "h6" if spec.size.allowances.lock_clearance_mm else "g6"
     return fitted(2.0 * radius, "Ø ", fit, 2.0 * spec.tolerance.lock_radius_mm)
 
 

@@ -10,8 +10,10 @@ from geneva_cli.verdict.report.values import Values
 ECHOED = {  # what the numbers below rest on, besides the machine's own shape
     "drive": ("n_rpm",),
     "size": (
+        "process",
         "slot_clearance_mm",
         "lock_clearance_mm",
+        "press_fit_mm",
         "face_width_mm",
         "pin_held",
         "pin_gap_mm",
@@ -28,8 +30,9 @@ ECHOED = {  # what the numbers below rest on, besides the machine's own shape
 def inputs(proof: Proof) -> Values:
     """What was asked."""
     spec = proof.mechanism.spec
+    allowed = {"size": spec.size.allowances._asdict()}  # of the process, where a key is left out
     values: Values = {"inputs.wheel.held_by": spec.wheel.held_by}
     for table, names in ECHOED.items():
-        given = spec.table(table)
+        given = spec.table(table) | allowed.get(table, {})
         values |= {f"inputs.{table}.{key}": given[key] for key in names}
     return values

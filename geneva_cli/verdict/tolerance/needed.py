@@ -58,9 +58,9 @@ def needed(mechanism: Mechanism, proof: Proof, sizes: dict[str, float], yields: 
         return Needed(slot, None, None, str(error))
     lock = ring + sizes["center_distance_mm"] if found.crank else None
     short = []
-    if spec.size.slot_clearance_mm < slot * (1.0 - 1e-12):
+    if spec.size.allowances.slot_clearance_mm < slot * (1.0 - 1e-12):
         short.append(f"slot_clearance_mm must be at least {slot:.6g}")
-    if lock is not None and spec.size.lock_clearance_mm < lock * (1.0 - 1e-12):
+    if lock is not None and spec.size.allowances.lock_clearance_mm < lock * (1.0 - 1e-12):
         short.append(f"lock_clearance_mm must be at least {lock:.6g}")
     if short:
         return Needed(slot, lock, False, " and ".join(short))
@@ -98,14 +98,14 @@ def corner(
     """The spec of the tightest machine (-1) or of the loosest (+1), all other sizes as they are."""
     size, given = found.sizes, spec.size
     roller = size.roller - sign * 0.5 * sizes["roller_diameter_mm"]
-    clearance = max(given.slot_clearance_mm + sign * slot, 0.0)
+    clearance = max(given.allowances.slot_clearance_mm + sign * slot, 0.0)
     end = size.slot_bottom + size.half_width - roller - clearance
     changed = given.replace(
         roller_radius_mm=roller,
         slot_clearance_mm=clearance,
         slot_bottom_clearance_mm=max(end, 0.0),
         lock_radius_mm=size.lock - sign * sizes["lock_radius_mm"],
-        lock_clearance_mm=max(given.lock_clearance_mm + sign * lock, 0.0),
+        lock_clearance_mm=max(given.allowances.lock_clearance_mm + sign * lock, 0.0),
         wheel_radius_mm=size.rim,
         relief_clearance_mm=size.relief,
         relief=found.relief if found.crank else given.relief,
