@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.slot_and_motion import SolvedPath
+from geneva_cli.parts.groove import roller_in_groove
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class Assembly(NamedTuple):
         engagement, behind = self.rollers[number]
         at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
         if engagement.groove is not None:
-            return self.L * on_cam(engagement.groove, at)
+            return self.L * roller_in_groove(engagement.groove, at)
         x, y = engagement.path(at, 0)
         return self.L * np.column_stack((x.c[0], y.c[0]))
 
@@ -173,12 +173,3 @@ def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...],
         at -= engagement.half_step + kinds_[(k + 1) % z].half_step
     order = sorted(range(z), key=lambda k: slots[k][1])
     return tuple(slots[k] for k in order), tuple(sorted(rests))
-
-
-def on_cam(groove: SolvedPath, input_deg: Array) -> Array:
-    """The roller of a cam-Geneva, in units of L: its groove closed on the way back."""
-    from geneva_cli.parts.groove import distance
-
-    R = distance(groove, input_deg)
-    angle = np.radians(input_deg)
-    return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))

@@ -31,6 +31,12 @@ def distance(groove: SolvedPath, input_deg: Array) -> Array:
     return _distances(groove, input_deg, 0)[0]
 
 
+def roller_in_groove(groove: SolvedPath, input_deg: Array) -> Array:
+    """The roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
+    R, angle = distance(groove, input_deg), np.radians(input_deg)
+    return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
+
+
 def groove_curve(
     groove: SolvedPath, L: float, offset: float
 ) -> Callable[[Array], tuple[Array, Array]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,15 +19,12 @@ from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.groove import distance
 from geneva_cli.parts.hole_walls import apart, least_wall
 from geneva_cli.parts.link_pins import pins, rollers
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import SPARE, LinkSizes, link_sizes, places
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import pin_radius
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 ANGLES = 1440  # input angles in a whole turn at which links are looked at; 0 is one of them
@@ -69,7 +66,7 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     """
     turns = mechanism.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)
-    links = stated(mechanism, turn)
+    links = links_at(mechanism, turn)
     if not links:
         return Links(None, (), (), ())
     sizes = link_sizes(mechanism, links, found)
@@ -87,24 +84,6 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
         pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
     return Links(sizes, tuple(cut), tuple(between), tuple(gears), pin_low)
-
-
-def stated(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
-    """The links at input angles: the drive's own, and the crank along which a cam's roller slides.
-
-    Where the wheel rests that follows the groove, which is a matter of the groove as it is cut.
-    """
-    own = mechanism.spec.drive.links(mechanism.plan, mechanism.spec.wheel.SIGN, input_deg)
-    groove = mechanism.engagements[0].groove
-    if groove is None:
-        return own
-    L, m, still = mechanism.center_distance_mm, mechanism.spec.drive.rollers, 0.0 * input_deg
-    joints = [(still + L, still)]
-    for k in range(m):
-        at = input_deg - 360.0 * k / m
-        R, angle = L * distance(groove, at), np.radians(at)
-        joints.append((L - groove.sign * R * np.cos(angle), R * np.sin(angle)))
-    return (*own, Link("crank", tuple(joints), (SHAFT, *[Joint.CARRIED] * m), 1))
 
 
 def _gear(link: Link, sizes: LinkSizes, L: float) -> Gear:

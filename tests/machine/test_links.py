@@ -26,17 +26,17 @@ def machine(request):
     return load(str(repo.DESIGNS / f"{request.param}.toml")).mechanism
 
 
-def stated(machine, input_deg):
+def links_at(machine, input_deg):
     return machine.spec.drive.links(machine.plan, machine.spec.wheel.SIGN, input_deg)
 
 
 def links(machine, input_deg):
-    return {link.name: link.joints for link in stated(machine, input_deg)}
+    return {link.name: link.joints for link in links_at(machine, input_deg)}
 
 
 def test_bars_keep_their_length(machine):
     turn = np.linspace(-180.0, 180.0, 97)
-    for link in stated(machine, turn):
+    for link in links_at(machine, turn):
         assert len(link.kinds) == len(link.joints)
         rigid = [
             joint
@@ -50,7 +50,7 @@ def test_bars_keep_their_length(machine):
 
 def test_a_slider_stays_on_its_line(machine):
     turn = np.linspace(-180.0, 180.0, 97)
-    for link in stated(machine, turn):
+    for link in links_at(machine, turn):
         if Joint.SLIDE in link.kinds and len(link.joints) > 2:
             (x, y), (u, v), (p, q) = link.joints
             aside = ((u - x) * (q - y) - (v - y) * (p - x)) / np.hypot(u - x, v - y)

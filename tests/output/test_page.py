@@ -15,7 +15,7 @@ from geneva_cli import load
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.machine.layout import Joint
 from geneva_cli.output import animate, moving_gif, page, still_svg
-from geneva_cli.parts.links import stated
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.scene import value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import Turn
@@ -232,7 +232,7 @@ def test_links_turn_as_they_are_cut(name):
     assert plates
     for t in (0.0, 77.0, 200.0, 301.0):
         at = (turn.start + t + 180.0) % 360.0 - 180.0
-        for link, bar in zip(stated(design.mechanism, np.array([at])), found.bars, strict=True):
+        for link, bar in zip(links_at(design.mechanism, np.array([at])), found.bars, strict=True):
             joints = [complex(value_at(x, t), value_at(y, t)) for x, y in bar.joints]
             there = [complex(float(x[0]), float(y[0])) for x, y in link.joints]
             L = design.mechanism.center_distance_mm

@@ -19,7 +19,8 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Joint
-from geneva_cli.parts.links import drawn_links, link_wall, stated
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.links import drawn_links, link_wall
 from geneva_cli.spec.tables import Shaft, Size
 
 # rounding of a few sines of lengths of some hundred mm
@@ -70,7 +71,7 @@ def test_holes_are_where_the_joints_are(made):
     _, design, links = made
     L, turn = design.mechanism.center_distance_mm, np.linspace(-180.0, 180.0, 17)
     plates = {plate.name: plate for plate in links.plates}
-    for link in stated(design.mechanism, turn):
+    for link in links_at(design.mechanism, turn):
         if link.radius_mm:
             continue
         bored = holes(plates[link.name])
@@ -87,7 +88,7 @@ def test_blocks_stay_in_their_slots(made):
     _, design, links = made
     turn = np.linspace(-180.0, 180.0, 721)
     plates = {plate.name: plate for plate in links.plates}
-    for link in stated(design.mechanism, turn):
+    for link in links_at(design.mechanism, turn):
         slides = [i for i, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
         own = plates[link.name].holes if slides else ()
         slots = [hole for hole in own if not isinstance(hole, Circle)]

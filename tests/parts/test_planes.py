@@ -12,7 +12,8 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.design import Design
-from geneva_cli.parts.links import drawn_links, stated
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.turn.planes import planes
 
 
@@ -24,7 +25,7 @@ def least_gap(design, name, where, radius, turn):
     """The least distance of a circle from a link's polygon as it moves, negative inside."""
     links = drawn_links(design.mechanism, design.parts)
     outline = polygon(next(p for p in links.plates if p.name == name).outline)
-    link = next(one for one in stated(design.mechanism, turn) if one.name == name)
+    link = next(one for one in links_at(design.mechanism, turn) if one.name == name)
     (x, y), (u, v) = link.joints[:2]
     gaps = []
     for i, deg in enumerate(np.degrees(np.arctan2(v - y, u - x))):
@@ -57,7 +58,7 @@ def test_a_crank_past_the_guides_pin():
     """From the crank's own place to its pin, in the plane between rod and guide."""
     design = of("slider-crank", "size.wheel_hub_mm=0")
     turn = np.linspace(-180.0, 180.0, 721)
-    guide = next(one for one in stated(design.mechanism, turn) if one.name == "guide")
+    guide = next(one for one in links_at(design.mechanism, turn) if one.name == "guide")
     x, y = guide.joints[2]
     sizes = drawn_links(design.mechanism, design.parts).sizes
     least = least_gap(design, "crank", lambda i: (x[i], y[i]), sizes.ring, turn)

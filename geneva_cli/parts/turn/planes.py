@@ -20,8 +20,9 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_pins import joined
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import LinkSizes, places
-from geneva_cli.parts.links import SAME, drawn_links, stated
+from geneva_cli.parts.links import SAME, drawn_links
 from geneva_cli.parts.outlines import Outlines
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def planes(found: Outlines) -> Planes:
     given = found.assembly.given
     turns = given.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
-    links = [link for link in stated(given, turn) if not link.radius_mm]
+    links = [link for link in links_at(given, turn) if not link.radius_mm]
     if not links:
         return Planes(None, None)
     made = drawn_links(given, found)

@@ -11,10 +11,11 @@ import numpy as np
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.layout import Joint
+from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.assembly import on_cam
-from geneva_cli.parts.links import drawn_links, stated
+from geneva_cli.parts.groove import roller_in_groove
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, Carried, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
@@ -60,6 +61,7 @@ class Turn:
         )
         self.start = self.passages[0].entry
         self.end = self.start + self.whole
+        self._links: dict[bytes, tuple[Link, ...]] = {}
 
     def wheel(self) -> Track:
         """The wheel's angle, 0 half-way through the first step."""
@@ -98,7 +100,7 @@ class Turn:
         half = 0.5 * self.whole
         at = (input_deg - one.mid + half) % self.whole - half
         if one.engagement.groove is not None:
-            return self.L * on_cam(one.engagement.groove, at)
+            return self.L * roller_in_groove(one.engagement.groove, at)
         x, y = (along.c[0] + 0.0 * at for along in one.engagement.path(at, 0))
         return self.L * np.column_stack((x, y))
 
@@ -108,16 +110,13 @@ class Turn:
 
     def bars(self, found: Outlines | None) -> tuple[Bar, ...]:
         """The links, as they are cut where they are; ``found`` are the outlines of the rest."""
-        mechanism, half = self.mechanism, 0.5 * self.whole
 
         def joint(i: int, j: int) -> Place:
-            def place(x: Array) -> Array:
-                at = (x + half) % self.whole - half
-                return np.column_stack([c + 0.0 * at for c in stated(mechanism, at)[i].joints[j]])
+            return self._place(
+                lambda x: np.column_stack([c + 0.0 * x for c in self._links_at(x)[i].joints[j]])
+            )
 
-            return self._place(place)
-
-        plates = _plates(mechanism, found)
+        plates = _plates(self.mechanism, found)
         return tuple(
             Bar(
                 link.name,
@@ -125,8 +124,17 @@ class Turn:
                 link.radius_mm,
                 plates.get(link.name, ()),
             )
-            for i, link in enumerate(stated(mechanism, np.zeros(1)))
+            for i, link in enumerate(links_at(self.mechanism, np.zeros(1)))
         )
+
+    def _links_at(self, input_deg: Array) -> tuple[Link, ...]:
+        """All links at input angles: kept, as each joint's x and y are sampled at the same ones."""
+        key = input_deg.tobytes()
+        if key not in self._links:
+            half = 0.5 * self.whole
+            at = (input_deg + half) % self.whole - half
+            self._links[key] = links_at(self.mechanism, at)
+        return self._links[key]
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         def along(i: int) -> Track:
@@ -148,7 +156,7 @@ def _plates(mechanism: Mechanism, found: Outlines | None) -> dict[str, tuple[Car
         cut_ = [m.part for m in drawn_links(mechanism, found).cut if isinstance(m.part, Plate)]
     except GenevaError:
         return out
-    for link in stated(mechanism, np.zeros(1)):
+    for link in links_at(mechanism, np.zeros(1)):
         slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
         blocks = [plate for plate in cut_ if plate.name == f"{link.name}'s block"]
         own = [plate for plate in cut_ if plate.name == link.name]
