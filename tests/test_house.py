@@ -176,16 +176,7 @@ CORE = {"numerics", "machine", "curves", "analysis", "parts"}
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "analysis.loads.loaded_many": {
-        "At",
-        "at",
-        "look",
-        "sign",
-        "instant",
-        "_contact",
-        "self.kept",
-        "self.last",
-    },
+    "analysis.loads.loaded_many": {"self.kept"},
     "numerics.signed_many": {"_look"},
     "numerics.turns_many": {"at", "look"},
     # one number, or as many as there are values

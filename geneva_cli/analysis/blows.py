@@ -14,7 +14,7 @@ from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, library, parameter
+from geneva_cli.numerics.arrays import all_true, first_of, library, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -45,7 +45,7 @@ class Blows(NamedTuple):
     @property
     def first(self) -> Blow | None:
         """That of the first design, or of the only one."""
-        at_deg, jump, *cost = (None if np.isnan(row[0]) else float(row[0]) for row in self)
+        at_deg, jump, *cost = first_of(self)
         return None if at_deg is None or jump is None else Blow(at_deg, jump, *cost)
 
 

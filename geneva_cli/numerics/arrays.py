@@ -9,7 +9,7 @@ of angles went in. To the type checker the numbers of a machine are floats.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
@@ -200,6 +200,16 @@ def array(x: Number) -> Array:
     import numpy
 
     return numpy.asarray(x)
+
+
+def first_of(rows: Iterable[Number | None]) -> list[float | None]:
+    """Of answers (m,) for m designs those of the first: None where there is none, or it is NaN.
+
+    >>> first_of([2.0, math.nan, None])
+    [2.0, None, None]
+    """
+    found = [None if row is None else float(array(row).flat[0]) for row in rows]
+    return [None if x is None or math.isnan(x) else x for x in found]
 
 
 def rows_of(values: Sequence[Number], count: int) -> Array:

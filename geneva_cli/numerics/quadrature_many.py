@@ -79,10 +79,12 @@ def integrals_many(
     design: Whole,
     asked: Mask,
     ends: bool = False,
+    agreed_at: float = AGREED,
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
-    ``asked`` says of which: the others, as of functions without a bound, mean nothing.
+    ``asked`` says of which: the others, as of functions without a bound, mean nothing. A share of
+    less than ``AGREED`` is for functions whose higher derivatives may jump within a span.
 
     ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
     (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
@@ -102,7 +104,7 @@ def integrals_many(
             total, size = np.zeros((2, len(fine), n))
             for k, row in enumerate(sizes):
                 np.add.at(size[k], design[of], row)
-        agreed = np.abs(fine - coarse) <= AGREED * size[:, design[of]]
+        agreed = np.abs(fine - coarse) <= agreed_at * size[:, design[of]]
         open_ = (~agreed & asked[:, design[of]]).any(axis=0)
         for k, row in enumerate(fine):
             np.add.at(total[k], design[of[~open_]], row[~open_])

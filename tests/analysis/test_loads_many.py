@@ -9,6 +9,7 @@ from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.loaded_many import Loaded, look
+from geneva_cli.analysis.loads.loaded_many import machine as of
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED, ends_of
 from geneva_cli.analysis.loads.summary import summaries
@@ -89,7 +90,7 @@ def test_no_peak_is_missed(name):
     given = Cycle(found.machine).given
     n = len(found.which)
     for engagement in found.machine.engagements:
-        load = Loaded((engagement, given), NAMES)
+        load = Loaded(of(engagement, given, NAMES, {}), NAMES)
         a, b = (np.reshape(x, (-1, 1)) for x in (engagement.entry_deg, engagement.exit_deg))
         x = np.broadcast_to(a + (b - a) * np.linspace(0.0013, 0.9987, 150), (n, 150))
         with np.errstate(all="ignore"):

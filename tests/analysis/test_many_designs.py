@@ -11,10 +11,15 @@ from design_arrays import MACHINES, alone, drawn
 
 from geneva_cli.analysis import blows, change_of_sides, undercut
 from geneva_cli.analysis import positive_drive as positive
+from geneva_cli.analysis.strength import roller, shafts
+from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.machine.many import many
-from geneva_cli.spec.tables import Load, Tolerance
+from geneva_cli.spec.tables import Load, RollerMaterial, Shaft, Tolerance, WheelMaterial
 
 ULPS = 16 * 2.0**-52
+# Searches under a load: 32 units, as for the loads themselves. Sums: what quadrature leaves.
+SEARCHED, SUMMED = 2 * ULPS, 1e-12
+PLACE = 1e-4 / 360.0  # of a top, which is flat: to the root of a rounding
 CARRIED = [
     ("load.inertia_kgm2", 0.5, 3.0),
     ("load.torque_Nm", 0.0, 30.0),
@@ -23,7 +28,8 @@ CARRIED = [
     ("size.slot_clearance_mm", 0.01, 0.05),
     ("size.roller_radius_mm", 3.0, 16.0),
     ("shaft.stiffness_Nm_rad", 1e3, 1e5),
-    ("shaft.wheel_overhang_mm", 10.0, 50.0),
+    *[(f"shaft.{shaft}_overhang_mm", 10.0, 50.0) for shaft in ("wheel", "crank")],
+    ("shaft.wheel_diameter_mm", 10.0, 50.0),
     ("tolerance.center_distance_mm", 0.0, 0.05),
     ("material.wheel.youngs_modulus_GPa", 3.0, 210.0),
 ]
@@ -34,7 +40,13 @@ def designs(name):
     """Four designs of a machine together, and two of those that can be built each alone."""
     spec, rules = MACHINES[name]
     given = Load(inertia_kgm2=1.0, friction=0.1)
-    spec = spec.replace(load=given, tolerance=Tolerance(roller_diameter_mm=0.01))
+    spec = spec.replace(
+        load=given,
+        tolerance=Tolerance(roller_diameter_mm=0.01),
+        shaft=Shaft(wheel_span_mm=40.0, shear_stress_max_MPa=60.0),
+        material_wheel=WheelMaterial(wear_mm3_Nm=1e-8),
+        material_roller=RollerMaterial(dynamic_capacity_N=5000.0),
+    )
     if spec.drive.ONE_ARM:
         spec = spec.with_("tolerance.crank_radius_mm", 0.02)
     varied = drawn([*rules, *CARRIED], 24, 7)
@@ -47,6 +59,9 @@ def designs(name):
 
 def same(found, i, one, close=ULPS, size=0.0):
     """The i-th of many answers against that of a design, in units of it or of a greater size."""
+    if found is None:
+        assert one is None
+        return
     here = np.ravel(found)[i if np.size(found) > 1 else 0]
     if one is None:
         assert np.isnan(here)
@@ -87,3 +102,42 @@ def test_walls_of_curved_slots(name):
         if found:
             assert (found.wall == "left") == cut.left[i]
         records(drives, i, driven, one.center_distance_mm)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_shafts(name):
+    machine, each = designs(name)
+    on = shafts.on_driven_crank if machine.spec.drive.CRANKED else shafts.on_crank
+    shaft = machine.spec.shaft
+    asked = [(shafts.wheel_shaft, shafts.on_wheel)]
+    if machine.spec.wheel.FLAT:
+        asked.append((shafts.crank_shaft, on))
+    for ends, loaded in asked:
+        found = shafts.shaft_of_many(machine, ends(shaft), loaded)
+        for i, one in each:
+            alone_ = shafts.shaft(one, ends(one.spec.shaft), loaded)
+            records(found, i, alone_, close=SEARCHED, places=PLACE)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_rollers(name):
+    machine, each = designs(name)
+    ways = passages_of_many(machine)
+    life, worn = roller.lives(machine, ways), roller.wears_mm(machine, ways)
+    for i, one in each:
+        for way, passage in zip(ways, roller.passages(one), strict=True):
+            records(way, i, passage, close=SUMMED)
+        records(life, i, roller.life(one), close=SUMMED)
+        same(worn, i, roller.wear_mm(one), SUMMED)
+
+
+def test_a_roller_that_turns_back_thrice_in_its_slot():
+    """An epicyclic drive's: its way is what its distance from the wheel's axis goes up and down."""
+    _, each = designs("epicyclic")
+    one = each[1][1]
+    engagement = one.engagements[0]
+    x, y = engagement.path(np.linspace(engagement.entry_deg, engagement.exit_deg, 200_001), 0)
+    far = np.diff(np.hypot(x.c[0], y.c[0])) * one.center_distance_mm / 1000.0
+    assert (np.sign(far[1:]) != np.sign(far[:-1])).sum() == 3
+    # a top between two of the angles is less than 1e-10 of the way above both
+    assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)

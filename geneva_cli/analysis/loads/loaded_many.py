@@ -6,13 +6,14 @@ which signs count, and the moments that no smooth stretch reaches.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, mirrored
-from geneva_cli.analysis.loads.forces import Setting, gain, needed, sliding, value
+from geneva_cli.analysis.loads.cycle import Quantity
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, needed, sliding, value
 from geneva_cli.analysis.loads.instant import Instant, instant
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
 from geneva_cli.analysis.loads.stretches import ZERO
@@ -26,30 +27,68 @@ from geneva_cli.numerics.jet import Jet
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.extrema_many import Which
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.jet import Array, Number
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
-At: TypeAlias = tuple[Setting, Contact[Any], tuple[int, ...]]  # and the shape of the places
+# The setting, the contact, the shape of the places, and what is wanted of the designs there.
+At: TypeAlias = "tuple[Setting, Contact[Jet], tuple[int, ...], Sequence[Wanted]]"
+
+
+class Wanted(Protocol):
+    """What is looked for at an instant, of the contact there.
+
+    A tuple whose numbers may be arrays (m, 1), or what holds no numbers.
+    """
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet], /) -> Row[Jet]:
+        """The quantity, and what bounds it."""
+
+
+class Named(NamedTuple):
+    """One of ``QUANTITIES``."""
+
+    quantity: Quantity
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The quantity, and what bounds it."""
+        return self.quantity(i)
+
+
+# one of many designs: their engagement and setting, and the quantities that are wanted
+Machine: TypeAlias = "tuple[Engagement, Setting, tuple[Wanted, ...]]"
+
+
+def machine(
+    engagement: Engagement, given: Setting, names: Sequence[str], own: Mapping[str, Wanted]
+) -> Machine:
+    """Designs of one engagement, and the quantities of these names: of ``own``, or of the cycle."""
+    wanted = [own[name] if name in own else Named(QUANTITIES[name]) for name in names]
+    return engagement, given, tuple(wanted)
 
 
 class Loaded:
-    """Some designs of one engagement under their load, as ``search`` asks for their functions."""
+    """Some designs of one engagement under their load, as ``search`` asks for their functions.
 
-    def __init__(self, machine: tuple[Engagement, Setting], names: Sequence[str]) -> None:
-        self.machine = engagement, given = machine
+    ``kinds`` are those whose signs count besides what makes the quantities jump.
+    """
+
+    def __init__(self, machine: Machine, names: Sequence[str], more: Sequence[str] = ()) -> None:
+        self.machine = engagement, given, _ = machine
         self.names = names
-        self.kinds = kinds(engagement, given)
+        self.kinds = kinds(engagement, given, more)
         self.signs, self.wanted = len(self.kinds), len(names)
-        self.reactions = any(name in REACTIONS for name in names)
-        self.spins = given.rubs or any(name in SLIDING for name in names)
+        own = any(name not in QUANTITIES for name in names)
+        held = own or any(name in REACTIONS for name in names)
+        self.reactions = held and engagement.reactions is not None
+        self.spins = own or "slides" in self.kinds or any(name in SLIDING for name in names)
         motion, slot = engagement.motion, engagement.slot
         straight = not slot.curved and all_true(slot.offset == 0.0)
         self.mirrored = straight and motion.symmetric and not self.reactions
         # of the block of designs that is sampled: which, their machine, and places and contact
         self.kept: tuple[slice | None, Any] = (None, None)
-        self.last: tuple[Array, Contact[Any]] | None = None
+        self.last: tuple[Array, Contact[Jet]] | None = None
 
     @property
     def repeats(self) -> bool:
@@ -62,35 +101,33 @@ class Loaded:
         alone = all_true(given.resists_Nm == 0.0) or all_true(given.inertia_Nm == 0.0)
         return self.mirrored and alone and not given.rubs
 
-    def at(
-        self, x: Array, which: Which, order: int
-    ) -> tuple[Setting, Contact[Any], tuple[int, ...]]:
-        """Setting, contact and shape of some designs."""
+    def at(self, x: Array, which: Which, order: int) -> At:
+        """Setting, contact, shape and what is wanted of some designs."""
         if not isinstance(which, slice):
-            engagement, given = taken(self.machine, which)
-            return given, self._contact(engagement, x, order), x.shape
+            engagement, given, wanted = taken(self.machine, which)
+            return given, self._contact(engagement, x, order), x.shape, wanted
         if which != self.kept[0]:
             self.kept, self.last = (which, taken(self.machine, which)), None
-        engagement, given = self.kept[1]
+        engagement, given, wanted = self.kept[1]
         if not self.mirrored:
-            return given, self._contact(engagement, x, order), x.shape
+            return given, self._contact(engagement, x, order), x.shape, wanted
         if self.last and order == 1 and np.array_equal(self.last[0], -x[:, ::-1]):
-            return given, mirrored(self.last[1]), x.shape
+            return given, mirrored(self.last[1]), x.shape, wanted
         self.last = x, self._contact(engagement, x, order)
-        return given, self.last[1], x.shape
+        return given, self.last[1], x.shape, wanted
 
-    def _contact(self, engagement: Engagement, x: Array, order: int) -> Contact[Any]:
+    def _contact(self, engagement: Engagement, x: Array, order: int) -> Contact[Jet]:
         return contact(engagement, x, order, self.reactions, self.spins)
 
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
-        names = self.names if asked is None else [self.names[k] for k in asked]
-        found = look(self.kinds, *at[:2], forced)
-        shape = at[2]
-        orders = range(at[1].velocity.order + 1)
-        shape_in = (self.signs + len(names), *shape[::-1])
+        given, contact, shape, every = at
+        wanted = every if asked is None else [every[k] for k in asked]
+        found = look(self.kinds, given, contact, forced)
+        orders = range(contact.velocity.order + 1)
+        shape_in = (self.signs + len(wanted), *shape[::-1])
         values = [np.empty(shape_in).swapaxes(1, 2) for _ in orders]
         for i, jet in enumerate(found.jets):
             for k in orders:
@@ -98,8 +135,8 @@ class Loaded:
         positive = np.empty((self.signs, *shape[::-1]), dtype=bool).swapaxes(1, 2)
         for i, sign in enumerate(found.signs):
             positive[i] = sign > 0.0
-        for i, name in enumerate(names, self.signs):
-            row = QUANTITIES[name](found.instant)
+        for i, quantity in enumerate(wanted, self.signs):
+            row = quantity(found.instant, contact)
             for k in orders:
                 values[k][i] = row.value.c[k]
             if row.room is not None:
@@ -116,15 +153,15 @@ class Look(NamedTuple):
 
     signs: list[Array]
     jets: list[Jet]
-    instant: Instant[Any]
+    instant: Instant[Jet]
 
 
-def kinds(engagement: Engagement, given: Setting) -> list[str]:
-    """Whose signs count: of what changes nothing, none."""
+def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:
+    """Whose signs count: of what changes nothing, none, but for those asked for as ``more``."""
     out = []
     if not all_true(given.inertia_Nm == 0.0):
         out.append("drives")
-    if given.rubs:
+    if given.rubs or "slides" in more:
         out.append("slides")
     if not all_true(given.efficiency == 1.0):
         out.append("pays")
@@ -132,15 +169,17 @@ def kinds(engagement: Engagement, given: Setting) -> list[str]:
         out.append("grip")
     if engagement.slot.curved and given.hertz is not None:
         out.append("edge")
+    if "along" in more:
+        out.append("along")
     return out
 
 
-def look(kinds: Sequence[str], given: Setting, at: Contact[Any], forced: Array | None) -> Look:
+def look(kinds: Sequence[str], given: Setting, at: Contact[Jet], forced: Array | None) -> Look:
     """What happens at a contact; ``forced`` are the signs of ``kinds`` that are known, else NaN."""
     signs: list[Array] = []
     jets: list[Jet] = []
 
-    def sign(kind: str, jet: Jet) -> Any:
+    def sign(kind: str, jet: Jet) -> Array:
         here = np.copysign(1.0, jet.c[0])
         if kind in kinds:
             if forced is not None:
@@ -151,8 +190,10 @@ def look(kinds: Sequence[str], given: Setting, at: Contact[Any], forced: Array |
         return here
 
     drives = sign("drives", needed(given, at))
-    slides = sign("slides", sliding(at, drives, given.radius)) if given.rubs else 1.0
-    pays = 1.0
+    slides: Number = 1.0
+    if "slides" in kinds:
+        slides = sign("slides", sliding(at, drives, given.radius))
+    pays: Number = 1.0
     if "pays" in kinds:
         pays = sign("pays", gain(given, at, drives, slides) * drives)
     found = instant(given, at, drives, slides, pays)
@@ -160,6 +201,8 @@ def look(kinds: Sequence[str], given: Setting, at: Contact[Any], forced: Array |
         sign("grip", found.grip)
     if "edge" in kinds and found.edge is not None:
         sign("edge", found.edge)
+    if "along" in kinds:
+        sign("along", at.along)
     return Look(signs, jets, found)
 
 
@@ -181,7 +224,7 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
 
 def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
     """The quantities at mid-motion of curved slots, which no span reaches; infinite, or a limit."""
-    engagement, given = load.machine
+    engagement, given, wanted = load.machine
     place, near = np.zeros(n), NEAR * np.reshape(engagement.entry_deg, (-1, 1))
     out = []
     with np.errstate(all="ignore"):
@@ -197,8 +240,8 @@ def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
                 along=at.along * way, aside=at.aside * way, curvature=at.curvature * way
             )
             found = look(load.kinds, given, here, None).instant
-            for k, name in enumerate(load.names):
-                row = QUANTITIES[name](found)
+            for k, quantity in enumerate(wanted):
+                row = quantity(found, here)
                 known = np.broadcast_to(value(row.value), (n, 1))
                 room = np.inf if row.room is None else value(row.room)
                 there = (room > ZERO) & np.isfinite(known)
@@ -213,9 +256,10 @@ def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
 
 def _towards(load: Loaded, x: Array) -> list[Array]:
     """The limits of 0/0 at mid-motion, from beside it."""
-    given, at, _ = load.at(x, slice(0, len(x)), 2)
+    given, at, _, wanted = load.at(x, slice(0, len(x)), 2)
     h = np.radians(x)
-    rows = [QUANTITIES[name](look(load.kinds, given, at, None).instant) for name in load.names]
+    found = look(load.kinds, given, at, None).instant
+    rows = [quantity(found, at) for quantity in wanted]
     return [c[0] - h * (c[1] - h * c[2]) for c in (row.value.c for row in rows)]
 
 

@@ -15,30 +15,34 @@ those of one design; all its stretches are found together, a block of designs af
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
-from geneva_cli.analysis.loads.forces import Setting, setting
+from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loaded_many import (
     REACTIONS,
     Loaded,
+    Machine,
+    Wanted,
     at_mid_motion,
     look,
+    machine,
     spans_of,
     stretches_of,
 )
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
-from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
+from geneva_cli.analysis.loads.quantities import SQUARED
 from geneva_cli.analysis.loads.summary import rounded, shares
 from geneva_cli.analysis.peaks_many import PeakOfMany
-from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.roots import TIE
 from geneva_cli.numerics.signed_many import Found, search
@@ -48,6 +52,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 GROUP = 4096  # designs whose stretches are found together
+NONE: Mapping[str, Wanted] = MappingProxyType({})  # quantities of one's own
 
 
 class SummaryOfMany(NamedTuple):
@@ -68,13 +73,16 @@ class SummaryOfMany(NamedTuple):
         )
 
 
-def greatest_of_many(mechanism: Mechanism, names: Sequence[str]) -> dict[str, PeakOfMany]:
+def greatest_of_many(
+    mechanism: Mechanism, names: Sequence[str], own: Mapping[str, Wanted] = NONE
+) -> dict[str, PeakOfMany]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,).
 
     As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is ``wheel_torque_Nm``.
+    ``own`` are quantities that the cycle does not know, by their names.
     """
     best: dict[str, PeakOfMany] = {}
-    for found, at_deg, _ in _over_all(mechanism, names, sized=True, told=()):
+    for found, at_deg, _ in _over_all(mechanism, names, sized=True, told=(), own=own):
         for name, most, at in zip(names, found, at_deg, strict=True):
             here = PeakOfMany(most, at)
             best[name] = _greater(best[name], here) if name in best else here
@@ -129,33 +137,41 @@ def summaries_of_many(
 
 
 def _over_all(
-    mechanism: Mechanism, names: Sequence[str], *, sized: bool, told: Collection[str]
+    mechanism: Mechanism,
+    names: Sequence[str],
+    *,
+    sized: bool,
+    told: Collection[str],
+    own: Mapping[str, Wanted] = NONE,
 ) -> list[tuple[Array, Array, Array | None]]:
     """Of each engagement the greatest values, their places as shown, and the sums."""
     given = setting(mechanism)
     out = []
     for engagement in mechanism.engagements:
-        most, x, sums = _of(engagement, given, names, sized, told)
+        every = machine(engagement, given, names, own)
+        most, x, sums = _of(every, names, sized, told)
         places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
         shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, sums))
     return out
 
 
+def count(every: Machine) -> int:
+    """How many designs they are."""
+    engagement, given, wanted = every
+    motion = engagement.motion
+    own = [value for one in wanted if isinstance(one, tuple) for value in one]
+    known = (motion(motion.entry_deg, 1).c[1], motion.entry_deg, *given, *own)
+    return max(np.size(value) for value in known if isinstance(value, np.ndarray | float))
+
+
 def _of(
-    engagement: Engagement,
-    given: Setting,
-    names: Sequence[str],
-    sized: bool,
-    told: Collection[str],
+    every: Machine, names: Sequence[str], sized: bool, told: Collection[str]
 ) -> tuple[Array, Array, Array | None]:
     """Of one engagement, at its own input angles."""
-    motion = engagement.motion
-    known = (motion(motion.entry_deg, 1).c[1], motion.entry_deg, *given)
-    m = max(np.size(value) for value in known if value is not None)
-    parts = []
+    m, parts = count(every), []
     for i in range(0, m, GROUP):
-        some = taken((engagement, given), slice(i, i + GROUP))
+        some = taken(every, slice(i, i + GROUP))
         parts.append(_group(Loaded(some, names), min(GROUP, m - i), sized, told))
     most, x, sums = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
     return most, x, sums if told else None
@@ -201,12 +217,12 @@ def _sums(
 
 def _powers(load: Loaded, x: Array, which: Whole, signs: Array | None, plain: bool) -> Array:
     """The squares of the quantities, and where ``plain`` they themselves after those."""
-    given, at, shape = load.at(x, which, 0)
+    given, at, shape, wanted = load.at(x, which, 0)
     here = look(load.kinds, given, at, signs).instant
     count = len(load.names)
     out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
-    for i, name in enumerate(load.names):
-        value = QUANTITIES[name](here).value.c[0]
+    for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
+        value = array(quantity(here, at).value.c[0])
         out[i] = square_of(value, name)
         if plain:
             out[count + i] = np.sqrt(abs(value)) if name in SQUARED else value

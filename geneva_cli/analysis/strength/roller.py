@@ -20,21 +20,28 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import forces, setting, sliding
 from geneva_cli.analysis.loads.stretches import Signs, whole
+from geneva_cli.numerics.arrays import all_true, first_of, parameter
 from geneva_cli.numerics.quadrature import integrals
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from geneva_cli.analysis.loads.contact import Contact
     from geneva_cli.analysis.loads.forces import Setting
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Whole
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.jet import Array, Jet, Number
 
 EXPONENT = 10.0 / 3.0  # p, of line contact
 RATED = 1e6  # revolutions that C is rated for
 
 
 class Passage(NamedTuple):
-    """One roller's way through one slot, in SI units; infinite where the force has no bound."""
+    """One roller's way through one slot, in SI units; infinite where the force has no bound.
+
+    Of m designs (m,) each.
+    """
 
     travel_m: float  # of the contact along the walls, in and out
     rolled_m: float  # ∫ |v_s| dt
@@ -64,24 +71,37 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
     0.146410161514
     """
     pieces = whole(engagement, given)
-    if not engagement.motion.symmetric and is_straight(engagement):  # else it turns at mid-motion
+    if turns_back(engagement):
         signs = Signs(engagement, [piece[:2] for piece in pieces], [lambda at: at.along])
         pieces = signs.cut(pieces, lambda piece: 0, "pays")
     drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
 
     def rows(x: Array, span: Whole) -> list[Array]:
         at = contact(engagement, x, reactions=False)
-        found = forces(given, at, drives[span], slides[span])
-        rubs = abs(sliding(at, drives[span], given.radius).arrays()[0]) * given.L
-        with np.errstate(all="ignore"):
-            force = np.where(found.grip.c[0] > 0.0, found.force.c[0], np.inf) * at.touches.c[0]
-            # nothing presses on a wall where nothing is to be turned
-            force = np.where(found.torque.c[0] == 0.0, 0.0, force)
-            along = abs(at.along.arrays()[0]) * given.L * at.touches.c[0]
-            return [along, rubs, force * rubs, force**EXPONENT * rubs]
+        return passing(given, at, drives[span], slides[span])
 
     radian = math.radians(1.0)  # the integrals are by degrees
     return Passage(*(radian * sum_ for sum_ in integrals(rows, [(p.start, p.end) for p in pieces])))
+
+
+def turns_back(engagement: Engagement) -> bool:
+    """Whether a roller may turn back in its slot elsewhere than at mid-motion.
+
+    One on a crank's arm does not, and of a curved slot both ways begin there.
+    """
+    return is_straight(engagement) and not all_true(engagement.crank_sense == 0.0)
+
+
+def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
+    """What is integrated over a passage, at places where torque and sliding have these signs."""
+    found = forces(given, at, drives, slides)
+    rubs = abs(sliding(at, drives, given.radius).arrays()[0]) * given.L
+    with np.errstate(all="ignore"):
+        force = np.where(found.grip.c[0] > 0.0, found.force.c[0], np.inf) * at.touches.c[0]
+        # nothing presses on a wall where nothing is to be turned
+        force = np.where(found.torque.c[0] == 0.0, 0.0, force)
+        along = abs(at.along.arrays()[0]) * given.L * at.touches.c[0]
+        return [along, rubs, force * rubs, force**EXPONENT * rubs]
 
 
 def passages(mechanism: Mechanism) -> list[Passage]:
@@ -101,24 +121,34 @@ def life(mechanism: Mechanism) -> Life | None:
 
     Each roller moves the wheel in its turn: of several, each makes its own share of the motions.
     """
-    spec = mechanism.spec
-    if not spec.is_loaded:
+    if not mechanism.spec.is_loaded:
         return None
-    each, m = passages(mechanism), rollers(mechanism)
-    own = [each[i::m] for i in range(min(m, len(each)))]
-    radius_m = mechanism.roller_radius_mm / 1000.0
+    force, turns, *lasts = first_of(lives(mechanism, passages(mechanism)))
+    assert force is not None and turns is not None
+    return Life(force, turns, *lasts)
+
+
+def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
+    """The same of m designs, (m,) each, or of one, from the passages of their engagements."""
+    spec, m = mechanism.spec, rollers(mechanism)
+    radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
     found = []
-    for ways in own:
-        rolled = math.fsum(way.rolled_m for way in ways)
-        force = (math.fsum(way.load for way in ways) / rolled) ** (1.0 / EXPONENT)
+    for ways in (each[i::m] for i in range(min(m, len(each)))):
+        rolled = sum(way.rolled_m for way in ways)
+        force = (sum(way.load for way in ways) / rolled) ** (1.0 / EXPONENT)
         turns = rolled / len(ways) / (2.0 * math.pi * radius_m)
-        found.append((force, turns, _motions_per_h(mechanism, len(ways))))
-    force, turns, often = max(found, key=lambda f: f[0] ** EXPONENT * f[1] * f[2])
-    capacity = spec.material_roller.dynamic_capacity_N
-    if capacity is None:
-        return Life(force, turns, None, None, None)
-    lasts = RATED * (capacity / force) ** EXPONENT if force else math.inf
-    return Life(force, turns, lasts, lasts / turns, lasts / turns / often)
+        often = np.ravel(_motions_per_h(mechanism, len(ways)))
+        found.append(np.stack(np.broadcast_arrays(force, turns, often)))
+    with np.errstate(all="ignore"):
+        every = np.stack(found)
+        worst = np.argmax(every[:, 0] ** EXPONENT * every[:, 1] * every[:, 2], axis=0)
+        force, turns, often = every[worst, :, np.arange(every.shape[2])].T
+        lasts: list[float | None] = [None] * 3
+        capacity = spec.material_roller.dynamic_capacity_N
+        if capacity is not None:  # without a force it lasts for ever
+            rated = RATED * (np.ravel(capacity) / force) ** EXPONENT
+            lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
+    return Life(parameter(force), parameter(turns), *lasts)
 
 
 def _motions_per_h(mechanism: Mechanism, ways: int) -> float:
@@ -134,8 +164,17 @@ def wear_mm(mechanism: Mechanism) -> float | None:
     Archard: a volume of k ∫ N |v_s| dt a passage, over the face that the contact sweeps. Of the
     slot that wears most; None without ``wear_mm3_Nm`` or ``face_width_mm``.
     """
+    if not mechanism.spec.is_loaded:
+        return None
+    return first_of([wears_mm(mechanism, passages(mechanism))])[0]
+
+
+def wears_mm(mechanism: Mechanism, each: Sequence[Passage]) -> Array | None:
+    """The same of m designs, (m,), or of one, from the passages of their engagements."""
     spec = mechanism.spec
     k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
-    if k is None or width is None or not spec.is_loaded:
+    if k is None or width is None:
         return None
-    return max(1e6 * k * way.work / (width * 1000.0 * way.travel_m) for way in passages(mechanism))
+    rate = np.ravel(1e6 * k / (width * 1000.0))
+    worn: Array = np.max([rate * way.work / way.travel_m for way in each], axis=0)
+    return worn

@@ -17,24 +17,30 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from geneva_cli.analysis.loads.forces import Row, setting
 from geneva_cli.analysis.loads.instant import instant
+from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.peaks import maxima
+from geneva_cli.numerics.arrays import first_of, parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geneva_cli.analysis.loads.contact import Contact
     from geneva_cli.analysis.loads.instant import Instant
+    from geneva_cli.analysis.loads.loaded_many import Wanted
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Jet, Number
+    from geneva_cli.numerics.arrays import N
+    from geneva_cli.numerics.jet import Array, Jet, Number
     from geneva_cli.spec.tables import Shaft
 
     On = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
 
 
 class Turned(NamedTuple):
-    """A shaft under its cycle; None where what it needs is not known."""
+    """A shaft under its cycle; None where what it needs is not known. Of m designs (m,) each."""
 
     moment_Nm: float  # sqrt((Kb M)² + (Kt T)²), the greatest
     at_deg: float
@@ -61,7 +67,7 @@ def crank_shaft(given: Shaft) -> Ends:
     return Ends(given.crank_diameter_mm, given.crank_overhang_mm, given.crank_span_mm)
 
 
-def shear_MPa(moment_Nm: float, diameter_mm: float) -> float:
+def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
     """Shear stress of a round shaft under an equivalent torque: 16 T/(pi d³).
 
     >>> round(shear_MPa(100.0, 20.0), 6)
@@ -70,9 +76,10 @@ def shear_MPa(moment_Nm: float, diameter_mm: float) -> float:
     return 16e3 * moment_Nm / (math.pi * diameter_mm**3)
 
 
-def least_diameter_mm(moment_Nm: float, allowed_MPa: float) -> float:
+def least_diameter_mm(moment_Nm: N, allowed_MPa: N) -> N:
     """The diameter at which that stress is the allowed one."""
-    return math.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
+    found: N = np.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
+    return found
 
 
 def on_wheel(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
@@ -94,6 +101,31 @@ def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
     return i.crank_bearing_squared, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
 
 
+class Moment(NamedTuple):
+    """The square of (Kb M)² + (Kt T)², as ``greatest_of_many`` asks for it; lever in metres."""
+
+    loaded: On
+    lever: float
+    torsion: float
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The square, and what bounds it."""
+        square, torque = self.loaded(i, at)
+        turned = torque * self.torsion
+        return Row(square * (self.lever * self.lever) + turned * turned, i.grip)
+
+
+class Torque(NamedTuple):
+    """The square of the torque, likewise."""
+
+    loaded: On
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The square, and what bounds it."""
+        _, torque = self.loaded(i, at)
+        return Row(torque * torque, i.grip)
+
+
 def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     """A shaft under the force and torque of a cycle; None without an overhang or without a load.
 
@@ -101,14 +133,11 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     """
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
-    given, known = mechanism.spec.shaft, setting(mechanism)
-    lever = given.bending_factor * ends.overhang_mm / 1000.0
+    wanted, known = _wanted(mechanism, ends, loaded).values(), setting(mechanism)
 
     def rows(at: Contact[Jet], *signs: Number) -> list[Row[Jet]]:
         i = instant(known, at, *signs)
-        square, torque = loaded(i, at)
-        bent, turned = square * (lever * lever), torque * given.torsion_factor
-        return [Row(bent + turned * turned, i.grip), Row(torque * torque, i.grip)]
+        return [one(i, at) for one in wanted]
 
     both, at_deg, most = -1.0, 0.0, 0.0
     for engagement in mechanism.engagements:
@@ -116,16 +145,42 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
         most = max(most, turned.max)
         if found.max > both:
             both, at_deg = found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg)
-    moment, d, allowed = math.sqrt(both), ends.diameter_mm, given.shear_stress_max_MPa
-    twist = None
-    if d and ends.span_mm and math.isfinite(most):
-        length = ends.overhang_mm + ends.span_mm
+    moment, _, *rest = first_of(_turned(mechanism, ends, np.array([both]), at_deg, most))
+    assert moment is not None
+    return Turned(moment, at_deg, *rest)
+
+
+def shaft_of_many(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
+    """The same of m designs; None where none has an overhang or a load."""
+    if ends.overhang_mm is None or not mechanism.spec.is_loaded:
+        return None
+    own = _wanted(mechanism, ends, loaded)
+    both, turned = greatest_of_many(mechanism, tuple(own), own).values()
+    return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
+
+
+def _wanted(mechanism: Mechanism, ends: Ends, loaded: On) -> dict[str, Wanted]:
+    """The squares of the equivalent moment and of the torque."""
+    given = mechanism.spec.shaft
+    assert ends.overhang_mm is not None
+    lever = given.bending_factor * ends.overhang_mm / 1000.0
+    return {"moment": Moment(loaded, lever, given.torsion_factor), "torque": Torque(loaded)}
+
+
+def _turned(
+    mechanism: Mechanism, ends: Ends, square: Array, at_deg: Number, torque_squared: Number
+) -> Turned:
+    """From the greatest squares of moment and torque, (m,)."""
+    given, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
+    moment, allowed = np.sqrt(square), given.shear_stress_max_MPa
+    stress = least = twist = None
+    if d is not None:
+        stress = parameter(shear_MPa(moment, np.ravel(d)))
+    if allowed is not None:
+        least = parameter(least_diameter_mm(moment, np.ravel(allowed)))
+    if d is not None and span is not None and ends.overhang_mm is not None:
         polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-        twist = math.degrees(math.sqrt(most) * length / (given.shear_modulus_GPa * polar))
-    return Turned(
-        moment,
-        at_deg,
-        None if d is None else shear_MPa(moment, d),
-        None if allowed is None else least_diameter_mm(moment, allowed),
-        twist,
-    )
+        rate = np.ravel((ends.overhang_mm + span) / (given.shear_modulus_GPa * polar))
+        most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
+        twist = parameter(np.degrees(most * rate))
+    return Turned(parameter(moment), parameter(at_deg), stress, least, twist)

@@ -1,0 +1,90 @@
+"""The passages of many designs' rollers: the integrals of ``roller.passage``, all found together.
+
+Motions are cut where torque, sliding or the way along the slot change their signs, as for the means
+of the loads, and integrated between to the last digits.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> found = many(Spec(External(6), load=Load(torque_Nm=15.0)), {"wheel.z": np.array([4, 6])})
+    >>> passages_of_many(found.machine)[0].travel_m.round(9)  # 2 L (cos b - (1 - l))
+    array([0.082842712, 0.073205081])
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import NEAR, contact
+from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.loaded_many import (
+    Loaded,
+    Machine,
+    at_mid_motion,
+    machine,
+    spans_of,
+    stretches_of,
+)
+from geneva_cli.analysis.loads.many import GROUP, NONE, count
+from geneva_cli.analysis.strength.roller import Passage, passing, turns_back
+from geneva_cli.machine.many import taken
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.signed_many import search
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
+
+AGREED = 1e-12  # a law of points has knots at which its higher derivatives jump
+FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integrals
+
+
+def passages_of_many(mechanism: Mechanism) -> list[Passage]:
+    """The passage of each engagement of a period: its integrals are (m,)."""
+    given = setting(mechanism)
+    out = []
+    for engagement in mechanism.engagements:
+        every = machine(engagement, given, FORCE, NONE)
+        m = count(every)
+        groups = [
+            _group(taken(every, slice(i, i + GROUP)), min(GROUP, m - i)) for i in range(0, m, GROUP)
+        ]
+        rows = [parameter(np.concatenate(row)) for row in zip(*groups, strict=True)]
+        out.append(Passage(*rows))
+    return out
+
+
+def _group(every: Machine, n: int) -> Array:
+    """The integrals of n designs, a row each."""
+    engagement = every[0]
+    load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
+    spans = spans_of(engagement, n)
+    known = at_mid_motion(load, n) if engagement.slot.curved else []
+    found = search(load, spans, n, True, known)
+    design, _, (a, b), positive = stretches_of(load, spans, found.cuts)
+    if engagement.slot.curved:  # values have no need to keep away from mid-motion
+        for end in (engagement.entry_deg, engagement.exit_deg):
+            near = np.broadcast_to(np.ravel(NEAR * end), n)[design]
+            a, b = (np.where(x == near, 0.0, x) for x in (a, b))
+    signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
+
+    def rows(x: Array, which: Whole) -> Array:
+        some, given, _ = taken(every, design[which])
+        drives, slides = (
+            signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
+        )
+        found = passing(given, contact(some, x, reactions=False), drives, slides)
+        return np.stack(np.broadcast_arrays(*found))
+
+    bounded = np.isfinite(found.most[0])
+    every_one = np.full(n, True)
+    asked = np.stack((every_one, every_one, bounded, bounded))
+    with np.errstate(all="ignore"):
+        total = integrals_many(rows, a, b, design, asked, True, AGREED) * DEGREE
+    return np.where(asked, total, np.inf)
