@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.analysis.loads.contact import contact as touching
-from geneva_cli.analysis.shock import contacts
+from geneva_cli.analysis.shock import first_contacts
 from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
@@ -62,7 +62,7 @@ def entry_blows(mechanism: Mechanism, share: float = 1.0) -> Blows:
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
         for crank, center in _errors(mechanism, engagement, share):
-            found = contacts(engagement, crank, center)
+            found = first_contacts(engagement, crank, center)
             if found is not None:
                 best = _harder(best, _shown(mechanism, engagement, *found))
     return _with_cost(mechanism, best)

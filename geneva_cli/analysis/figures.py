@@ -58,7 +58,7 @@ SHOWN = 3.0  # times its typical size is shown of a load that nothing bounds
 LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
 
 
-class Drawn(NamedTuple):
+class MachineCurves(NamedTuple):
     """Some quantities of a machine over the window: for each its pieces, marks and bounds."""
 
     pieces: dict[str, list[Piece]]
@@ -139,7 +139,7 @@ def _why(cycle: Cycle, name: str) -> str:
     return "the crank itself carries the roller, and there is no guide"
 
 
-def _panel(name: str, drawn: Mapping[str, Drawn]) -> Panel:
+def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
     curves: list[Curve] = []
     bounds: list[float] = []
     for number, (design, found) in enumerate(drawn.items()):
@@ -156,11 +156,11 @@ def _size(mark: Mark) -> float:
     return math.inf if mark.y is None else abs(mark.y)
 
 
-def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> Drawn:
+def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> MachineCurves:
     machine = cycle.mechanism
     moves, loads = [n for n in names if n in MOTION], [n for n in names if n not in MOTION]
     step = math.degrees(sum(2.0 * e.half_step for e in machine.engagements))
-    out = Drawn({}, {}, {})
+    out = MachineCurves({}, {}, {})
     if moves:
         stages = list(motion_stages(machine, moves))
         rise = [step if n == WHEEL else 0.0 for n in moves]

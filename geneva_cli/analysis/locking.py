@@ -1,4 +1,4 @@
-"""How far the wheel may be turned off its place in the dwell, in its lock, for any deviations.
+"""The play of the wheel in its lock during the dwell, for any deviations.
 
 A recess of radius rho is cut into the wheel about a point at the centre distance L; the locking
 disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel is stopped
@@ -11,7 +11,7 @@ disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel 
 - or, with the disc too near to the recess's bottom, or where both reach farther round than 90
   degrees, on the recess itself, where the two centres are rho - k apart.
 
-In the middle of a dwell, where the lock holds best and the disc stands evenly.
+It is taken in the middle of a dwell, where the disc stands symmetrically to the recess.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from geneva_cli.numerics.jet import Jet, atan2, sqrt
 ROUNDING = 1e-13  # of an angle, or of the centre distance
 
 
-class Place(NamedTuple):
-    """How far the wheel may be turned, radians; 0 where disc and recess do not go together."""
+class LockPlay(NamedTuple):
+    """The wheel's play to one side, radians; 0 where disc and recess do not go together."""
 
     angle: Jet
-    jams: Mask
+    jams: Mask  # where they do not
 
 
-class Rest(NamedTuple):
+class LockContact(NamedTuple):
     """Where disc and recess touch: angles in radians, lengths in millimetres."""
 
     on: str  # "corner" of the recess on the disc, "disc's end" on the recess, or arc on "recess"
@@ -61,7 +61,7 @@ class Lock(NamedTuple):
         a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
         return math.acos(max(-1.0, min(1.0, self.sign * a)))
 
-    def __call__(self, by: Deviations) -> Place:
+    def __call__(self, by: Deviations) -> LockPlay:
         """The wheel's play to one side."""
         L, away = self.L, by.center_distance_mm + self.L
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
@@ -80,27 +80,27 @@ class Lock(NamedTuple):
         jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
         on_it = nearer > np.maximum(spare.c[0], 0.0) * math.cos(min(self.reach, self.half))
         angle = _chosen(on_it & ~jams, self._on_recess(by, spare), angle)
-        return Place(_chosen(jams, angle * 0.0, angle), jams)
+        return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
 
     @property
     def _far(self) -> float:
         """Distance of a rounded corner's centre from the wheel's axis."""
         return self.corner - self.sign * self.edge
 
-    def rests(self) -> Rest:
-        """Where the wheel comes to rest, without deviations.
+    def contact(self) -> LockContact:
+        """Where disc and recess touch once the play is used up, without deviations.
 
-        >>> found = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).rests()
+        >>> found = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).contact()
         >>> round(math.degrees(found.phi), 3), round(math.degrees(found.play), 4)
         (59.455, 0.3325)
-        >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).rests().on  # an internal wheel
+        >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on  # an internal wheel
         'recess'
         """
         L, far, clearance = self.L, self._far, self.recess - self.lock
         play = float(self(deviations([0.0] * len(Deviations._fields))).angle.c[0])
         if min(self.reach, self.half) > 0.5 * math.pi:
             radius = self.lock * self.recess / clearance if clearance else math.inf
-            return Rest("recess", 0.5 * math.pi, play, radius)
+            return LockContact("recess", 0.5 * math.pi, play, radius)
         if self.reach <= self.half:
             on, reach, edge = "corner", self.lock + self.edge, self.edge
         else:
@@ -109,10 +109,13 @@ class Lock(NamedTuple):
             far = math.hypot(x, y)
         phi = math.acos(self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach))
         radius = 1.0 / (1.0 / self.lock + 1.0 / edge) if edge else 0.0
-        return Rest(on, phi, play, radius if clearance > 0.0 else math.inf)
+        return LockContact(on, phi, play, radius if clearance > 0.0 else math.inf)
 
     def _on_recess(self, by: Deviations, spare: Jet) -> Jet:
-        """Where disc and recess touch between their ends: 4 L (L + dL) sin²(d/2) = c² - dL²."""
+        """The play where disc and recess touch between their ends.
+
+        4 L (L + dL) sin²(d/2) = c² - dL², c being the difference of their radii.
+        """
         off = by.center_distance_mm
         square = (spare * spare - off * off) / ((off + self.L) * (4.0 * self.L))
         sine = sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))

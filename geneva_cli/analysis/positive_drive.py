@@ -1,4 +1,4 @@
-"""Is the wheel driven positively? Where a curved slot lacks the wall that its load needs.
+"""Positive drive: where a curved slot lacks the wall that its load needs.
 
 The roller passes each radius of the wheel twice, in and out, and by the same track only if the odd
 part of the motion is the straight slot's (the one-track theorem). Otherwise the slot has two
@@ -22,7 +22,7 @@ SAMPLES = 720  # in a half motion
 PLAY_MM = 0.01  # branches nearer than this are one slot, as a shop cuts it
 
 
-class Drive(NamedTuple):
+class PositiveDrive(NamedTuple):
     """How a curved slot drives: the intervals where it does not, and its branches' distance."""
 
     loose_deg: tuple[tuple[float, float], ...]  # input angles without the needed wall
@@ -32,7 +32,7 @@ class Drive(NamedTuple):
     loose_gap_mm: float = 0.0  # the same where the needed wall is missing
 
 
-class Drives(NamedTuple):
+class PositiveDrives(NamedTuple):
     """The same of m designs, (m,) each; ``loose`` (m, k) says at which ``input_deg``."""
 
     share: Array
@@ -43,7 +43,7 @@ class Drives(NamedTuple):
     loose: Mask
 
 
-def positive_drive(mechanism: Mechanism) -> Drive | None:
+def positive_drive(mechanism: Mechanism) -> PositiveDrive | None:
     """Where the slot drives the wheel under the spec's load; None for straight slots."""
     found = positive_drives(mechanism)
     if found is None:
@@ -51,10 +51,10 @@ def positive_drive(mechanism: Mechanism) -> Drive | None:
     places = np.sort(found.input_deg[0][found.loose[0]]).tolist()
     step = abs(mechanism.engagements[0].entry_deg) / SAMPLES
     share, gap, at, wide = (float(row[0]) for row in found[:4])
-    return Drive(tuple(_intervals(places, step)), share, gap, at, wide)
+    return PositiveDrive(tuple(_intervals(places, step)), share, gap, at, wide)
 
 
-def positive_drives(mechanism: Mechanism) -> Drives | None:
+def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
     """Where the slots of m designs, or of one, drive their wheels; None for straight slots.
 
     The torque is inertia plus resistance. The wall ahead is needed where it is positive: the way
@@ -83,7 +83,7 @@ def positive_drives(mechanism: Mechanism) -> Drives | None:
     wide = np.maximum(np.where(first, gap, 0.0), np.where(second, gap, 0.0)).max(axis=1)
     every, worst = np.arange(len(gap)), np.argmax(gap, axis=1)
     loose = np.hstack((first, second))
-    return Drives(
+    return PositiveDrives(
         loose.mean(axis=1),
         gap[every, worst],
         x[every, worst],

@@ -30,22 +30,22 @@ STEPS = 64  # halvings, every half an octave, in which a crossing is bracketed
 _SHARES = 0.5 ** (0.5 * np.arange(STEPS, -1, -1))
 
 
-class Contact(NamedTuple):
+class FirstContact(NamedTuple):
     """Where a roller first reaches the axis of the slot at rest, and what it does to the wheel."""
 
     at_deg: float
     jump: float  # of the wheel's velocity, over the input's; < 0: the wheel is struck back
 
 
-class Contacts(NamedTuple):
+class FirstContacts(NamedTuple):
     """The same of m designs, (m,) each; NaN where the roller never reaches the axis."""
 
     at_deg: Array
     jump: Array
 
 
-class Line(NamedTuple):
-    """The axis of the slot at rest as the roller comes to it, for errors of R and L.
+class SlotAxis(NamedTuple):
+    """The axis of the slot at rest, for a roller that comes to it with errors of R and L.
 
     In the frame of the axis, from the wheel's centre outwards, the roller's place is
     (1 + crank) p - (crank - center) c, p being its true place and c the hub of the crank's arm.
@@ -57,14 +57,14 @@ class Line(NamedTuple):
     along: float  # and how far along it
 
     @staticmethod
-    def of(engagement: Engagement) -> Line:
+    def of(engagement: Engagement) -> SlotAxis:
         """Of an engagement with a straight slot."""
         x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # a straight slot: anywhere
         (px, u), (py, v) = x.c, y.c
         m = library(px)
         way = m.copysign(1.0, px * u + py * v)
         hub, ahead = engagement.hub, engagement.half_step - m.atan2(way * v, way * u)
-        return Line(engagement, parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead)))
+        return SlotAxis(engagement, parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead)))
 
     def aside(self, crank: N, center: N) -> N:
         """How far the true path is from the axis where the one with errors crosses it, over L."""
@@ -75,10 +75,10 @@ class Line(NamedTuple):
     def anchor(self) -> Anchor:
         """The true entry."""
         anchor = self.engagement.motion.entry
-        assert anchor is not None  # ``contacts`` asks for it
+        assert anchor is not None  # ``first_contacts`` asks for it
         return anchor
 
-    def way(self, tau: Array) -> tuple[Array, Array]:
+    def distance(self, tau: Array) -> tuple[Array, Array]:
         """How far the true path is from the axis ``tau`` radians after entry, and its slope."""
         _, across = self.anchor.displacement(tau, 1)
         value, slope = across.arrays()
@@ -92,7 +92,7 @@ class Line(NamedTuple):
         return out
 
 
-def contact(engagement: Engagement, crank: float, center: float = 0.0) -> Contact | None:
+def first_contact(engagement: Engagement, crank: float, center: float = 0.0) -> FirstContact | None:
     """The first contact for relative errors of the crank's radius and of the centre distance.
 
     Of a roller on a crank's arm; elsewhere only ``center`` has a meaning. None where the roller
@@ -100,44 +100,46 @@ def contact(engagement: Engagement, crank: float, center: float = 0.0) -> Contac
     and grooves that are solved for. A radial slot has sin(phi + b) = sin b / l there.
 
         >>> from geneva_cli import Design, External
-        >>> contact(Design(External(3)).mechanism.engagements[0], crank=1e-4)
-        Contact(at_deg=-30.81025092485702, jump=-0.023909826405751...)
+        >>> first_contact(Design(External(3)).mechanism.engagements[0], crank=1e-4)
+        FirstContact(at_deg=-30.81025092485702, jump=-0.023909826405751...)
     """
-    found = contacts(engagement, crank, center)
+    found = first_contacts(engagement, crank, center)
     if found is None or np.isnan(found.jump[0]):
         return None
-    return Contact(float(found.at_deg[0]), float(found.jump[0]))
+    return FirstContact(float(found.at_deg[0]), float(found.jump[0]))
 
 
-def contacts(engagement: Engagement, crank: float, center: float = 0.0) -> Contacts | None:
+def first_contacts(
+    engagement: Engagement, crank: float, center: float = 0.0
+) -> FirstContacts | None:
     """The first contacts of m designs, or for m errors; None for slots that are solved for."""
     if engagement.motion.entry is None:
         return None
-    line = Line.of(engagement)
-    tau = reached(line, np.atleast_2d(line.aside(crank, center)))
-    at_deg, jump = engagement.entry_deg + tau / DEGREE, line.jump(tau, crank, center)
-    return Contacts(np.ravel(at_deg), np.ravel(jump))
+    axis = SlotAxis.of(engagement)
+    tau = contact_after(axis, np.atleast_2d(axis.aside(crank, center)))
+    at_deg, jump = engagement.entry_deg + tau / DEGREE, axis.jump(tau, crank, center)
+    return FirstContacts(np.ravel(at_deg), np.ravel(jump))
 
 
-def reached(line: Line, aside: Array) -> Array:
+def contact_after(axis: SlotAxis, aside: Array) -> Array:
     """Input radians after the true entry at which the rollers reach the axis, (m, 1).
 
     NaN where one does not. The roller comes from one side, ``before``, and at a true entry stays
     on it (a circle) or goes over to the other (a path with an inflection).
     """
-    span = 0.5 * line.engagement.motion_deg * DEGREE
-    before = line.way(np.atleast_2d(-1e-3 * span))[0]
+    span = 0.5 * axis.engagement.motion_deg * DEGREE
+    before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
     aside = aside + 0.0 * before
     with np.errstate(all="ignore"):
         way = np.where(aside * before > 0.0, -1.0, np.where(aside > 0.0, 1.0, np.nan))
         far = span * way * _SHARES
-        passed = abs(line.way(far)[0]) >= abs(aside)
+        passed = abs(axis.distance(far)[0]) >= abs(aside)
     there, first = np.flatnonzero(passed.any(axis=1)), np.argmax(passed, axis=1)
     far = np.hstack((np.zeros((len(far), 1)), far))
     ends = np.sort([far[there, first[there]], far[there, first[there] + 1]], axis=0)
 
     def less(tau: Array, which: Whole) -> tuple[Array, Array]:
-        value, slope = taken(line, there[which]).way(tau[:, None])
+        value, slope = taken(axis, there[which]).distance(tau[:, None])
         return (value - aside[there[which]])[:, 0], slope[:, 0]
 
     out = np.full(aside.shape, np.nan)

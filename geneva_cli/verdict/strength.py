@@ -115,7 +115,7 @@ class Strength:
         return float(self.pin.equivalent * self.force_N)
 
     @cached_property
-    def horn(self) -> horn.Bent | None:
+    def horn(self) -> horn.HornStress | None:
         """The horn where the roller bends it most."""
         name, found = "horn_stress_MPa", self.sizes
         if found is None or not found.recess:
@@ -141,7 +141,7 @@ class Strength:
         ]
 
     @cached_property
-    def lock(self) -> lock.Held | None:
+    def lock(self) -> lock.LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell."""
         found = self.sizes
         if found is None or not found.lock:

@@ -41,7 +41,7 @@ def test_the_play_uses_up_the_clearance(sign, edge):
     is least it is flat, and the end of an arc is a double.
     """
     L, R, Rk, rim = 100.0, 40.0, 40.5, 86.8
-    found = Lock(L, sign, R, Rk, rim, 2.5, edge).rests()
+    found = Lock(L, sign, R, Rk, rim, 2.5, edge).contact()
     with mpmath.workdps(30):
         turn = mpmath.expj(mpmath.mpf(found.play))
         if found.on == "corner":  # the centre of the rounded end, of radius 0 too
@@ -71,7 +71,7 @@ def test_the_play_is_that_of_the_parts(name, on):
 def test_force_and_pressure_hold_the_torque():
     """The worn-in pressure p sin, summed over the arc by its moments about the wheel's axis."""
     found, s, _ = answer(SPEC)
-    where = by(s, SPEC).rests()
+    where = by(s, SPEC).contact()
     assert found.force_N * 0.160 * math.sin(where.phi) == pytest.approx(20.0, rel=1e-14)
     top = found.pressure_MPa / math.sin(where.phi)
     moment = mpmath.quad(
@@ -96,7 +96,7 @@ def test_the_approach_is_the_integral_of_the_strains():
     leave out squares of a/depth: below 1e-4 here.
     """
     found, s, _ = answer(SPEC)
-    where = by(s, SPEC).rests()
+    where = by(s, SPEC).contact()
     line, E, nu = found.force_N / 20.0, 210e3, 0.3
     a = math.sqrt(4.0 * line * where.radius * 2.0 * (1.0 - nu * nu) / (math.pi * E))
     p0, R = 2.0 * line / (math.pi * a), s.lock

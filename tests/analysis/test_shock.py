@@ -37,7 +37,7 @@ def deg(x):
 
 def test_the_values_of_the_theory():
     """theory-loads.md, section 6: z = 3."""
-    contact = shock.contact(of(External(3)), 1e-4)
+    contact = shock.first_contact(of(External(3)), 1e-4)
     near(contact.at_deg, mp.mpf("-30.81025092485702"))
     near(contact.jump, mp.mpf("-0.023909826405751256"))
     [impact] = change_of_sides.impacts(of(External(3)), 1e-4)
@@ -54,7 +54,7 @@ def test_first_contact_by_the_law_of_sines(gearing, sign, z, crank, center):
     # the obtuse of the two triangles of the wheel, the crank and the roller on the axis
     a = -(mp.pi - mp.asin(mp.sin(b) / l) - b) if sign > 0 else -(mp.pi - mp.asin(mp.sin(b) / l) + b)
     jump = sign * l * (sign * mp.cos(a) - l) / (1 - 2 * sign * l * mp.cos(a) + l * l)
-    found = shock.contact(of(gearing(z)), crank, center)
+    found = shock.first_contact(of(gearing(z)), crank, center)
     near(found.at_deg, deg(a))
     near(found.jump, jump, 1e-12 if crank - center > 1e-6 else 1e-7)  # crank - center is rounded
 
@@ -72,7 +72,7 @@ def test_of_a_side_crank():
         return mp.atan2(l * mp.sin(f), 1 - l * mp.cos(f))
 
     at = mp.findroot(lambda phi: wheel(phi) + b, mp.radians(-94.5))
-    found = shock.contact(of(External(6), SideCrank(A=0.6)), 1e-3)
+    found = shock.first_contact(of(External(6), SideCrank(A=0.6)), 1e-3)
     near(found.at_deg, deg(at))
     near(found.jump, mp.diff(wheel, at), 1e-12)
 
@@ -93,7 +93,7 @@ def test_of_slots_beside_the_centre(offset, crank, center):
     a = mp.arg(-(pin - L))  # from the line of centres, clockwise
     velocity = 1j * (pin - L) * -1
     jump = mp.im(velocity * mp.expj(ahead)) / along
-    found = shock.contact(of(External(6, offset_mm=offset)), crank, center)
+    found = shock.first_contact(of(External(6, offset_mm=offset)), crank, center)
     near(found.at_deg, -deg(a))
     near(found.jump, jump, 1e-11)
 
@@ -109,7 +109,7 @@ def test_on_a_sphere(axes):
         x = mp.sin(S) * mp.cos(th) - (1 + eps) * mp.sin(th) * mp.cos(S) * mp.cos(a)
         return mp.atan2((1 + eps) * mp.sin(th) * mp.sin(a), x)
 
-    found = shock.contact(of(Spherical(5, axes_deg=axes)), 1e-3)
+    found = shock.first_contact(of(Spherical(5, axes_deg=axes)), 1e-3)
     at = mp.findroot(lambda a: wheel(a) + b, mp.radians(found.at_deg))
     near(found.at_deg, deg(at))
     near(found.jump, mp.diff(wheel, at), 1e-12)
@@ -119,23 +119,23 @@ def test_on_a_sphere(axes):
 def test_the_square_root_warning():
     """A hundredth of a percent of R/L costs 1.4 % of tan b."""
     for gearing, z in ((External, 3), (External, 12), (Internal, 6)):
-        size = -shock.contact(of(gearing(z)), 1e-4).jump / mp.tan(mp.pi / z)
+        size = -shock.first_contact(of(gearing(z)), 1e-4).jump / mp.tan(mp.pi / z)
         assert 0.0137 < size < 0.0145
         # fourfold the error, twice the jump; the next term is about sqrt(2 eps) of it
-        four = -shock.contact(of(gearing(z)), 4e-8).jump
-        one = -shock.contact(of(gearing(z)), 1e-8).jump
+        four = -shock.first_contact(of(gearing(z)), 4e-8).jump
+        one = -shock.first_contact(of(gearing(z)), 1e-8).jump
         assert four / one == pytest.approx(2.0, rel=1e-3)
 
 
 def test_a_crank_that_is_too_short_meets_the_mouth():
-    assert shock.contact(of(External(5)), -1e-9) is None
-    assert shock.contact(of(External(5)), 0.0, 1e-9) is None
-    assert shock.contact(of(External(5)), 0.0) is None
+    assert shock.first_contact(of(External(5)), -1e-9) is None
+    assert shock.first_contact(of(External(5)), 0.0, 1e-9) is None
+    assert shock.first_contact(of(External(5)), 0.0) is None
 
 
 def test_slots_and_grooves_that_are_solved_for_have_no_such_entry():
-    assert shock.contact(of(External(6), None, Motion(Cycloidal())), 1e-3) is None
-    assert shock.contact(of(External(6), Cam(), Motion(Cycloidal())), 1e-3) is None
+    assert shock.first_contact(of(External(6), None, Motion(Cycloidal())), 1e-3) is None
+    assert shock.first_contact(of(External(6), Cam(), Motion(Cycloidal())), 1e-3) is None
 
 
 @pytest.mark.parametrize("gearing, sign", [(External, 1), (Internal, -1)])

@@ -10,10 +10,10 @@ import pytest
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.tolerance import drawn
+from geneva_cli.analysis.tolerance import random_machines
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
-from geneva_cli.analysis.tolerance.entered import entered
-from geneva_cli.analysis.tolerance.led import led
+from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
+from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.laws.standard import Cycloidal
@@ -166,7 +166,7 @@ MACHINES = [
 @pytest.mark.parametrize("design", MACHINES)
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_place_and_slopes_in_the_motion(design, side):
-    [one] = led(design.mechanism)
+    [one] = motion_errors(design.mechanism)
     dev = {"center_distance_mm": 0.02, "crank_radius_mm": -0.01, "slot_width_mm": 0.015}
     for share in (-0.97, -0.3, 0.0, 0.6):
         deg = share * one.engagement.exit_deg if share > 0 else -share * one.engagement.entry_deg
@@ -180,7 +180,7 @@ def test_place_and_slopes_in_the_motion(design, side):
 
 def test_the_sensitivities_of_the_theory():
     """theory-loads.md, section 7: L sin phi / D2 and -R sin phi / D2, without clearance."""
-    [one] = led(Design(External(6)).mechanism)
+    [one] = motion_errors(Design(External(6)).mechanism)
     L, R = mp.mpf(100), mp.mpf(50)
     for deg in (-59.0, -20.0, 31.4):
         phi = mp.radians(mp.mpf(deg))
@@ -195,7 +195,7 @@ def test_worst_case_by_corners(design):
     names = Deviations._fields[:5]
     sizes = [design.spec.tolerance.as_dict()[n] for n in names]
     sizes[4] = math.radians(sizes[4])
-    [one] = led(design.mechanism)
+    [one] = motion_errors(design.mechanism)
     with mp.workdps(20):
         worst = max(
             side * closed(design, mp.radians(deg), side, dict(zip(names, corner, strict=True)))
@@ -302,9 +302,9 @@ def test_mean_jump_of_large_errors():
     ],
 )
 def test_the_table_of_jumps_against_each_exact_one(design):
-    from geneva_cli.analysis.shock import contact
+    from geneva_cli.analysis.shock import first_contact
 
-    one = entered(design.mechanism)[0]
+    one = entry_jumps(design.mechanism)[0]
     arm = design.spec.drive.ONE_ARM
     center = design.spec.wheel.FLAT
     rng = np.random.default_rng(5)
@@ -313,7 +313,7 @@ def test_the_table_of_jumps_against_each_exact_one(design):
     jumps, missed = one(at(crank_radius_mm=R, center_distance_mm=L))
     some = 0
     for jump, misses, dR, dL in zip(jumps, missed, R, L, strict=True):
-        true = contact(one.line.engagement, dR / one.arm, dL / one.L)
+        true = first_contact(one.axis.engagement, dR / one.arm, dL / one.L)
         some += true is not None
         assert misses == (true is None)
         assert jump == pytest.approx(abs(true.jump) if true else 0.0, rel=2e-6)
@@ -324,7 +324,7 @@ def test_the_same_seed_the_same_machines(monkeypatch):
     one = told(MACHINES[0], 5000, seed=3)
     assert str(told(MACHINES[0], 5000, seed=3)) == str(one)
     assert told(MACHINES[0], 5000, seed=4)["motion_play.std_deg"] != one["motion_play.std_deg"]
-    monkeypatch.setattr(drawn, "BLOCK", 256)
+    monkeypatch.setattr(random_machines, "BLOCK", 256)
     assert str(told(MACHINES[0], 5000, seed=3)) == str(one)
 
 

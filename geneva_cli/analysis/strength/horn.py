@@ -38,7 +38,7 @@ NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction i
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
 
 
-class Bent(NamedTuple):
+class HornStress(NamedTuple):
     """The greatest stress in a horn, where the roller is then, and the section that has it."""
 
     stress_MPa: float
@@ -126,7 +126,7 @@ def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> f
 
 def horn(
     mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
-) -> Bent | None:
+) -> HornStress | None:
     """The greatest bending stress in a machine's horns; None without a lock, or without a load.
 
     ``half_width_mm`` of the slot, ``recess_mm`` the radius of the wheel's recesses, ``width_mm``
@@ -169,7 +169,9 @@ class _Search(NamedTuple):
     section: Array
 
 
-def _looked(mechanism: Mechanism, within: _Search, width: float) -> tuple[Bent, _Search] | None:
+def _looked(
+    mechanism: Mechanism, within: _Search, width: float
+) -> tuple[HornStress, _Search] | None:
     """The greatest stress of all these places, and places around it to look at next."""
     side, roller, u = within
     wall = side.wall(u)[0]
@@ -180,7 +182,7 @@ def _looked(mechanism: Mechanism, within: _Search, width: float) -> tuple[Bent, 
         return None
     half, k = divmod(i, roller.shape[1])
     x = roller[half]
-    bent = Bent(float(stress[i, j]), float(x[k]), float(wall[0, j]), float(thick[j]))
+    bent = HornStress(float(stress[i, j]), float(x[k]), float(wall[0, j]), float(thick[j]))
     return bent, _Search(side, _around(x, k)[None], _around(u, j))
 
 

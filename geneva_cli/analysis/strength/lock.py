@@ -38,11 +38,11 @@ if TYPE_CHECKING:
 SECTIONS = 4001  # of a horn, summed by trapezoids: to a millionth
 
 
-class Held(NamedTuple):
+class LockUnderTorque(NamedTuple):
     """A lock under a torque; None where something is not known."""
 
     torque_Nm: float
-    on: str  # where disc and recess touch, as of ``Rest``
+    on: str  # where disc and recess touch, as of ``LockContact``
     force_N: float
     contact_stress_MPa: float | None  # Hertz; None of a sharp edge, and without clearance
     pressure_MPa: float  # worn in
@@ -65,7 +65,7 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
 
 
-def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> Held | None:
+def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
     """The lock of a machine whose parts have these radii; of its horns the one that gives most.
 
     None without a torque to hold, or a ``face_width_mm``.
@@ -74,7 +74,7 @@ def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> Held | None:
     torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
     if not (torque and width):
         return None
-    found = by.rests()
+    found = by.contact()
     sine = math.sin(found.phi)
     force = 1e3 * torque / (L * sine)
     worn = found.phi - sine * math.cos(found.phi)
@@ -86,7 +86,7 @@ def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> Held | None:
     )
     lever = L * sine
     contact, approach = _contact(mechanism, force / width, found.radius, lock_mm, thick, pressure)
-    return Held(
+    return LockUnderTorque(
         torque,
         found.on,
         force,

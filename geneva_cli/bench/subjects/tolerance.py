@@ -10,9 +10,9 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import Draws
-from geneva_cli.analysis.tolerance.drawn import draw
-from geneva_cli.analysis.tolerance.entered import entered
-from geneva_cli.analysis.tolerance.led import led
+from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
+from geneva_cli.analysis.tolerance.motion_error import motion_errors
+from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
@@ -67,10 +67,10 @@ def subject(quick: bool) -> Subject:
 
 def _ours(count: int) -> partial[Means]:
     mechanism = build(Spec(External(Z), size=Size(slot_clearance_mm=0.02)))
-    lead, comes = led(mechanism)[0], entered(mechanism)[0]
+    error, entry = motion_errors(mechanism)[0], entry_jumps(mechanism)[0]
 
     def run() -> Means:
-        found = draw(Draws(SIZES, False, 1), count, LOCK, (lead, AT_DEG, 1.0), comes)
+        found = random_machines(Draws(SIZES, False, 1), count, LOCK, (error, AT_DEG, 1.0), entry)
         return Means(*(float(part.mean()) for part in found[:3]))
 
     return partial(run)

@@ -8,9 +8,9 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import Deviations, Draws, corners, tolerances
-from geneva_cli.analysis.tolerance.drawn import draw
-from geneva_cli.analysis.tolerance.entered import entered
-from geneva_cli.analysis.tolerance.led import led
+from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
+from geneva_cli.analysis.tolerance.motion_error import motion_errors
+from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
 from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism
@@ -54,58 +54,58 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     """
     _refuse(mechanism, samples, seed)
     given = tolerances(mechanism.spec)
-    use, told = _applicable(mechanism, given)
+    use, warnings = _applicable(mechanism, given)
     _refuse_wide(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    discs = _locks(mechanism, proof, told)
-    held = max(discs, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
-    yields = min((float(np.min(one(ends).angle.c[0])) for one in discs), default=0.0)
-    leads = [(one, *one.greatest(ends)) for one in led(mechanism)]
-    lead = max(leads, key=lambda found: found[1], default=None)
-    comes = max(entered(mechanism), key=lambda one: _most(one(ends)[0]), default=None)
+    found = _locks(mechanism, proof, warnings)
+    lock = max(found, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
+    least_play = min((float(np.min(one(ends).angle.c[0])) for one in found), default=0.0)
+    errors = [(one, *one.greatest(ends)) for one in motion_errors(mechanism)]
+    farthest = max(errors, key=lambda found: found[1], default=None)
+    jumps = max(entry_jumps(mechanism), key=lambda one: _most(one(ends)[0]), default=None)
     normal = mechanism.spec.tolerance.distribution == "normal"
     machines = Draws(tuple(sizes), normal, seed)
-    at_worst = (lead[0], lead[2], lead[3]) if lead else None
-    drawn = draw(machines, samples, held, at_worst, comes)
+    at_worst = (farthest[0], farthest[2], farthest[3]) if farthest else None
+    drawn = random_machines(machines, samples, lock, at_worst, jumps)
     dwell = motion = at_deg = entry = None
-    if held:
-        worst = _most(held(ends).angle.arrays()[0]) + use["slot_angle_deg"]
-        dwell = spread(lambda by: held(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
+    if lock:
+        worst = _most(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
+        dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
-        told.append(
+        warnings.append(
             Caution(
                 "not-known",
                 "dwell_position is not known: no locking disc that is drawn holds the wheel at "
                 "rest",
             )
         )
-    if lead:
-        one, worst, at, side = lead
+    if farthest:
+        one, worst, at, side = farthest
         motion = spread(lambda by: one(by, at, side) * side, sizes, worst, drawn.motion)
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
     else:
-        told.append(
+        warnings.append(
             Caution(
                 "not-known",
                 "motion_play is not known: the slots are curved, and solved for a true path",
             )
         )
-    if comes:
+    if jumps:
         jump = drawn.jump
-        entry = Entry(_most(comes(ends)[0]), float(jump.mean()), float(jump.std()), drawn.missed)
+        entry = Entry(_most(jumps(ends)[0]), float(jump.mean()), float(jump.std()), drawn.missed)
     else:
-        told.append(
+        warnings.append(
             Caution(
                 "not-known",
                 "entry_jump is not known: the law, not the path, sets how the roller enters",
             )
         )
-    clearances = needed(mechanism, proof, use, yields)
+    clearances = needed(mechanism, proof, use, least_play)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
-        told.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
-    return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(told))
+        warnings.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
+    return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
@@ -129,7 +129,7 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
     """
     times = TAIL if mechanism.spec.tolerance.distribution == "normal" else 1.0
     play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
-    for one in led(mechanism):
+    for one in motion_errors(mechanism):
         e = one.engagement
         x, y = e.path(np.linspace(e.entry_deg, e.exit_deg, PLACES), 0)
         nearest = one.L * (float(np.hypot(x.c[0], y.c[0]).min()) - abs(e.slot.offset))
@@ -147,7 +147,7 @@ def _applicable(
     mechanism: Mechanism, given: dict[str, float]
 ) -> tuple[dict[str, float], list[Caution]]:
     """The tolerances that move something in this machine, the others 0; and why they do not."""
-    use, told = dict(given), list[Caution]()
+    use, warnings = dict(given), list[Caution]()
     why = {}
     if not mechanism.spec.drive.ONE_ARM:
         why["crank_radius_mm"] = "no crank's arm carries the roller"
@@ -156,17 +156,17 @@ def _applicable(
     for name, reason in why.items():
         if use[name]:
             use[name] = 0.0
-            told.append(Caution("tolerance-left-out", f"{name} is left out: {reason}"))
-    return use, told
+            warnings.append(Caution("tolerance-left-out", f"{name} is left out: {reason}"))
+    return use, warnings
 
 
-def _locks(mechanism: Mechanism, proof: Proof, told: list[Caution]) -> list[Lock]:
+def _locks(mechanism: Mechanism, proof: Proof, warnings: list[Caution]) -> list[Lock]:
     if not mechanism.spec.is_flat:
         return []
     try:
         return locks(proof.found)
     except GenevaError as error:
-        told.append(Caution("not-known", f"no parts: {error}"))
+        warnings.append(Caution("not-known", f"no parts: {error}"))
         return []
 
 

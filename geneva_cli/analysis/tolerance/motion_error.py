@@ -1,11 +1,12 @@
-"""How far the wheel is off its place while a straight slot leads it, for any deviations.
+"""The error of the wheel's angle during a motion of a straight slot, for any deviations.
 
-The roller's centre p is carried to p + (dL, 0) + dR/R (p - hub). The slot follows it, off by its
-own angle and by the clearance c of roller and wall, on one side or the other:
+Deviations dL of the centre distance and dR of the crank's radius move the roller's centre from p to
+p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle and by the
+clearance c between roller and wall, on one side or the other:
 
     psi = arg p + asin((e + c) / |p|),    dpsi/dR = L sin(phi) / |p|²,  dpsi/dL = -R sin(phi) / |p|²
 
-for a plain crank. e is the slot's own distance from the wheel's centre.
+The slopes are a plain crank's. e is the distance of the slot's axis from the wheel's centre.
 """
 
 from __future__ import annotations
@@ -21,20 +22,20 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
-LOOKS = 361  # input angles of a motion that are tried first
-CLOSER = 12  # times about the greatest, a tenth as wide each time
+LOOKS = 361  # input angles at which a motion is sampled
+CLOSER = 12  # samplings, each about the greatest of the last and a tenth as wide
 
 
-class Led(NamedTuple):
-    """One engagement; lengths in millimetres."""
+class MotionError(NamedTuple):
+    """The error of one engagement's motion as a function of deviations; lengths in mm."""
 
     engagement: Engagement
     L: float
-    arm: float  # R; its deviation moves nothing where the roller is on no arm
+    arm: float  # R; without effect where no crank's arm carries the roller
     clearance: float  # roller to slot, per side
 
     def __call__(self, by: Deviations, input_deg: Number, side: Number) -> Jet:
-        """The wheel's angle less its true one, radians, with the roller on a wall (side 1, -1)."""
+        """The wheel's angle less its true one, radians; ``side`` (1, -1) is the wall that bears."""
         x, y = (self.L * z.c[0] for z in self.engagement.path(input_deg, 0))
         offset = self.L * self.engagement.slot.offset
         share = by.crank_radius_mm * (1.0 / self.arm)
@@ -49,11 +50,11 @@ class Led(NamedTuple):
         return out
 
     def room(self, by: Deviations) -> Jet:
-        """The clearance with its deviations: below 0 the roller does not go into the slot."""
+        """The clearance per side, mm; below 0 the roller does not go into the slot."""
         return by.slot_clearance + self.clearance
 
     def greatest(self, by: Deviations) -> tuple[float, float, float]:
-        """The farthest that any of the machines is off: radians, at which input angle and side."""
+        """The greatest error of any of the machines, radians, its input angle and its side."""
         each = Deviations(*[Jet([np.atleast_1d(z)[:, None] for z in jet.c]) for jet in by])
         best = (-1.0, 0.0, 1.0)
         for side in (1.0, -1.0):
@@ -79,9 +80,9 @@ def _asin(height: Jet, square: Jet) -> Jet:
     return atan2(height, sqrt(left))
 
 
-def led(mechanism: Mechanism) -> list[Led]:
-    """Every engagement of a machine with straight slots; none where they are solved for."""
+def motion_errors(mechanism: Mechanism) -> list[MotionError]:
+    """The motion error of each engagement; none for curved slots, which are solved for."""
     L, clearance = mechanism.center_distance_mm, mechanism.spec.size.allowances.slot_clearance_mm
     if mechanism.engagements[0].slot.curved:
         return []
-    return [Led(e, L, arm_mm(mechanism, e), clearance) for e in mechanism.engagements]
+    return [MotionError(e, L, arm_mm(mechanism, e), clearance) for e in mechanism.engagements]

@@ -1,4 +1,8 @@
-"""The jump of the wheel's velocity at entry, for many machines: by a table of one path."""
+"""The jump of the wheel's velocity at entry, for many deviations of one machine.
+
+The true path is tabulated once; each machine's jump is interpolated where its roller reaches the
+slot's axis (see ``analysis.shock``).
+"""
 
 from __future__ import annotations
 
@@ -7,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.blows import arm_mm
-from geneva_cli.analysis.shock import Line
+from geneva_cli.analysis.shock import SlotAxis
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
@@ -17,10 +21,10 @@ from geneva_cli.numerics.arrays import array
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-# On the path, from an instant beside the true entry to half-way through the motion, each as much
-# farther off than the one before: what is read off between two of them is within 1e-6 of itself.
+# Places on the path, in geometric progression from beside the true entry to half-way through the
+# motion: what is interpolated between two of them has a relative error of 1e-6 at most.
 PLACES = 8193
-FIRST = 1e-7  # of that
+FIRST = 1e-7  # of that span
 NOTHING = 3e-8  # the root of a distance from the axis, over L, that is rounding
 
 
@@ -32,16 +36,14 @@ class Branch(NamedTuple):
 
     side: float
     root: Array  # of its distance from the axis, over L
-    speed: (
-        Array  # at which it comes nearer, or goes away, over that root: nearly the same all along
-    )
+    speed: Array  # of its approach to the axis over that root: nearly constant
     lever: Array  # of the wheel, to the roller
 
 
-class Entered(NamedTuple):
-    """The roller's way to the axis of one engagement's slot; lengths in millimetres."""
+class EntryJumps(NamedTuple):
+    """The jump at one engagement's entry as a function of deviations; lengths in millimetres."""
 
-    line: Line
+    axis: SlotAxis
     L: float
     arm: float
     branches: tuple[Branch, ...]
@@ -49,11 +51,11 @@ class Entered(NamedTuple):
     def __call__(self, by: Deviations) -> tuple[Array, Array]:
         """The sizes of the jumps, over the input's speed, and which machines miss the axis.
 
-        0 for a machine that misses it: what it does at the mouth is another matter.
+        0 for a machine that misses it: its roller meets the mouth instead.
         """
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        aside = np.atleast_1d(self.line.aside(array(crank), array(center)))
-        moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.line.along, aside.shape)
+        aside = np.atleast_1d(self.axis.aside(array(crank), array(center)))
+        moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, aside.shape)
         jump, missed = np.zeros(len(aside)), aside != 0.0
         for branch in self.branches:
             here = np.flatnonzero(aside * branch.side > 0.0)
@@ -65,19 +67,19 @@ class Entered(NamedTuple):
         return jump, missed
 
 
-def entered(mechanism: Mechanism) -> list[Entered]:
-    """Every engagement whose roller should come in along the slot's axis."""
+def entry_jumps(mechanism: Mechanism) -> list[EntryJumps]:
+    """The entry jump of each engagement whose roller should come in along its slot's axis."""
     L = mechanism.center_distance_mm
     out = []
     for engagement in mechanism.engagements:
         if engagement.motion.entry is not None:
-            line, arm = Line.of(engagement), arm_mm(mechanism, engagement)
-            out.append(Entered(line, L, arm, tuple(_branches(engagement))))
+            axis, arm = SlotAxis.of(engagement), arm_mm(mechanism, engagement)
+            out.append(EntryJumps(axis, L, arm, tuple(_branches(engagement))))
     return out
 
 
 def _branches(engagement: Engagement) -> list[Branch]:
-    """Before the true entry; and after it, where the path goes over to the other side there."""
+    """The path before the true entry, and after it where it crosses the axis there."""
     before = _branch(engagement, -1.0)
     after = _branch(engagement, 1.0)
     return [before] if before.side == after.side else [before, after]
@@ -85,7 +87,7 @@ def _branches(engagement: Engagement) -> list[Branch]:
 
 def _branch(engagement: Engagement, way: float) -> Branch:
     anchor = engagement.motion.entry
-    assert anchor is not None  # ``entered`` asks for it
+    assert anchor is not None  # ``entry_jumps`` takes no others
     span = 0.5 * engagement.motion_deg * DEGREE
     tau = way * span * np.geomspace(FIRST, 1.0, PLACES)
     along, across = anchor.displacement(tau, 1)

@@ -1,0 +1,63 @@
+"""Monte Carlo of the tolerances: machines with random deviations, a block at a time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.tolerance.dimensions import Draws
+from geneva_cli.analysis.tolerance.entry_jump import EntryJumps
+from geneva_cli.analysis.tolerance.motion_error import MotionError
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+BLOCK = 32768  # machines at once: they stay in the processor's cache
+ROUNDING_MM = 1e-12
+
+
+class RandomMachines(NamedTuple):
+    """How far n machines of random dimensions are off: arrays (n,), 0 for what is not asked."""
+
+    dwell: Array  # the wheel's angle off its place in the dwell, radians
+    motion: Array  # the same at one input angle of a motion
+    jump: Array  # the jump of the wheel's velocity at entry, over the input's speed
+    missed: float  # share of them whose roller misses the slot's axis
+    jams: float | None  # share of them that do not go together; None without a lock and a motion
+
+
+def random_machines(
+    machines: Draws,
+    samples: int,
+    lock: Lock | None,
+    error: tuple[MotionError, float, float] | None,
+    entry: EntryJumps | None,
+) -> RandomMachines:
+    """``samples`` machines: the play of a lock, the error of a motion, the jump of an entry.
+
+    ``error`` is one engagement's motion error, the input angle in degrees at which it is taken, and
+    the side of the slot (1 or -1) on which the roller bears. What is None is left out.
+    """
+    start = 0
+    dwell, motion, jump = (np.zeros(samples) for _ in range(3))
+    missed = jams = 0
+    for by in machines.blocks(samples, BLOCK):
+        part = slice(start, start + BLOCK)
+        jam = np.zeros(len(dwell[part]), dtype=bool)
+        if lock:
+            play = lock(by)
+            dwell[part] = (play.angle + by.slot_angle_deg).c[0]
+            jam |= play.jams
+        if error:
+            one, at, side = error
+            motion[part] = one(by, at, side).c[0] * side
+            jam |= one.room(by).c[0] < -ROUNDING_MM
+        if entry:
+            jump[part], misses = entry(by)
+            missed += int(np.broadcast_to(misses, jam.shape).sum())
+        jams += int(jam.sum())
+        start += BLOCK
+    known = lock or error
+    return RandomMachines(dwell, motion, jump, missed / samples, jams / samples if known else None)
