@@ -8,8 +8,8 @@ of the loads, and integrated between to the last digits.
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
     >>> found = many(Spec(External(6), load=Load(torque_Nm=15.0)), {"wheel.z": np.array([4, 6])})
-    >>> passages_of_many(found.machine)[0].travel_m.round(9)  # 2 L (cos b - (1 - l))
-    array([0.082842712, 0.073205081])
+    >>> passages_of_many(found.machine)[0].travel_m  # 2 L (cos b - (1 - l))
+    array([0.08284271, 0.07320508])
 """
 
 from __future__ import annotations
