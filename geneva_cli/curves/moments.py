@@ -8,13 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import GAUSS, STRAIGHT, halves
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, Point, Segment, Shape
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 SMALL = 1.0  # radians that an arc may turn for its sines to be exact
 
@@ -41,6 +38,10 @@ class Moments(NamedTuple):
         c, s = math.cos(angle), math.sin(angle)
         return Moments(self.area, c * self.x - s * self.y, s * self.x + c * self.y, self.polar)
 
+    def times(self, factor: float) -> Moments:
+        """So many times all of it."""
+        return Moments(*[factor * part for part in self])
+
     def less(self, other: Moments) -> Moments:
         """What is left of a plate when another is cut out of it."""
         return Moments(*[a - b for a, b in zip(self, other, strict=True)])
@@ -58,35 +59,6 @@ def moments(shape: Shape) -> Moments:
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
     parts = [_swept(piece) for segment in shape.segments for piece in _small(segment)]
     return total(parts)
-
-
-def swept(points: Array, tangents: Array) -> Moments:
-    """What the ray from the origin sweeps along a curve sampled at ``points``, (n, 2).
-
-    Between neighbours it is an arc, which turns as the unit ``tangents`` do: so finely sampled
-    that it turns little there, what lies between it and its chord c is c² sweep / 12.
-
-    >>> import numpy as np
-    >>> t = np.linspace(0.0, 2.0 * math.pi, 400)
-    >>> c, s = np.cos(t), np.sin(t)
-    >>> round(swept(np.column_stack((c, s)), np.column_stack((-s, c))).polar / math.pi, 8)
-    0.5
-    """
-    import numpy as np
-
-    (a, b), (c, d) = points[:-1].T, points[1:].T
-    cross = a * d - b * c
-    u, v = tangents[:-1].T, tangents[1:].T
-    turn = np.arctan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
-    cap = ((c - a) ** 2 + (d - b) ** 2) * turn / 12.0
-    x, y = 0.5 * (a + c), 0.5 * (b + d)
-    squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
-    return Moments(
-        float(np.sum(cross / 2.0 + cap)),
-        float(np.sum(cross * x / 3.0 + cap * x)),
-        float(np.sum(cross * y / 3.0 + cap * y)),
-        float(np.sum(cross * squares / 12.0 + cap * (x * x + y * y))),
-    )
 
 
 def total(parts: Iterable[Moments]) -> Moments:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -27,7 +26,6 @@ MANY = 5_000  # nodes past which the first attempt that serves is kept
 SPARE = 0.02  # share of the nodes that is not worth another attempt
 ROUNDS = 6  # of moving a given number of nodes to where they are needed
 SURVEY = 2048  # intervals on which the curve's density is integrated
-FEW = 256  # the same where nothing is measured
 FLOOR = 0.05  # least density, as a share of its mean: an inflection needs nodes too
 INSIDE = np.arange(1, 16) / 16.0  # where a chord's distance from the curve is measured
 # Nearer to mid-motion than this a sample is at it: where the pin stops there, its direction would
@@ -111,31 +109,12 @@ def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
-    return _nodes(mechanism, lambda a, b: _smooth(mechanism, a, b, tolerance_mm))
-
-
-def spread(mechanism: Mechanism, tolerance_mm: float) -> Array:
-    """Likewise where no chord need keep the tolerance: the misses are not measured."""
-
-    def part(a: float, b: float) -> Array:
-        grid = np.linspace(a, b, FEW + 1)
-        share, total = _integrated_density(mechanism, grid)
-        count = int(np.ceil(total / np.sqrt(8.0 * tolerance_mm))) + 1
-        found = np.interp(np.linspace(0.0, 1.0, count + 1), share, grid)
-        found[0], found[-1] = a, b
-        return found
-
-    return _nodes(mechanism, part)
-
-
-def _nodes(mechanism: Mechanism, part: Callable[[float, float], Array]) -> Array:
-    """Nodes of the whole slot from those of its smooth parts."""
     engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)
     ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
     if not engagement.motion.symmetric:
         ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
-    parts = [part(a, b)[:-1] for a, b in pairwise(ends)]
+    parts = [_smooth(mechanism, a, b, tolerance_mm)[:-1] for a, b in pairwise(ends)]
     found = np.concatenate((*parts, [ends[-1]]))
     return np.concatenate((found[:-1], -found[::-1])) if engagement.motion.symmetric else found
 

@@ -21,13 +21,12 @@ from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.walls.joint import Place, joint, point, runs
-from geneva_cli.parts.walls.ways import FINE, Wall, walls
+from geneva_cli.parts.walls.ways import Wall, walls
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
-EACH = 4  # points for each of a wall's samples
 TURNS = 64  # walls a chain may have before it is lost
 SHORT = 1e-7  # of the centre distance: a shorter piece is rounding
 BACK = -0.999  # the cosine between two directions that are each other's reverse
@@ -40,26 +39,10 @@ class Piece(NamedTuple):
     start: float
     end: float
 
-    def samples(self) -> tuple[Array, Array]:
-        """Points and tangents from start to end, so many that chords miss the wall by rounding."""
-        low, high = sorted((self.start, self.end))
-        t = self.wall.t[(self.wall.t > low) & (self.wall.t < high)]
-        t = np.concatenate(([low], t, [high]))
-        t = np.interp(np.arange((len(t) - 1) * EACH + 1) / EACH, np.arange(len(t)), t)
-        if self.start < self.end:
-            return self.wall.curve(t)
-        points, tangents = self.wall.curve(t[::-1])
-        return points, -tangents
 
-
-def chain(
-    assembly: Assembly, sizes: Sizes, engagement: Engagement, fine: float = FINE
-) -> list[Piece]:
-    """The pieces of walls that bound a slot, from the mouth's lower corner to its upper one.
-
-    ``fine`` as of ``walls``: how finely they are sampled to tell which bound the slot.
-    """
-    around = walls(assembly, sizes, engagement, fine)
+def chain(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Piece]:
+    """The pieces of walls that bound a slot, from the mouth's lower corner to its upper one."""
+    around = walls(assembly, sizes, engagement)
     rim = _Rim(assembly, sizes)
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:

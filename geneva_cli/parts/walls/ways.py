@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes, rest
-from geneva_cli.parts.slot_profile import nodes, pitch_at, spread
+from geneva_cli.parts.slot_profile import nodes, pitch_at
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 
 FINE = 1e-7  # of the centre distance: how finely the roller's ways are sampled
-COVERED = 10.0  # times that: a wall passed over by less is not
-CHORDS = 16  # for each sample of a coarse wall
+COVERED = 1e-6  # of the centre distance: a wall passed over by less is not
 STEPS = 97  # samples of the roller's circle, at least, and of its own outline
 BLOCK = 64  # samples that are looked at together
 ROUNDING = 1e-7  # of the centre distance: a fold as small as this is none
@@ -46,20 +45,13 @@ class Wall(NamedTuple):
     radius: float = 0.0
 
 
-def walls(
-    assembly: Assembly, sizes: Sizes, engagement: Engagement, fine: float = FINE
-) -> list[Wall]:
-    """Every wall of the roller's way, with what of it is free.
-
-    Sampled to ``fine`` of the centre distance; what is coarser than usual is of chords besides,
-    so short that they miss the walls by a share of ``fine`` of 1/CHORDS².
-    """
+def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall]:
+    """Every wall of the roller's way, with what of it is free."""
     w, back = sizes.half_width, retraces(engagement)
-    coarse = fine > FINE
-    t = (spread if coarse else nodes)(assembly.mechanism, fine * assembly.L)
-    near = w - COVERED * fine * assembly.L
+    t = nodes(assembly.mechanism, FINE * assembly.L)
+    near = w - COVERED * assembly.L
     middle = int(np.searchsorted(t, 0.0))
-    circles = [_circle(assembly, sizes, engagement, end, fine) for end in (-1.0, 1.0)]
+    circles = [_circle(assembly, sizes, engagement, end) for end in (-1.0, 1.0)]
     ways = [circles[0][1][::-1], _pitch(assembly, engagement, t), circles[1][1]]
     path = np.concatenate(ways)
     found: list[Wall] = []
@@ -70,10 +62,10 @@ def walls(
             found.append(_arc(path, near, centre, radius + side, np.sort(angles)))
     flanks = []
     for part in (t[: middle + 1], t[middle:]):
-        curves = _curves(assembly, engagement, part, coarse)
-        at = pitch_at(engagement, part, back) if back else None
+        at, outward = pitch_at(engagement, part, back) if back else None, bool(part[-1] > 0.0)
         for side in (-w, w):
-            flanks.append(_flank(curves(side), path, near, part, at, assembly.L, side))
+            curve = beside(assembly, engagement, side, outward)
+            flanks.append(_flank(curve, path, near, part, at, assembly.L, side))
     if not back:
         return [*found, *flanks]
     x, y = _pitch(assembly, engagement, np.zeros(1))[0]
@@ -94,7 +86,7 @@ def _meets(flank: Wall, centre: tuple[float, float]) -> float:
 
 
 def _circle(
-    assembly: Assembly, sizes: Sizes, engagement: Engagement, end: float, fine: float
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, end: float
 ) -> tuple[tuple[float, float], Array]:
     """The roller's way before entry (-1) or after exit (1): its centre, and places from the slot
     outwards until it has left the wheel."""
@@ -114,7 +106,7 @@ def _circle(
     count = int(np.argmax(gone)) + 1 if gone.any() else len(way)
     # As finely as the way in the slot: chords lie inside the circle, where one of its walls is.
     whole = float(turn[count - 1])
-    many = math.ceil(abs(whole) / math.sqrt(8.0 * fine * assembly.L / radius)) + 1
+    many = math.ceil(abs(whole) / math.sqrt(8.0 * FINE * assembly.L / radius)) + 1
     turn = np.linspace(0.0, whole, max(STEPS, many))
     way = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
@@ -157,29 +149,6 @@ def _flank(
         t = _unfolded(curve, t, at, L, side)
     points = curve(t)[0]
     return Wall(curve, t, points, _free(points, path, near))
-
-
-def _curves(
-    assembly: Assembly, engagement: Engagement, t: Array, coarse: bool
-) -> Callable[[float], Curve]:
-    """The curve at any side of the way in, or out; coarse, as chords that cost nothing to ask."""
-    outward = bool(t[-1] > 0.0)
-    if not coarse:
-        return lambda side: beside(assembly, engagement, side, outward)
-    fine = np.interp(np.arange((len(t) - 1) * CHORDS + 1) / CHORDS, np.arange(len(t)), t)
-    points, tangents = beside(assembly, engagement, 0.0, outward)(fine)
-    normals = np.column_stack((-tangents[:, 1], tangents[:, 0]))
-
-    def chords(side: float) -> Curve:
-        columns = [*(points + side * normals).T, *tangents.T]
-
-        def chord(x: Array) -> tuple[Array, Array]:
-            found = [np.interp(x, fine, column) for column in columns]
-            return np.column_stack(found[:2]), np.column_stack(found[2:])
-
-        return chord
-
-    return chords
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
