@@ -7,19 +7,31 @@ import math
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
 from geneva_cli.analysis.loads.quantities import STRESS, ends_of, known
+from geneva_cli.analysis.loads.summary import extremes
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 
 
 def load_cautions(mechanism: Mechanism) -> list[Caution]:
     """Cautions that need the loads, which are looked for only where they are shown."""
-    out: list[Caution] = []
-    if mechanism.spec.is_loaded:
-        cycle = cycle_of(mechanism)
-        out = [*_jammed(cycle), *_on_an_edge(cycle)]
-    if loads.fastest_rpm(mechanism) is None:
+    if not mechanism.spec.is_loaded:
+        return []
+    cycle = cycle_of(mechanism)
+    out = [*_jammed(cycle), *_on_an_edge(cycle)]
+    # a speed that keeps the limits need not be looked for where this one does
+    if not _kept(cycle) and loads.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))
     return out
+
+
+def _kept(cycle: Cycle) -> bool:
+    """Whether the limits on loads are kept at the speed as it is."""
+    limits = zip(loads.LIMITED, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
+    given = {name: limit for name, limit in limits if limit}
+    if not given.keys() <= set(known(cycle)):
+        return False
+    found = zip(extremes(cycle, list(given)), given.values(), strict=True)
+    return all(max(one.max, -one.min) <= limit for one, limit in found)
 
 
 def _jammed(cycle: Cycle) -> list[Caution]:

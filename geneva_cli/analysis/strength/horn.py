@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 THICK = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
 GRID = 61  # places and sections looked at first
 FINER = 33  # and around the best of them, time and again
-ROUNDS = 4
+ROUNDS = 3
 NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
 
@@ -70,11 +70,11 @@ class Side(NamedTuple):
 
         The origin is the recess's centre.
         """
-        at = pitch(self.engagement, input_deg)
+        x, y = self.engagement.slot(input_deg, 1)
         turn = np.array([self.inwards, self.across])
-        place = turn @ (self.L * np.array([at.x, at.y]) - self.centre[:, None])
-        normal = turn @ np.array([-np.asarray(at.tangent_y), at.tangent_x])
-        normal = normal * np.where(normal[1] > 0.0, -1.0, 1.0)
+        place = turn @ (self.L * np.array([x.c[0], y.c[0]]) - self.centre[:, None])
+        normal = turn @ np.array([-np.asarray(y.c[1]), x.c[1]])
+        normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
         return place + self.half_width * normal, normal
 
     def thickness(self, wall: Array) -> Array:
@@ -174,9 +174,11 @@ def _looked(
 ) -> tuple[HornStress, _Search] | None:
     """The greatest stress of all these places, and places around it to look at next."""
     side, roller, u = within
-    wall = side.wall(u)[0]
+    places, normals = side.wall(np.append(roller, u))
+    wall = places[:, roller.size :]
     thick = side.thickness(wall)
-    stress = _stress(mechanism, side, width, roller.ravel(), wall, thick)
+    contact = places[:, : roller.size], normals[:, : roller.size]
+    stress = _stress(mechanism, side, width, roller.ravel(), contact, wall, thick)
     i, j = divmod(int(np.argmax(stress)), len(u))
     if not stress[i, j] > 0.0:
         return None
@@ -192,13 +194,19 @@ def _around(places: Array, i: int) -> Array:
 
 
 def _stress(
-    mechanism: Mechanism, side: Side, width: float, x: Array, wall: Array, thick: Array
+    mechanism: Mechanism,
+    side: Side,
+    width: float,
+    x: Array,
+    contacts: tuple[Array, Array],
+    wall: Array,
+    thick: Array,
 ) -> Array:
     """The stress, a row for each place of the roller and a column for each section, MPa."""
     loads = state(mechanism, side.engagement, x)
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
     force = np.where(bears, loads.pin_force_N, 0.0)[:, None]
-    contact, way = side.wall(x)
+    contact, way = contacts
     # from the contact to the middle of the section, (2, places, sections)
     arm = np.stack([wall[0], wall[1] - 0.5 * thick])[:, None, :] - contact[:, :, None]
     further = arm[0] > 0.0
