@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.loads.summary import Summary
     from geneva_cli.analysis.peaks import Peaks
     from geneva_cli.analysis.timing import Timing
-    from geneva_cli.curves.plates import Body
+    from geneva_cli.curves.plates import MassProperties
     from geneva_cli.curves.shapes import Drawing
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
@@ -288,7 +288,7 @@ class Design:
         return loads_table(self.cycle, life, own, said, for_people)
 
     @answer
-    def wheel_plate(self) -> Body | None:
+    def wheel_plate(self) -> MassProperties | None:
         """The wheel's own mass, centroid and inertia, from its outline.
 
         None without ``face_width_mm`` or ``wheel_thickness_mm``, or where there are no flat parts.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -108,7 +108,7 @@ class Polyarc:
         return np.concatenate(blocks) if blocks else np.empty(0)
 
     def _signed(self, points: Array) -> Array:
-        ask()
+        check_time()
         x, y = points.T
         if len(self) < MANY:
             seen = self._seen(x[:, None], y[:, None])

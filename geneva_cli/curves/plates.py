@@ -68,30 +68,30 @@ def plates(part: Part) -> list[Plate]:
     return [plate for member in part.members for plate in plates(member.part)]
 
 
-class Body(NamedTuple):
-    """What a plate weighs, where, and its inertia about its own origin along the axis."""
+class MassProperties(NamedTuple):
+    """A plate's mass, centroid, and moment of inertia about its own origin along the axis."""
 
     mass_kg: float
     centroid_mm: Point
     inertia_kgm2: float
 
 
-def body(plate: Plate, density_kgm3: float) -> Body:
+def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia J = rho h Ip of a plate.
 
     >>> from geneva_cli.curves.shapes import Circle
     >>> disc = Plate("disc", "CRANK", Circle("", (0, 0), 50.0), (), 0.0, 10.0)
-    >>> steel = body(disc, 7850.0)
+    >>> steel = mass_properties(disc, 7850.0)
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    return weighed(plate.moments, plate.thickness, density_kgm3)
+    return face_properties(plate.moments, plate.thickness, density_kgm3)
 
 
-def weighed(face: Moments, thickness_mm: float, density_kgm3: float) -> Body:
-    """The same of a plate whose face's moments are known."""
+def face_properties(face: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:
+    """The same from the moments of a plate's face."""
     per = density_kgm3 * thickness_mm * MM
-    return Body(per * face.area * MM**2, face.centroid, per * face.polar * MM**4)
+    return MassProperties(per * face.area * MM**2, face.centroid, per * face.polar * MM**4)
 
 
 def with_material_left(shape: Contour, outside: bool) -> Contour:

@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
-from geneva_cli.spec.named import named
+from geneva_cli.spec.load_named import load_named
 
 GEARINGS = {
     "external": "wheels.external:External",
@@ -71,4 +71,4 @@ def _found(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
         known = ", ".join(f'"{kind}"' for kind in kinds)
         hint = nearest(name, kinds) if isinstance(name, str) else ""
         raise GenevaError(f"{key[1]} must be one of {known}, not {said}{hint}", key)
-    return named(f"machine.{kinds[name]}")
+    return load_named(f"machine.{kinds[name]}")

@@ -1,4 +1,4 @@
-"""A bound on the processor's time for what is only tried: asked in every loop that may be long."""
+"""A limit on processor time for trials: every loop that may be long checks it."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ _deadline: ContextVar[float] = ContextVar("deadline", default=math.inf)
 
 
 class OutOfTime(Exception):
-    """What is tried takes longer than it may. No fault of the spec's, so no GenevaError."""
+    """A trial takes longer than it may: not a fault of the spec, so not a GenevaError."""
 
 
 @contextmanager
-def until(deadline: float) -> Iterator[None]:
-    """Within it ``ask`` raises OutOfTime past a deadline, in seconds of ``time.process_time``."""
+def time_limit(deadline: float) -> Iterator[None]:
+    """A context in which ``check_time`` raises OutOfTime once ``time.process_time()`` is past
+    ``deadline`` (seconds).
+    """
     before = _deadline.set(deadline)
     try:
         yield
@@ -25,8 +27,8 @@ def until(deadline: float) -> Iterator[None]:
         _deadline.reset(before)
 
 
-def ask() -> None:
-    """Raise OutOfTime where there is a deadline, and it is past."""
+def check_time() -> None:
+    """Raise OutOfTime if the deadline of a surrounding ``time_limit`` is past."""
     deadline = _deadline.get()
     if deadline < math.inf and time.process_time() > deadline:
         raise OutOfTime

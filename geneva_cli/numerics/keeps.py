@@ -1,11 +1,11 @@
-"""Does a value keep its limit? The one comparison of every check."""
+"""The comparison of a value with its limit, which all checks share."""
 
 from __future__ import annotations
 
 import math
 
-# Of the limit. A value is computed to 1e-12 or so of itself, and a load, found by search, to 1e-10;
-# nobody can measure a billionth. So a size that was chosen to meet its limit exactly meets it.
+# Share of the limit. Values are computed to 1e-12 or so, loads (by search) to 1e-10, and
+# nobody can measure a billionth: a size that was chosen to meet its limit exactly is to pass.
 ROUNDING = 1e-9
 
 

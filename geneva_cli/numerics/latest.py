@@ -1,6 +1,6 @@
-"""The latest answer of a function of an angle, for whoever asks for the same again.
+"""A cache of one entry for functions of an angle.
 
-Motion, path, slot and guide of one roller rest on each other, and each is asked for at the very
+Motion, path, slot and guide of one roller are built on each other, and each is evaluated at the
 same array of angles: what they have in common is then worked out once.
 """
 
@@ -18,10 +18,10 @@ MOST = 1 << 16  # angles: of more nothing is held in memory
 
 
 class Latest:
-    """Jets of a function at the array of angles that it was last asked for.
+    """The jets of a function at the array of angles of its last call.
 
-    Known by the array itself and by its values, so one that was written over is another. A lower
-    order is the beginning of a higher one. Not pickled: another process begins without.
+    A call is served from the cache where it has the same array object with the same values, and no
+    higher order: a jet of lower order is the beginning of the kept one. The cache is not pickled.
     """
 
     def __init__(self) -> None:
@@ -33,7 +33,7 @@ class Latest:
     def __call__(
         self, of: Callable[[Number, int], tuple[Jet, ...]], x: Number, order: int
     ) -> tuple[Jet, ...]:
-        """``of(x, order)``, or what is kept of it."""
+        """``of(x, order)``, from the cache where it has it."""
         if isinstance(x, (int, float)):
             return of(x, order)
         kept = self._kept

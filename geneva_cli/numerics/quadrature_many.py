@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.quadrature import DEEPEST
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def integrals_many(
     total, size = np.zeros((2, 0, n))
     low, high, of = np.zeros(len(a)), np.ones(len(a)), np.arange(len(a))
     for _ in range(DEEPEST):
-        ask()
+        check_time()
         found = []
         for i in range(0, len(of), BLOCK):
             part = slice(i, i + BLOCK)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from geneva_cli.numerics.arrays import all_true, choose
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -104,16 +104,16 @@ def boundary_by_sections(
 
 
 class Falsi:
-    """Regula falsi with Illinois' halving, between a place that keeps a limit and one that breaks
-    it. ``left`` >= 0 is what is left of the limit at ``good``, and ``short`` < 0 at ``bad``.
+    """Regula falsi with Illinois' halving, between a place that keeps a limit and one that does
+    not: ``left`` >= 0 is what is left of the limit at ``good``, and ``short`` < 0 at ``bad``.
 
-    The caller asks for the next place, and tells what is left there. Where one of the two is
-    without bound, the bracket is halved.
+    The caller takes the next place from ``middle`` and adds what is left there. Where one of the
+    two values is infinite, the bracket is halved.
     """
 
     def __init__(self, good: float, left: float, bad: float, short: float) -> None:
         self.good, self.left, self.bad, self.short = good, left, bad, short
-        self._held = 0  # how often one end has moved and the other stayed
+        self._stayed = 0  # times in a row that the good end moved (> 0), or the bad one (< 0)
 
     def middle(self, margin: float = 0.0) -> float:
         """The next place, no nearer to either end than a share of the bracket."""
@@ -121,14 +121,14 @@ class Falsi:
         share = self.left / (self.left - self.short) if known else 0.5
         return self.good + (self.bad - self.good) * min(max(share, margin), 1.0 - margin)
 
-    def told(self, x: float, left: float) -> None:
-        """What is left of the limit at a place between."""
+    def add(self, x: float, left: float) -> None:
+        """Narrow the bracket by what is left of the limit at a place in it."""
         if left >= 0.0:
-            self.good, self.left, self._held = x, left, max(self._held, 0) + 1
-            self.short *= 0.5 if self._held > 1 else 1.0
+            self.good, self.left, self._stayed = x, left, max(self._stayed, 0) + 1
+            self.short *= 0.5 if self._stayed > 1 else 1.0
         else:
-            self.bad, self.short, self._held = x, left, min(self._held, 0) - 1
-            self.left *= 0.5 if self._held < -1 else 1.0
+            self.bad, self.short, self._stayed = x, left, min(self._stayed, 0) - 1
+            self.left *= 0.5 if self._stayed < -1 else 1.0
 
 
 def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
@@ -166,7 +166,7 @@ def extrema(f: Curve, a: float, b: float) -> list[float]:
     open_ = list(zip(samples, samples[1:], strict=False))
     settled: list[tuple[_Sample, _Sample]] = []
     for _ in range(DEEPEST):
-        ask()
+        check_time()
         halves = []
         for left, right in open_:
             x = 0.5 * (left[0] + right[0])

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
     right = _taken((x[1:], span[1:], value[:, 1:], slope[:, 1:]), same)
     low, high = _range(value)
     for _ in range(DEEPEST):
-        ask()
+        check_time()
         x = 0.5 * (left[0] + right[0])
         open_: Mask = (x > left[0]) & (x < right[0])
         if not open_.any():

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
     Cells,
@@ -194,7 +194,7 @@ class _Search:
     def _settle(self, cells: Cells) -> None:
         """Cut at zeros, and halve until a cubic predicts."""
         for _ in range(2 * DEEPEST):
-            ask()
+            check_time()
             differ = (cells.positive[0] != cells.positive[1]).any(axis=0)
             rest = [*self._cut(taken(cells, differ)), *self._halved(taken(cells, ~differ))]
             cells = joined(rest)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.spec.named import named
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -135,4 +135,4 @@ def _require_known(part: str) -> None:
 
 def _made(by: str | None) -> Any:
     assert by is not None  # is_table says which parts are tables, and which are drawn
-    return named(f"parts.{by}")
+    return load_named(f"parts.{by}")

@@ -41,7 +41,6 @@ ISO_286 = [
         (3150, 135, 210, 38),
     )
 ]
-FITS = ("H7", "g6", "h6")
 
 
 def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Member, Plate, body
+from geneva_cli.curves.plates import Member, Plate, mass_properties
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
@@ -93,7 +93,7 @@ def _rows(spec: Spec, members: Iterable[Member]) -> Iterator[dict[str, object]]:
             if plate.layer == "ROLLER"
             else ("wheel", spec.material_wheel)
         )
-        made, box = body(plate, of.density_kgm3), bounds(plate.outline)
+        made, box = mass_properties(plate, of.density_kgm3), bounds(plate.outline)
         yield {
             "row": "part",
             "name": plate.name,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.curves.moments import Moments, moments, total
-from geneva_cli.curves.plates import Body, weighed
+from geneva_cli.curves.plates import MassProperties, face_properties
 from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
@@ -13,7 +13,7 @@ from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
 
 
-def wheel_body(mechanism: Mechanism) -> Body | None:
+def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     """The wheel's mass and inertia about its axis, hubs left out; None where no thickness is given.
 
     J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem:
@@ -31,7 +31,7 @@ def wheel_body(mechanism: Mechanism) -> Body | None:
     contour = _contour(where, size)
     # an internal wheel's contour is its opening, within its outside
     face = outer.less(contour) if outer.area else contour
-    return weighed(face.less(bores), size.wheel_thickness, spec.material_wheel.density_kgm3)
+    return face_properties(face.less(bores), size.wheel_thickness, spec.material_wheel.density_kgm3)
 
 
 def _contour(where: Assembly, size: Sizes) -> Moments:

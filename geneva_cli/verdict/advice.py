@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, cast
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.budget import OutOfTime, until
+from geneva_cli.numerics.budget import OutOfTime, time_limit
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.changes import Change, Value, value_now
 from geneva_cli.verdict.checks import checks, checks_quick_first, single_check
@@ -84,7 +84,7 @@ class Adviser:
         """The change as a line of the spec; nothing where none was found in time."""
         self.deadline, self.longest = time.process_time() + SECONDS, 0.0
         try:
-            with until(self.deadline):
+            with time_limit(self.deadline):
                 for change in remedies(failing.name, self.mechanism):
                     found = self._least(change, failing)
                     if found:
@@ -136,7 +136,7 @@ class Adviser:
             if time.process_time() + self.longest + spare > self.deadline:
                 break
             middle = found.middle(0.02)
-            found.told(middle, self._left(change, middle, failing))
+            found.add(middle, self._left(change, middle, failing))
         return float(found.good)
 
     def _whole(self, change: Change) -> float:

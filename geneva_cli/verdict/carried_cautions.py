@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
-from geneva_cli.curves.plates import Body
+from geneva_cli.curves.plates import MassProperties
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -20,13 +20,13 @@ FAR = 5.0  # centre distances to a body, beyond most tables
 FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
 
 
-def carried_cautions(mechanism: Mechanism, plate: Body | None) -> list[Caution]:
+def carried_cautions(mechanism: Mechanism, plate: MassProperties | None) -> list[Caution]:
     """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
     spec = mechanism.spec
     return [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_for_nothing(spec)]
 
 
-def _itself(spec: Spec, plate: Body | None) -> list[Caution]:
+def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
     given = inertia_kgm2(spec)
     if plate is None or not given or any(mass.name == NAME for mass in spec.mass):
         return []

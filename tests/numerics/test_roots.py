@@ -163,7 +163,7 @@ def test_falsi(short):
     while (x := found.middle()) not in (found.good, found.bad):
         steps += 1
         left = 2.0 - x * x
-        found.told(x, left if left >= 0.0 or math.isfinite(short) else -math.inf)
+        found.add(x, left if left >= 0.0 or math.isfinite(short) else -math.inf)
     assert found.good == near(math.sqrt(2.0), 2.3e-16)
     assert found.good**2 <= 2.0
     assert steps < (12 if math.isfinite(short) else 60)

@@ -7,7 +7,7 @@ from shapely.geometry import Polygon
 from test_arm import polygon
 from words import Spec, Wheel
 
-from geneva_cli.curves.plates import body
+from geneva_cli.curves.plates import mass_properties
 from geneva_cli.curves.shapes import Circle, Contour, Line
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
@@ -70,7 +70,8 @@ def test_the_mass_is_without_them():
     whole = of(center_distance_mm=200.0, wheel_bore_mm=25.0, wheel_thickness_mm=10.0)
     holed = whole.with_("size.dial_bolts", 4).with_("size.dial_bolt_mm", 6.0)
     holed = holed.with_("size.wheel_keyway", DIN)
-    masses = [body(wheel_plate(d.parts, d.parts.wheel), 7850.0).mass_kg for d in (whole, holed)]
+    plates = [wheel_plate(d.parts, d.parts.wheel) for d in (whole, holed)]
+    masses = [mass_properties(plate, 7850.0).mass_kg for plate in plates]
     # the keyway: 8 mm wide from its top down to the bore's circle
     half = math.asin(4.0 / 12.5)
     slit = 8.0 * 15.8 - (12.5**2 * half + 4.0 * 12.5 * math.cos(half))

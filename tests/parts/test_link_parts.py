@@ -14,7 +14,7 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.app import app
-from geneva_cli.curves.plates import body
+from geneva_cli.curves.plates import mass_properties
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
@@ -161,7 +161,8 @@ def test_rows_of_the_list(made):
     rows = {r["name"]: r for r in shown(name, "parts") if r["row"] == "part"}
     for plate in links.plates:
         row = rows[plate.name]
-        assert float(row["mass_kg"]) == pytest.approx(body(plate, 7850.0).mass_kg, rel=1e-12)
+        mass = mass_properties(plate, 7850.0).mass_kg
+        assert float(row["mass_kg"]) == pytest.approx(mass, rel=1e-12)
         assert (float(row["z_low_mm"]), float(row["z_high_mm"])) == (plate.low, plate.high)
     spans = sorted({(p.low, p.high) for p in links.plates})
     assert all(a[1] <= b[0] + 1e-9 for a, b in zip(spans, spans[1:], strict=False))

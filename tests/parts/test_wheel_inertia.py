@@ -22,7 +22,7 @@ from geneva_cli import (
     Support,
     load,
 )
-from geneva_cli.curves.plates import Body
+from geneva_cli.curves.plates import MassProperties
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import assembly
@@ -117,14 +117,14 @@ def test_the_mass_that_is_suggested_adds_the_wheel():
 
 def test_behind_gears_the_wheel_is_no_mass_on_the_table():
     spec = Spec(External(6), load=Load(inertia_kgm2=0.1), support=Support(gear_ratio=2.0))
-    (said,) = told(spec, Body(2.0, (0.0, 0.0), 0.005))
+    (said,) = told(spec, MassProperties(2.0, (0.0, 0.0), 0.005))
     assert "add 0.005 on inertia_kgm2 in [load]" in said
 
 
 def test_a_wheel_that_hardly_counts_is_not_mentioned():
     spec = Spec(External(6), load=Load(inertia_kgm2=0.6))
-    assert not told(spec, Body(2.0, (0.0, 0.0), 0.005))
-    assert not told(Spec(External(6)), Body(2.0, (0.0, 0.0), 0.005))
+    assert not told(spec, MassProperties(2.0, (0.0, 0.0), 0.005))
+    assert not told(Spec(External(6)), MassProperties(2.0, (0.0, 0.0), 0.005))
 
 
 def test_without_a_thickness_or_flat_parts_nothing_is_known():

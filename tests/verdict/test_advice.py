@@ -10,7 +10,7 @@ import repo
 from words import load
 
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.numerics.budget import OutOfTime, until
+from geneva_cli.numerics.budget import OutOfTime, time_limit
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
@@ -157,7 +157,7 @@ def test_advice_takes_a_second_at_most(tmp_path: Path) -> None:
 
 
 def test_a_trial_that_is_begun_is_stopped() -> None:
-    with until(time.process_time()), pytest.raises(OutOfTime):
+    with time_limit(time.process_time()), pytest.raises(OutOfTime):
         checks(load(str(DESIGNS / "limits.toml")))
 
 

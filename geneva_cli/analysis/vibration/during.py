@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.vibration.shape import NODES, SERIES, Shape, X
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -38,7 +38,7 @@ def greatest_acceleration(shape: Shape, ratio: float, damping: float) -> float:
     p = omega * complex(-damping, math.sqrt(1.0 - damping * damping))
     z, most = 0j, 0.0
     for half, bent in _pieces(shape, omega):
-        ask()
+        check_time()
         # z' = p z - s'': what a piece adds, seen from its left end
         back = np.exp(-p * half * (1.0 + X))
         added = -half * ((bent * back) @ _INTEGRALS.T)

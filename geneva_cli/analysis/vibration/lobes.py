@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.vibration.shape import Shape
 from geneva_cli.analysis.vibration.swing import Swing, left
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -43,7 +43,7 @@ def lobes(shape: Shape, low: float, high: float, damping: float) -> Lobes:
     count = max(FEWEST, math.ceil(PER_ONE * (high - low)))
     ratio = np.linspace(low, high, count + 1)
     share = shares(shape, ratio, damping)
-    ask()
+    check_time()
     at = 1 + np.flatnonzero((share[1:-1] >= share[:-2]) & (share[1:-1] > share[2:]))
     middle, reach = ratio[at], (high - low) / count
     nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))

@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Number
-from geneva_cli.numerics.budget import ask
+from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Motion
@@ -147,7 +147,7 @@ def _refined(
     greatest = np.zeros(order)
     count = 0
     while len(open_):
-        ask()
+        check_time()
         count += len(open_)
         if order > LOWEST and count > PANELS:
             return None

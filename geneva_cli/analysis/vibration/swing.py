@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex
 
 BLOCK = 2048  # period ratios at a time, so that they stay in the cache
-ENTRIES = 1 << 20  # of an array over period ratios and panels
 SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
 LARGE = float(TERMS)  # above it the recurrence goes upwards
 SPLIT = 2.0**26  # half of a double's bits

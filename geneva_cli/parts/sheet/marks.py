@@ -161,9 +161,9 @@ def note(tip: Point, text: str, h: float) -> Iterator[Measure]:
         yield _led("note", (tip,), 0.0, tip, end, label)
 
 
-def around(start: float = 0.25 * math.pi, count: int = ROUND) -> list[float]:
+def around() -> list[float]:
     """Directions all round, slanting ones first."""
-    every = [start + k * math.tau / count for k in range(count)]
+    every = [0.25 * math.pi + k * math.tau / ROUND for k in range(ROUND)]
     return sorted(every, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
 
 

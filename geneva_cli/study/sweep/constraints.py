@@ -44,14 +44,14 @@ def is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def constraint(text: str, option: str = "--subject-to") -> Constraint:
+def constraint(text: str) -> Constraint:
     """What ``"dwell_s >= 0.8"`` demands. Raises GenevaError where it is no bound.
 
     >>> constraint("dwell_s >= 0.8")
     Constraint(name='dwell_s', sign='>=', bound=0.8)
     """
     found = _FORM.fullmatch(text)
-    said = f"{option} {cut(text.strip())!r}"
+    said = f"--subject-to {cut(text.strip())!r}"
     if not found:
         raise GenevaError(
             f'{said}: it must be FIELD >= NUMBER or FIELD <= NUMBER, as "dwell_s >= 0.8"'

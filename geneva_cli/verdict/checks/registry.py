@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
-from geneva_cli.spec.named import named
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
     """The check of this name; None where the list has none, or it does not apply."""
     found: Check | None = None
     if name in among:
-        found = named(f"verdict.checks.{among[name]}")(name, *of)
+        found = load_named(f"verdict.checks.{among[name]}")(name, *of)
     return found
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.parts.proof import Proof
-from geneva_cli.spec.named import named
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.verdict.report.values import Values
 
 
@@ -21,7 +21,7 @@ class Section(NamedTuple):
 
     def values(self, proof: Proof) -> Values:
         """Its values by their names."""
-        found: Values = named(self.by)(proof)
+        found: Values = load_named(self.by)(proof)
         return found
 
 

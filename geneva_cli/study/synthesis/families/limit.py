@@ -108,5 +108,5 @@ def _crossing(peak: Peak, limit: float, above: float, below: float) -> float:
         x = found.middle()
         if x in (found.good, found.bad):
             break
-        found.told(x, limit - peak(x))
+        found.add(x, limit - peak(x))
     return found.good
