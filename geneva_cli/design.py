@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
+    from geneva_cli.verdict.life import Life
     from geneva_cli.verdict.report import Report
     from geneva_cli.verdict.strength import Strength
 
@@ -277,13 +278,13 @@ class Design:
 
     def _loads(self, for_people: bool) -> Table:
         from geneva_cli.analysis.loads.summary import loads_table
-        from geneva_cli.verdict.strength import LIFE
+        from geneva_cli.verdict.life import LIFE
 
-        _ = self.loads  # all quantities together, of which strength needs some
-        life = self.strength.life  # what it needs is known once it has been looked for
+        _ = self.loads  # all quantities together, of which life needs some
+        life = self.life.values  # what it needs is known once it has been looked for
         # without a load all need one, and that is said already
-        needed = self.strength.missing(LIFE[:7]) if self.cycle.is_loaded else []
-        said = (*self.warnings, *self.load_warnings, *self.strength.cautions(), *needed)
+        needed = self.life.missing(LIFE[:7]) if self.cycle.is_loaded else []
+        said = (*self.warnings, *self.load_warnings, *self.life.cautions(), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         return loads_table(self.cycle, life, own, said, for_people)
 
@@ -308,8 +309,20 @@ class Design:
             return None
 
     @answer
+    def life(self) -> Life:
+        """Stresses of pin and horn, the roller's life and the slots' wear; None where not known.
+
+        >>> held = Design(External(6), size=Size(200, 8), load=Load(inertia_kgm2=0.4, torque_Nm=15))
+        >>> round(held.life.values["roller_turns_per_motion"], 12)
+        2.654864890864
+        """
+        from geneva_cli.verdict.life import life
+
+        return life(self.mechanism)
+
+    @answer
     def strength(self) -> Strength:
-        """Stresses of pin, horn, lock and shaft, and the roller's life; None where not known.
+        """Likewise, and besides the stresses of lock and shafts.
 
         >>> wide = Size(face_width_mm=20)
         >>> held = Design(External(6), size=wide, load=Load(inertia_kgm2=0.4, torque_Nm=15))

@@ -120,7 +120,7 @@ def test_a_limit_that_limits_nothing_is_refused(limits, said):
 
 def test_without_a_load_only_the_slot_s_travel_is_known():
     of = Strength(build(Spec(Wheel(6), size=Size(face_width_mm=10.0))))
-    known = {name for name, value in of.life.items() if value is not None}
+    known = {name for name, value in of.values.items() if value is not None}
     assert known == {"slot_travel_m"}
     assert "pin_stress_MPa" in of.needs
 
@@ -131,7 +131,7 @@ def test_a_force_without_bound_is_not_a_number():
     of = Strength(build(Spec(Wheel(6), motion=curved, size=wide, load=Load(torque_Nm=5.0))))
     assert of.pin_stress_MPa is None
     assert of.needs["pin_stress_MPa"].startswith("a force with a bound")
-    assert all(v is None or math.isfinite(v) for v in of.life.values())
+    assert all(v is None or math.isfinite(v) for v in of.values.values())
 
 
 def test_pv_is_the_greatest_product():
@@ -204,10 +204,10 @@ def test_every_machine_of_the_family(path):
     spec = mechanism.spec.replace(load=Load(0.001, 5.0, friction=0.05))
     of = Strength(build(spec.with_("size.face_width_mm", 10.0)))
     for name in ("slot_travel_m", "friction_work_J", "equivalent_force_N", "pin_stress_MPa"):
-        assert of.life[name] > 0.0, name
-    assert of.life["roller_turns_per_motion"] > 0.0
+        assert of.values[name] > 0.0, name
+    assert of.values["roller_turns_per_motion"] > 0.0
     locked = of.sizes is not None and of.sizes.lock
-    assert bool(of.life["horn_stress_MPa"]) == bool(locked)
+    assert bool(of.values["horn_stress_MPa"]) == bool(locked)
     assert bool(of.lock) == bool(locked)
 
 

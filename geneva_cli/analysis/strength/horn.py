@@ -16,6 +16,7 @@ beam. Of curved walls only the formula is tested.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -124,6 +125,7 @@ def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> f
     return max(side.stoutness for side in horns(mechanism, half_width_mm, recess_mm))
 
 
+@lru_cache(maxsize=16)
 def horn(
     mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
 ) -> HornStress | None:

@@ -9,7 +9,7 @@ from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose
 from geneva_cli.study.document.left import Left
 from geneva_cli.study.document.sources import sources
-from geneva_cli.verdict.strength import LIFE
+from geneva_cli.verdict.life import LIFE
 
 WORDS = {True: "passes", False: BAD, None: "not proved"}
 HEADS = (
@@ -53,7 +53,7 @@ def said(design: Design, left: Left) -> Iterator[Block]:
     told = dict.fromkeys([*left.one("warnings"), *design.warnings, *design.load_warnings])
     of_loads = design.loads_page.to_dict()["warnings"]
     unknown = dict.fromkeys(missing(design.cycle))
-    known = {*told, *design.strength.missing(LIFE[:7])}  # these, and more, are the report's own
+    known = {*told, *design.life.missing(LIFE[:7])}  # these, and more, are the report's own
     unknown |= dict.fromkeys(text for text in of_loads if text not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))
     rest = list(left.rest())

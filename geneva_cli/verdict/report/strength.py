@@ -22,7 +22,7 @@ def strength_values(proof: Proof) -> Values:
         ("crank_shaft", _shaft(of, of.crank_shaft, shafts.crank_shaft(given))),
     ):
         values |= {f"strength.{part}.{name}": value for name, value in found.items()}
-    values |= {f"life.{name}": value for name, value in of.life.items()}
+    values |= {f"life.{name}": value for name, value in of.values.items()}
     return values | {"strength.needs": tuple(of.missing(tuple(of.needs)))}
 
 
