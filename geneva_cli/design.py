@@ -314,7 +314,7 @@ class Design:
 
         >>> held = Design(External(6), size=Size(200, 8), load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(held.life.values["roller_turns_per_motion"], 12)
-        2.654864890864
+        2.655148449921
         """
         from geneva_cli.verdict.life import life
 
