@@ -489,12 +489,13 @@ class Design:
         curves: str = "arcs",
         of: Proof | None = None,
         kerf_mm: float | None = None,
+        dog_bones_mm: float | None = None,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
         ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove`` or ``coupon``;
-        millimetres. With a kerf, the paths of a cut so wide, and ``GenevaError`` where it does not
-        fit in.
+        millimetres. With a kerf, the paths of a cut so wide; with dog bones, those of a cutter of
+        a diameter in the corners that stand in; ``GenevaError`` where there is no room for them.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -505,6 +506,10 @@ class Design:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         proof, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
         made = self._located(lambda: part_drawing(proof, part, tolerance_mm, of_curves))
+        if dog_bones_mm is not None:
+            from geneva_cli.parts.milling import with_dog_bones
+
+            made = self._located(lambda: with_dog_bones(made, proof, dog_bones_mm))
         if kerf_mm is None:
             return made
         from geneva_cli.curves.kerf import paths
@@ -512,6 +517,26 @@ class Design:
 
         require_cut(part)
         return self._located(lambda: paths(made, kerf_mm))
+
+    def cutter(
+        self, part: str, cutter_mm: float, dog_bones: bool = False, of: Proof | None = None
+    ) -> tuple[str, list[str]]:
+        """Why a milling cutter of a diameter cannot cut a part, empty where it can; and warnings.
+
+        Those are of corners that it leaves round, unless there are dog bones, and of narrow holes.
+
+        >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
+        'inner radius of 5 mm is narrower; a cutter up to 10 mm does'
+        """
+        from geneva_cli.parts.catalogue import require_cut
+        from geneva_cli.parts.milling import judged
+
+        require_cut(part, "--cutter")
+        proof = of or self.drawn(0.001, part)
+        refused, left = judged(self.drawing(part, of=proof), cutter_mm)
+        if refused or not dog_bones:
+            return refused, left
+        return judged(self.drawing(part, of=proof, dog_bones_mm=cutter_mm), cutter_mm)
 
     def sheet(
         self,

@@ -24,7 +24,6 @@ from geneva_cli.parts.catalogue import PARTS, is_sheet
 
 if TYPE_CHECKING:
     from geneva_cli.design import Design
-    from geneva_cli.parts.proof import Proof
 
 EXAMPLES = (
     "geneva profile spec.toml --samples 9",
@@ -61,6 +60,13 @@ def run(
         float | None,
         typer.Option(metavar="MM", help="Paths for a cut so wide: half of it beside the part."),
     ] = None,
+    cutter: Annotated[
+        float | None,
+        typer.Option(metavar="MM", help="Diameter of a milling cutter that must enter everywhere."),
+    ] = None,
+    dog_bones: Annotated[
+        bool, typer.Option("--dog-bones", help="Free the corners that this cutter leaves round.")
+    ] = False,
     units: Annotated[
         str,
         typer.Option(
@@ -107,16 +113,12 @@ def run(
     in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
     the pin travels in. Before a drawing is written its machine is turned through a whole turn.
     """
-    from geneva_cli.curves.pieces import UNITS
-    from geneva_cli.design import CURVES, load
+    from geneva_cli.design import load
 
     curves = curves or usual_curves(output, format)
-    if curves not in CURVES:
-        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-    if not tolerance > 0.0:
-        raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
-    if units not in UNITS:
-        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
+    _require(curves, tolerance, units)
+    if dog_bones and cutter is None:
+        raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
     design = load(spec, settings(given, process))
@@ -124,7 +126,7 @@ def run(
     own = {key: value for key, value in asked.items() if value is not None}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
-        _refuse(units=units, kerf=kerf, own=own)
+        _refuse(units=units, kerf=kerf, cutter=cutter, own=own)
         show(design.part_table(part, tolerance, samples), output, format, files)
         warn(design)
         return
@@ -132,34 +134,55 @@ def run(
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
     proof = design.drawn(tolerance, part)
     if design.spec.is_flat:
-        _judge(design, proof, force)
+        _judge(design, design.judge(proof), force)
     if sheet:
-        _refuse(units=units, kerf=kerf)
+        _refuse(units=units, kerf=kerf, cutter=cutter)
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
             )
         draw_sheet(design.sheet(tolerance, curves, proof, part), output, format, files, **own)
     else:
-        drawing = design.drawing(part, tolerance, curves, proof, kerf)
+        if cutter is not None:
+            _judge(design, design.cutter(part, cutter, dog_bones, proof), force)
+        drawing = design.drawing(
+            part, tolerance, curves, proof, kerf, cutter if dog_bones else None
+        )
         draw(drawing, output, format, units, files, **own)
     warn(design)
 
 
-def _refuse(units: str, kerf: float | None, own: dict[str, str] | None = None) -> None:
+def _require(curves: str, tolerance: float, units: str) -> None:
+    """Raise GenevaError for what no drawing can be written with."""
+    from geneva_cli.curves.pieces import UNITS
+    from geneva_cli.design import CURVES
+
+    if curves not in CURVES:
+        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+    if not tolerance > 0.0:
+        raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
+    if units not in UNITS:
+        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
+
+
+def _refuse(
+    units: str, kerf: float | None, cutter: float | None, own: dict[str, str] | None = None
+) -> None:
     """Raise GenevaError for options of parts to cut, where none is written."""
     if units != "mm":
         raise GenevaError("--units is for parts to cut; tables and sheets are in millimetres")
     if kerf is not None:
         raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
+    if cutter is not None:
+        raise GenevaError("--cutter is for parts to cut; this one is a table, or a sheet")
     if own:
         raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")
 
 
-def _judge(design: Design, proof: Proof, force: bool) -> None:
+def _judge(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:
     """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
     path = design.spec.path
-    refused, warned = design.judge(proof)
+    refused, warned = verdict
     if refused and not force:
         text = f"not written: {refused}; --force writes it all the same"
         print(clean(f"{path}: {text}"), file=sys.stderr)

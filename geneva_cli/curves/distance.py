@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Contour, Line
 from geneva_cli.numerics.budget import check_time
 
@@ -54,7 +55,7 @@ class Polyarc:
             pieces = [s for s in contour.segments if isinstance(s, Line | Arc)]
             assert len(pieces) == len(contour.segments), "cubics have no exact distance here"
             rows += [_row(piece) for piece in pieces]
-            ends = [_directions(piece) for piece in pieces]
+            ends = [directions(piece) for piece in pieces]
             turns += [_corner(ends[i - 1][1], ends[i][0]) for i in range(len(ends))]
         table = np.array(rows)
         self.x0, self.y0, self.x1, self.y1, self.cx, self.cy, self.radius, self.sense = table[
@@ -212,14 +213,6 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
         math.sin(middle),
         math.cos(0.5 * sweep),
     )
-
-
-def _directions(piece: Line | Arc) -> tuple[float, float]:
-    """The directions of travel at both ends, radians."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    chord = math.atan2(y1 - y0, x1 - x0)
-    half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
-    return chord - half, chord + half
 
 
 def _corner(before: float, after: float) -> float:

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at, segment_length
+from geneva_cli.curves.measure import at, directions, segment_length
 from geneva_cli.curves.pieces import STEP, prepared
 from geneva_cli.curves.plates import plates, with_material_left
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Segment, closed
@@ -26,8 +26,12 @@ STEPS = 40  # of Newton's method
 LOOKS = 12  # halvings between a kerf that goes and one that does not
 
 
-class _Closed(GenevaError):
-    """An offset for which there is no path."""
+class Closed(GenevaError):
+    """An offset for which there is no path; ``at`` is where."""
+
+    def __init__(self, text: str, at: Point) -> None:
+        super().__init__(text)
+        self.at = at
 
 
 def paths(drawing: Drawing, kerf: float) -> Drawing:
@@ -59,7 +63,7 @@ def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circ
     """The path about an outline or in a hole."""
     try:
         return offset(shape, outside, 0.5 * kerf)
-    except _Closed as error:
+    except Closed as error:
         raise GenevaError(f"--kerf {kerf:g}: {error}; {_widest(shape, outside, kerf)}") from None
 
 
@@ -69,7 +73,7 @@ def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
     def leaves_a_path(width: float) -> bool:
         try:
             offset(shape, outside, 0.5 * width)
-        except _Closed:
+        except Closed:
             return False
         return True
 
@@ -88,7 +92,8 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     if isinstance(shape, Circle):
         radius = shape.radius + (distance if outside else -distance)
         if radius <= STEP:
-            raise _Closed(f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow")
+            text = f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow"
+            raise Closed(text, shape.centre)
         return shape._replace(radius=radius)
     (cleaned,) = prepared(Drawing("", (shape,))).shapes
     assert isinstance(cleaned, Contour)
@@ -111,21 +116,12 @@ def _beside(segment: Segment, layer: str, distance: float) -> Line | Arc:
     # A flat arc's centre is far off: its ends are moved along their own normals instead.
     ends = [
         _moved(point, way, distance)
-        for point, way in zip((segment.start, segment.end), _ways(segment), strict=True)
+        for point, way in zip((segment.start, segment.end), directions(segment), strict=True)
     ]
     if segment.bulge < 0.0 and segment.radius - distance <= STEP:
-        raise _Closed(
-            f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
-        )
+        text = f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
+        raise Closed(text, at(segment, 0.5))
     return Arc(ends[0], ends[1], segment.bulge)
-
-
-def _ways(piece: Line | Arc) -> tuple[float, float]:
-    """The directions of travel at both ends, radians."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    chord = math.atan2(y1 - y0, x1 - x0)
-    half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
-    return chord - half, chord + half
 
 
 def _moved(point: Point, way: float, distance: float) -> Point:
@@ -139,7 +135,7 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
     around: list[Arc | None] = [None] * count
     for i, piece in enumerate(pieces):
         k = (i + 1) % count
-        before, after = _ways(piece)[1], _ways(pieces[k])[0]
+        before, after = directions(piece)[1], directions(pieces[k])[0]
         turn = math.remainder(after - before, math.tau)
         if abs(turn) * distance < STEP:
             continue
@@ -150,7 +146,7 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
     found: list[Segment] = []
     for piece, start, end, arc in zip(pieces, low, high, around, strict=True):
         if start >= end:
-            raise _Closed(f"a piece of {contour.layer} is shorter than the cut is wide")
+            raise Closed(f"a piece of {contour.layer} is shorter than the cut is wide", piece.start)
         found += [_part(piece, start, end), *([arc] if arc else [])]
     return closed(contour.layer, found)
 
@@ -173,13 +169,14 @@ def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[f
             break
     apart = math.dist(at(first, s), at(second, t))
     if not (apart < STEP and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
-        raise _Closed(f"a corner that stands in on {contour.layer} is narrower than the cut")
+        text = f"a corner that stands in on {contour.layer} is narrower than the cut"
+        raise Closed(text, first.end)
     return s, t
 
 
 def _speed(piece: Line | Arc, t: float) -> Point:
     """The derivative of the point by the share of the way."""
-    first, last = _ways(piece)
+    first, last = directions(piece)
     way, length = first + t * (last - first), segment_length(piece)
     return length * math.cos(way), length * math.sin(way)
 
@@ -204,6 +201,8 @@ def _require_away(contour: Contour, path: Contour, distance: float) -> None:
     away = boundary.signed(points)
     if float(away.min()) < distance - NEAR:
         at_x, at_y = points[int(np.argmin(away))]
-        raise _Closed(
-            f"near x = {at_x:.4g}, y = {at_y:.4g} on {contour.layer} a gap is narrower than the cut"
+        raise Closed(
+            f"near x = {at_x:.4g}, y = {at_y:.4g} on {contour.layer} a gap is narrower than the "
+            "cut",
+            (float(at_x), float(at_y)),
         )

@@ -88,6 +88,29 @@ def segment_length(segment: Segment) -> float:
     return chord * half / math.sin(half)
 
 
+def directions(piece: Line | Arc) -> tuple[float, float]:
+    """The directions of travel at both ends, radians."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    chord = math.atan2(y1 - y0, x1 - x0)
+    half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
+    return chord - half, chord + half
+
+
+def share_of(piece: Line | Arc, point: Point) -> float:
+    """The share of the way at which a point of the piece, or of its whole line or circle, is.
+
+    >>> share_of(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
+    0.25
+    """
+    (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
+    if isinstance(piece, Line):
+        u, v = x1 - x0, y1 - y0
+        return ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
+    cx, cy = piece.centre
+    middle = math.atan2(y0 - cy, x0 - cx) + 0.5 * piece.sweep
+    return 0.5 + math.remainder(math.atan2(y - cy, x - cx) - middle, math.tau) / piece.sweep
+
+
 def at(segment: Segment, t: float) -> Point:
     """The point at the parameter 0..1, which is a share of the way on lines and arcs."""
     if t in (0.0, 1.0):

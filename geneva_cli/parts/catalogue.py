@@ -112,11 +112,11 @@ def part_sheet(found: Outlines, part: str, tolerance_mm: float, curves: str) -> 
     return made
 
 
-def require_cut(part: str) -> None:
-    """Raise GenevaError for a part that is not cut out of a plate, and has no kerf."""
+def require_cut(part: str, option: str = "--kerf") -> None:
+    """Raise GenevaError, naming an option, for a part that is not cut out of a plate."""
     if part not in CUT:
         raise GenevaError(
-            f"--kerf is for parts that are cut out of a plate: {', '.join(CUT)}; not for "
+            f"{option} is for parts that are cut out of a plate: {', '.join(CUT)}; not for "
             f"{cut(part)}"
         )
 

@@ -1,0 +1,111 @@
+"""Corners that stand in, and dog bones that free them.
+
+A round cutter leaves its own radius in such a corner. A dog bone is a bite as wide as the cutter: a
+circle through the corner, with its centre on the bisector, so that a sharp edge fills the corner.
+Contours run with the material on their left, and turn right in a corner that stands in.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from geneva_cli.curves.measure import directions, share_of
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, closed
+from geneva_cli.errors import GenevaError
+
+LEFT = 1e-4  # mm: a corner in which a cutter leaves less is none
+
+
+class Corner(NamedTuple):
+    """Where a contour turns right: at the end of a piece, by an angle in radians above 0."""
+
+    piece: int
+    at: Point
+    turn: float
+
+
+class Bone(NamedTuple):
+    """A dog bone: its centre, and the arc that takes its corner's place."""
+
+    corner: Corner
+    centre: Point
+    arc: Arc
+
+
+def pieces(contour: Contour) -> list[Line | Arc]:
+    """The contour's pieces; raises GenevaError for cubics."""
+    found = [piece for piece in contour.segments if isinstance(piece, Line | Arc)]
+    if len(found) < len(contour.segments):
+        raise GenevaError("--cutter is for lines and arcs; write them with --curves arcs")
+    return found
+
+
+def inner_corners(contour: Contour, radius: float) -> Iterator[Corner]:
+    """The corners in which a cutter leaves material: r (1/cos(turn/2) - 1) of it at the most.
+
+    >>> square = closed("", [Line((0, 0), (0, 9)), Line((0, 9), (9, 9)), Line((9, 9), (0, 0))])
+    >>> [round(math.degrees(corner.turn)) for corner in inner_corners(square, 1.0)]
+    [90, 135, 135]
+    """
+    around = pieces(contour)
+    for i, piece in enumerate(around):
+        before, after = directions(piece)[1], directions(around[(i + 1) % len(around)])[0]
+        turn = -math.remainder(after - before, math.tau)
+        if 0.0 < turn < math.pi and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > LEFT:
+            yield Corner(i, piece.end, turn)
+
+
+def bone(contour: Contour, corner: Corner, radius: float) -> Bone:
+    """The dog bone of a corner, which runs clockwise from one wall through it to the other."""
+    (x, y), around = corner.at, pieces(contour)
+    walls = around[corner.piece], around[(corner.piece + 1) % len(around)]
+    bisector = directions(walls[1])[0] + 0.5 * corner.turn - 0.5 * math.pi
+    centre = x + radius * math.cos(bisector), y + radius * math.sin(bisector)
+    start, end = (_again(wall, centre, corner.at) for wall in walls)
+    halves = [math.asin(min(1.0, 0.5 * math.dist(corner.at, p) / radius)) for p in (start, end)]
+    return Bone(corner, centre, Arc(start, end, -math.tan(0.5 * sum(halves))))
+
+
+def with_bones(contour: Contour, bones: Iterable[Bone]) -> Contour:
+    """The contour with dog bones in the place of their corners.
+
+    Raises GenevaError where a wall is too short for those at its ends.
+    """
+    at = {one.corner.piece: one for one in bones}
+    around = pieces(contour)
+    found: list[Segment] = []
+    for i, piece in enumerate(around):
+        ahead, behind = at.get(i), at.get((i - 1) % len(around))
+        low = share_of(piece, behind.arc.end) if behind else 0.0
+        high = share_of(piece, ahead.arc.start) if ahead else 1.0
+        if not 0.0 <= low < high <= 1.0:
+            x, y = (ahead or behind or at[0]).corner.at
+            raise GenevaError(
+                f"the wall of {contour.layer} beside its corner at x = {x:.5g}, y = {y:.5g} is "
+                "shorter than a dog bone; take a narrower cutter"
+            )
+        start = behind.arc.end if behind else piece.start
+        end = ahead.arc.start if ahead else piece.end
+        if isinstance(piece, Line):
+            found.append(Line(start, end))
+        else:
+            found.append(Arc(start, end, math.tan(0.25 * (high - low) * piece.sweep)))
+        found += [ahead.arc] if ahead else []
+    return closed(contour.layer, found)
+
+
+def _again(wall: Line | Arc, centre: Point, corner: Point) -> Point:
+    """Where a circle through the corner meets a wall again.
+
+    That is the corner's image in the perpendicular from the circle's centre to a straight wall, and
+    in the line of both centres for a round one.
+    """
+    (cx, cy), (px, py) = centre, corner
+    if isinstance(wall, Line):
+        ux, uy = wall.start[1] - wall.end[1], wall.end[0] - wall.start[0]
+    else:
+        ux, uy = wall.centre[0] - cx, wall.centre[1] - cy
+    along = ((px - cx) * ux + (py - cy) * uy) / (ux * ux + uy * uy)
+    return 2.0 * (cx + along * ux) - px, 2.0 * (cy + along * uy) - py

@@ -1,0 +1,162 @@
+"""Whether a round cutter comes everywhere along an outline, and dog bones where it does not.
+
+It does where the outline has an offset by its radius that keeps that distance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.corners import Bone, bone, inner_corners, pieces, with_bones
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.kerf import Closed, offset
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.pieces import prepared
+from geneva_cli.curves.plates import Plate, with_material_left
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Shape
+from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.roots import boundary
+
+NEAR = 1e-5  # mm: a cutter as wide as a slot enters it
+DIGITS = 6  # of a place in mm
+LOOKS = 14  # halvings between a cutter that enters and one that does not
+
+
+class Fault(NamedTuple):
+    """What a cutter cannot cut, and where; ``stops`` where it does not enter at all."""
+
+    text: str
+    stops: bool
+
+
+def faults(plate: Plate, radius: float) -> Iterator[Fault]:
+    """Where a plate is narrower than a cutter, one fault an outline at the most, and its corners.
+
+    >>> bore = Circle("BORE", (1.0, 2.0), 2.0)
+    >>> washer = Plate("washer", "CRANK", Circle("CRANK", (0.0, 0.0), 9.0), (bore,), 0.0, 1.0)
+    >>> [fault.text for fault in faults(washer, 3.0)]
+    ['hole of 4 mm at x = 1, y = 2 in washer: narrower than the cutter; to be drilled']
+    """
+    for shape, outside in shapes(plate):
+        if isinstance(shape, Circle):
+            if not outside and shape.radius < radius - NEAR:
+                x, y = shape.centre
+                size = f"hole of {2.0 * shape.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
+                text = f"{size} in {plate.name}: narrower than the cutter; to be drilled"
+                yield Fault(text, False)
+            continue
+        place = blocked(shape, outside, radius)
+        if place:
+            (x, y), hollow = (round(v, DIGITS) + 0.0 for v in place[0]), place[1]
+            what = f"an inner radius of {hollow:.5g} mm" if hollow else "a gap"
+            most = 2.0 * _widest(shape, outside, radius)
+            instead = f"a cutter up to {most:.6g} mm does" if most else "no cutter does"
+            yield Fault(
+                f"it does not enter {plate.name}, layer {shape.layer}, at x = {x:.5g}, "
+                f"y = {y:.5g}: {what} is narrower; {instead}",
+                True,
+            )
+            continue
+        for corner in inner_corners(shape, radius):
+            x, y = corner.at
+            yield Fault(
+                f"it leaves a radius of {radius:.6g} mm in the corner of {plate.name}, layer "
+                f"{shape.layer}, at x = {x:.5g}, y = {y:.5g}; --dog-bones frees it",
+                False,
+            )
+
+
+def shapes(plate: Plate) -> Iterator[tuple[Shape, bool]]:
+    """Outline and holes with the material on their left, and whether it is the outline."""
+    for shape, outside in ((plate.outline, True), *((hole, False) for hole in plate.holes)):
+        if isinstance(shape, Circle):
+            yield shape, outside
+            continue
+        for cleaned in prepared(Drawing("", (shape,))).shapes:
+            assert isinstance(cleaned, Contour)
+            pieces(cleaned)
+            yield with_material_left(cleaned, outside), outside
+
+
+def blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, float] | None:
+    """The place that a cutter does not come to, and the radius of a hollow arc there, or 0.
+
+    None where it goes along all of the contour, as an offset by its radius does.
+    """
+    hollow = [p for p in pieces(contour) if isinstance(p, Arc) and p.bulge < 0.0]
+    tightest = min(hollow, key=lambda arc: arc.radius, default=None)
+    if tightest and tightest.radius < radius - NEAR:
+        return at(tightest, 0.5), tightest.radius
+    try:
+        offset(contour, outside, radius - NEAR)
+    except Closed as error:
+        return error.at, 0.0
+    return None
+
+
+def _widest(contour: Contour, outside: bool, radius: float) -> float:
+    """The largest cutter that enters, about to three digits; 0 for none. Its radius."""
+    goes = boundary(lambda r: blocked(contour, outside, r) is None, 0.0, radius, LOOKS)
+    if not goes:
+        return 0.0
+    unit = 10.0 ** (math.floor(math.log10(2.0 * goes)) - 2)
+    near = 0.5 * unit * round(2.0 * goes / unit)
+    return near if blocked(contour, outside, near) is None else near - 0.5 * unit
+
+
+def freed(
+    plate: Plate, radius: float, wall: float, works: Callable[[Line | Arc, str], bool]
+) -> dict[Shape, Contour]:
+    """The outlines of a plate that have corners, with dog bones in them.
+
+    ``works`` says of which pieces the machine needs as they are. Raises GenevaError where a bone
+    would cut one of those, or leave less than ``wall`` mm to another outline.
+    """
+    found: dict[Shape, Contour] = {}
+    around = list(shapes(plate))
+    for given, (shape, _) in zip((plate.outline, *plate.holes), around, strict=True):
+        if isinstance(shape, Circle):
+            continue
+        bones = [bone(shape, corner, radius) for corner in inner_corners(shape, radius)]
+        others = [other for other, _ in around if other is not shape]
+        for one in bones:
+            _require_free(shape, one, radius, works)
+            for other in others:
+                _require_wall(plate, one, radius + wall, other)
+        if bones:
+            found[given] = with_bones(shape, bones)
+    return found
+
+
+def _require_free(
+    shape: Contour, one: Bone, radius: float, works: Callable[[Line | Arc, str], bool]
+) -> None:
+    """Raise where a bone touches another wall than its corner's, or one that works."""
+    around, i = pieces(shape), one.corner.piece
+    beside = {i, (i + 1) % len(around)}
+    rest = np.array([k for k in range(len(around)) if k not in beside], dtype=np.intp)
+    away = abs(float(Polyarc([shape]).subset(rest).signed(np.array([one.centre]))[0]))
+    if any(works(around[k], shape.layer) for k in beside) or away < radius - NEAR:
+        x, y = one.corner.at
+        raise GenevaError(
+            f"--dog-bones: the corner at x = {x:.5g}, y = {y:.5g} on {shape.layer} stands at a "
+            "wall that runs on roller or lock, or too near to one; a narrower cutter may do, or "
+            "none of them"
+        )
+
+
+def _require_wall(plate: Plate, one: Bone, reach: float, other: Shape) -> None:
+    if isinstance(other, Circle):
+        away = abs(math.dist(one.centre, other.centre) - other.radius)
+    else:
+        away = abs(float(Polyarc([other]).signed(np.array([one.centre]))[0]))
+    if away < reach:
+        x, y = one.corner.at
+        raise GenevaError(
+            f"--dog-bones: the one at x = {x:.5g}, y = {y:.5g} in {plate.name} leaves less than "
+            "wall_min_mm to another outline; take a narrower cutter"
+        )

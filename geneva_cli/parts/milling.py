@@ -1,0 +1,76 @@
+"""Parts for a milling cutter: where it does not enter, and dog bones in the corners.
+
+Dog bones stand in keyways and in the reliefs of the locking disc, never in the walls on which the
+rollers run, nor where the disc locks.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.cutter import faults, freed
+from geneva_cli.curves.plates import Group, Part, Plate, plates
+from geneva_cli.curves.shapes import Arc, Contour, Drawing, Line, Shape
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.crank import LAYER as CRANK
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sizes import wall_min
+from geneva_cli.parts.wheel import LAYER as WHEEL
+
+SAME = 1e-9  # of the centre distance: radii nearer to each other are one
+
+
+def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
+    """Where a cutter of a diameter does not enter, empty where it does, and what else it leaves.
+
+    Raises GenevaError for a cutter that is not above 0 mm, and for outlines with cubics.
+    """
+    if not 0.0 < cutter_mm < math.inf:
+        raise GenevaError(f"--cutter {cutter_mm:g}: its diameter must be above 0 mm")
+    cut = dict.fromkeys(plates(drawing.solid)) if drawing.solid else {}
+    found = [fault for plate in cut for fault in faults(plate, 0.5 * cutter_mm)]
+    stops = [fault.text for fault in found if fault.stops]
+    refused = f"--cutter {cutter_mm:g}: {'; '.join(stops)}" if stops else ""
+    return refused, [f"--cutter {cutter_mm:g}: {f.text}" for f in found if not f.stops]
+
+
+def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
+    """A drawing with dog bones for a cutter of a diameter in the corners that stand in.
+
+    Raises GenevaError where there is no room for one.
+    """
+    mechanism, solid = proof.mechanism, drawing.solid
+    if solid is None:
+        return drawing
+    wall = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
+    lock = proof.found.sizes.lock if mechanism.spec.is_flat else 0.0
+
+    def works(piece: Line | Arc, layer: str) -> bool:
+        return layer == WHEEL or (layer == CRANK and _locks(piece, lock, mechanism))
+
+    found: dict[Shape, Contour] = {}
+    for plate in dict.fromkeys(plates(solid)):
+        found |= freed(plate, 0.5 * cutter_mm, wall, works)
+    shapes = tuple(found.get(shape, shape) for shape in drawing.shapes)
+    return drawing._replace(shapes=shapes, solid=_replaced(solid, found))
+
+
+def _locks(piece: Line | Arc, lock: float, mechanism: Mechanism) -> bool:
+    """Whether a piece is of the locking disc's circle."""
+    near = SAME * mechanism.center_distance_mm
+    return (
+        isinstance(piece, Arc)
+        and abs(piece.radius - lock) < near
+        and math.hypot(*piece.centre) < near
+    )
+
+
+def _replaced(part: Part, by: dict[Shape, Contour]) -> Part:
+    if isinstance(part, Plate):
+        return part._replace(
+            outline=by.get(part.outline, part.outline),
+            holes=tuple(by.get(hole, hole) for hole in part.holes),
+        )
+    members = (one._replace(part=_replaced(one.part, by)) for one in part.members)
+    return Group(part.name, tuple(members))
