@@ -89,10 +89,10 @@ def blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, floa
     """
     hollow = [p for p in pieces(contour) if isinstance(p, Arc) and p.bulge < 0.0]
     tightest = min(hollow, key=lambda arc: arc.radius, default=None)
-    if tightest and tightest.radius < radius - NEAR:
+    if tightest and tightest.radius < radius - 0.5 * NEAR:
         return at(tightest, 0.5), tightest.radius
     try:
-        offset(contour, outside, radius - NEAR)
+        offset(contour, outside, radius - NEAR)  # of such an arc half of NEAR is left
     except Closed as error:
         return error.at, 0.0
     return None

@@ -137,7 +137,7 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
         k = (i + 1) % count
         before, after = directions(piece)[1], directions(pieces[k])[0]
         turn = math.remainder(after - before, math.tau)
-        if abs(turn) * distance < STEP:
+        if math.dist(piece.end, pieces[k].start) < STEP:
             continue
         if turn > 0.0:
             around[i] = Arc(piece.end, pieces[k].start, math.tan(0.25 * turn))
