@@ -44,6 +44,11 @@ class Scan(NamedTuple):
         same: Mask = self.span[1:] == self.span[:-1]
         return same
 
+    def row(self, number: int) -> Scan:
+        """The same samples of one function alone."""
+        one = slice(number, number + 1)
+        return Scan(self.x, self.span, self.value[one], self.slope[one])
+
     def noise(self, row: int) -> float:
         """Size of a function's values that is rounding, beside its greatest."""
         size = abs(self.value[row])

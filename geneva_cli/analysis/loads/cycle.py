@@ -7,7 +7,7 @@ nothing moves: the lock holds the wheel, what resists motion does not resist res
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
-from geneva_cli.analysis.loads.peaks import maxima
+from geneva_cli.analysis.loads.peaks import looked
 from geneva_cli.analysis.loads.stretches import Stretch, cusps, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.loads.contact import Contact
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.scan import Scan
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
@@ -66,8 +67,9 @@ class Cycle:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.given: Setting = setting(mechanism)
-        # of each engagement, by name, as ``ends_of`` looks for them
+        # of each engagement, by name, as ``ends_of`` looks for them; and the samples for it
         self.found: dict[str, list[Extremes]] = {}
+        self.samples: dict[str, list[Scan]] = {}
 
     @property
     def is_loaded(self) -> bool:
@@ -117,18 +119,23 @@ class Cycle:
             at = contacts(engagement, input_deg)
             return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.pays))
 
-    def extremes(self, *quantities: Quantity) -> list[list[Extremes]]:
-        """Greatest and least value of each quantity over each motion; dwells left out."""
+    def look(self, quantities: Mapping[str, Quantity]) -> None:
+        """Find greatest and least value of each quantity over each motion; dwells left out."""
         every: list[list[Extremes]] = [[] for _ in quantities]
+        scans = []
         for engagement in self.mechanism.engagements:
-            found = maxima(engagement, self.given, self._both_ways(quantities), -math.inf)
+            both = self._both_ways(list(quantities.values()))
+            found, scan = looked(engagement, self.given, both, -math.inf)
+            scans.append(scan)
             for most, least, of in zip(found[::2], found[1::2], every, strict=True):
                 at, bt = (
                     self.mechanism.shown_deg(engagement.mid_deg + one.at_deg)
                     for one in (most, least)
                 )
                 of.append(Extremes(most.max, at, -least.max, bt))
-        return every
+        for row, (name, ends) in enumerate(zip(quantities, every, strict=True)):
+            self.found[name] = ends
+            self.samples[name] = [scan.row(2 * row) for scan in scans]
 
     def _both_ways(
         self, quantities: Sequence[Quantity]

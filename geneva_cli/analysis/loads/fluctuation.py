@@ -18,11 +18,11 @@ from geneva_cli.analysis.loads.zeros import zeros
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.quadrature import integral_of_each
-from geneva_cli.numerics.scan import scan
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.scan import Scan
 
 
 NOUGHT = 1e-26  # a mean whose square is so small a share of the mean square is rounding
@@ -41,10 +41,10 @@ def fluctuation_J(cycle: Cycle) -> float:
     # of inertia alone the mean is nothing but rounding
     mean = found.mean if found.mean**2 > NOUGHT * found.square else 0.0
     parts, end = [], None
-    for engagement in cycle.mechanism.engagements:
+    for engagement, samples in zip(cycle.mechanism.engagements, cycle.samples[TORQUE], strict=True):
         if end is not None:
             parts.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
-        parts += [work - mean * way for work, way in _work(cycle, engagement, mean)]
+        parts += [work - mean * way for work, way in _work(cycle, engagement, samples, mean)]
         end = engagement.mid_deg + engagement.exit_deg
     return swing(parts)
 
@@ -68,13 +68,15 @@ def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
     return energy_J / (speed_variation * w * w)
 
 
-def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float, float]]:
+def _work(
+    cycle: Cycle, engagement: Engagement, samples: Scan, mean: float
+) -> list[tuple[float, float]]:
     """Work in joules and input angle in radians, between places where the torque is its mean."""
     given = cycle.given
     pieces = whole(engagement, given)
     ends = [piece.start for piece in pieces]
     # where the mean is nothing the torque changes sign, and there the pieces are cut already
-    crossed = _crossings(cycle, engagement, mean).tolist() if mean else []
+    crossed = _crossings(cycle, engagement, samples, mean).tolist() if mean else []
     places = sorted({*ends, *crossed, pieces[-1].end})
     spans = list(pairwise(places))
     of = np.array([bisect(ends, 0.5 * (a + b)) - 1 for a, b in spans])
@@ -88,8 +90,11 @@ def _work(cycle: Cycle, engagement: Engagement, mean: float) -> list[tuple[float
     return [(work * DEGREE, (b - a) * DEGREE) for work, (a, b) in zip(works, spans, strict=True)]
 
 
-def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> Array:
-    """Input angles at which the torque is its mean, from the engagement's mid-motion."""
+def _crossings(cycle: Cycle, engagement: Engagement, samples: Scan, mean: float) -> Array:
+    """Input angles at which the torque is its mean, from the engagement's mid-motion.
+
+    ``samples`` are those among which its greatest and least values were looked for.
+    """
     given = cycle.given
     pieces = stretches(engagement, given)
     signs = np.array([piece[2:] for piece in pieces]).T
@@ -99,11 +104,7 @@ def _crossings(cycle: Cycle, engagement: Engagement, mean: float) -> Array:
         value, slope = instant(given, at, *signs[:, span]).input_torque_Nm.arrays()
         return value - mean, slope * DEGREE
 
-    def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
-        value, slope = (np.broadcast_to(row, x.shape)[None, :] for row in above(x, span))
-        return value, slope
-
-    found = scan(sampled, [(p.start, p.end) for p in pieces])
+    found = samples._replace(value=samples.value - mean)
     before, after = found.changes(0)
     return zeros(
         lambda x, which: above(x, found.span[before[which]]), found, 0 * before, before, after

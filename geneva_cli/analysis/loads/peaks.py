@@ -44,6 +44,13 @@ def maxima(
     engagement: Engagement, given: Setting, rows: Rows, least: float = 0.0
 ) -> list[Greatest]:
     """The greatest of each of ``rows`` over a motion; if not above ``least`` that, at entry."""
+    return looked(engagement, given, rows, least)[0]
+
+
+def looked(
+    engagement: Engagement, given: Setting, rows: Rows, least: float
+) -> tuple[list[Greatest], Scan]:
+    """The same, and the samples of all rows that were taken for it."""
     pieces = stretches(engagement, given)
     signs = np.array([piece[2:] for piece in pieces]).T
 
@@ -78,7 +85,7 @@ def maxima(
         else:
             places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
             out.append(_greatest(places, engagement, least))
-    return out
+    return out, found
 
 
 def _first_with_room(engagement: Engagement, piece: Stretch, rows: Rows, row: int) -> int:

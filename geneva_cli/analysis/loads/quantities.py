@@ -50,8 +50,7 @@ def ends_of_each(cycle: Cycle, name: str) -> list[Extremes]:
     """
     if not cycle.found:
         names = (*known(cycle), KINETIC)
-        every = cycle.extremes(*[QUANTITIES[name] for name in names])
-        cycle.found.update(zip(names, every, strict=True))
+        cycle.look({name: QUANTITIES[name] for name in names})
     return cycle.found[name]
 
 
