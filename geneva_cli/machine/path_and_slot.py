@@ -148,7 +148,9 @@ class Followed(Motion):
             return solve
 
         anchors, cuts = self.path.anchors, self.path.cuts
-        if are_designs(input_deg, cuts[0], cuts[-1]):
+        # anchors of one design need not differ in numbers alone, as of gears given by points
+        many = not (isinstance(cuts[0], float) and isinstance(cuts[-1], float))
+        if are_designs(input_deg, cuts[0], cuts[-1]) and (many or self.path.alike):
             return about(chosen(input_deg, cuts, anchors))(input_deg)
         if not isinstance(input_deg, float) and input_deg.size and self.path.alike:
             import numpy as np

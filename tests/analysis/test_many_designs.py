@@ -3,6 +3,7 @@
 Sizes within 16 units in the last place of the quantity's; NaN where one design has none.
 """
 
+import math
 from functools import cache
 
 import numpy as np
@@ -13,6 +14,9 @@ from geneva_cli.analysis import blows, change_of_sides, undercut
 from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.strength import roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
+from geneva_cli.analysis.vibration.answers import values
+from geneva_cli.analysis.vibration.many import vibrations_of_many
+from geneva_cli.analysis.vibration.oscillator import needed
 from geneva_cli.machine.many import many
 from geneva_cli.spec.tables import Load, RollerMaterial, Shaft, Tolerance, WheelMaterial
 
@@ -28,6 +32,7 @@ CARRIED = [
     ("size.slot_clearance_mm", 0.01, 0.05),
     ("size.roller_radius_mm", 3.0, 16.0),
     ("shaft.stiffness_Nm_rad", 1e3, 1e5),
+    ("shaft.damping_ratio", 0.0, 0.1),
     *[(f"shaft.{shaft}_overhang_mm", 10.0, 50.0) for shaft in ("wheel", "crank")],
     ("shaft.wheel_diameter_mm", 10.0, 50.0),
     ("tolerance.center_distance_mm", 0.0, 0.05),
@@ -141,3 +146,17 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
     assert (np.sign(far[1:]) != np.sign(far[:-1])).sum() == 3
     # a top between two of the angles is less than 1e-10 of the way above both
     assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_vibration(name):
+    """A share is what is left of a swing many times as large: within 1e-13 of the step."""
+    machine, each = designs(name)
+    found = vibrations_of_many(machine)
+    for i, one in each:
+        told = values(one, needed(one))
+        for field, value in found._asdict().items():
+            step = (
+                1.0 if field.endswith("deg") else math.degrees(2.0 * one.engagements[0].half_step)
+            )
+            same(value, i, told[field], 1e-13, step)

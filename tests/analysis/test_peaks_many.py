@@ -26,9 +26,11 @@ def test_as_one_by_one(name):
         one = worst(alone(spec, varied, i))
         for quantity in QUANTITIES:
             expected, here = one._asdict()[quantity], peaks[quantity]
-            assert here.max[row] == pytest.approx(expected.max, rel=NEAR), (quantity, i)
+            # designs that differ in nothing the motion knows have one peak
+            size, at_deg = (np.resize(value, len(found.which))[row] for value in here)
+            assert size == pytest.approx(expected.max, rel=NEAR), (quantity, i)
             # a summit is flat: its place is known to the root of a rounding
-            assert here.at_deg[row] == pytest.approx(expected.at_deg, abs=1e-4), (quantity, i)
+            assert at_deg == pytest.approx(expected.at_deg, abs=1e-4), (quantity, i)
 
 
 @pytest.mark.parametrize("name", ["inside", "offset", "spherical", "epicyclic", "modified-sine"])

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.shape import NODES, SERIES, Shape, X
+from geneva_cli.analysis.vibration.panels import NODES, SERIES, Panels, X
+from geneva_cli.analysis.vibration.shape import Shape
+from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 legendre = np.polynomial.legendre
 REACH = 2.0  # greatest |p h|, h half a piece's width: a matter of a dozen terms
@@ -34,50 +34,72 @@ def greatest_acceleration(shape: Shape, ratio: float, damping: float) -> float:
     The load begins at rest. ``ratio`` is the period ratio; the shape's second derivative is
     integrated piece by piece of its panels, so short that the swing has few terms on each.
     """
-    omega = 2.0 * math.pi * ratio
-    p = omega * complex(-damping, math.sqrt(1.0 - damping * damping))
-    z, most = 0j, 0.0
-    for half, bent in _pieces(shape, omega):
+    swing = Swing(np.array([ratio]), np.array([damping]))
+    return float(greatest_accelerations(shape.flat, np.zeros(1, dtype=np.intp), swing)[0])
+
+
+def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array:
+    """The same of n oscillators, (n,), whose ``motion`` is given by its number."""
+    most, omega, p = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
+    of, panel, first = panels.paired(motion)
+    # panels are cut so that |p h| is at most REACH
+    count = np.maximum(np.ceil(omega[of] * panels.half[panel] / REACH), 1.0).astype(np.intp)
+    last = np.cumsum(count)
+    begin = last[first] - count[first]
+    total = np.append(begin[1:], last[-1]) - begin
+    active, start, z = np.arange(len(motion)), 0, np.zeros(len(motion), dtype=complex)
+    while len(active):
         check_time()
+        wide = max(1, BLOCK // len(active))
+        at = start + np.arange(min(wide, int(total[active].max()) - start))
+        there = at < total[active][:, None]
+        number = (begin[active][:, None] + at)[there]
+        pair = np.searchsorted(last, number, side="right")
+        place, cut = number - last[pair] + count[pair], count[pair]
+        half, rate = panels.half[panel[pair]] / cut, p[of[pair]]
+        series = panels.series[1, panel[pair]].T[:, :, None]
+        u = (2.0 * place[:, None] + 1.0 + X) / cut[:, None] - 1.0
+        bent = legendre.legval(u, series, tensor=False)
         # z' = p z - s'': what a piece adds, seen from its left end
-        back = np.exp(-p * half * (1.0 + X))
-        added = -half * ((bent * back) @ _INTEGRALS.T)
-        ahead = np.exp(p * half * (1.0 + _ENDS))
-        whole, begins = complex(ahead[-1]), []
-        for own in added[:, -1].tolist():
-            begins.append(z)
-            z = whole * (z + own)
-        swing = ahead * (np.array(begins)[:, None] + added)
-        r = swing.imag / p.imag
-        load = 2.0 * p.real * (swing.real + p.real * r) - omega * omega * r
-        most = _most(load, most)
+        back = np.exp(-(rate * half)[:, None] * (1.0 + X))
+        added = -half[:, None] * ((bent * back) @ _INTEGRALS.T)
+        ahead = np.exp((rate * half)[:, None] * (1.0 + _ENDS))
+        own, whole = np.zeros((2, *there.shape), dtype=complex)
+        whole += 1.0
+        own[there], whole[there] = added[:, -1], ahead[:, -1]
+        begins, z[active] = _one_after_the_other(whole, own, z[active])
+        swung = ahead * (begins[there][:, None] + added)
+        w = omega[of[pair]][:, None]
+        real, r = rate.real[:, None], swung.imag / rate.imag[:, None]
+        load = 2.0 * real * (swung.real + real * r) - w * w * r
+        _take_most(most, load, of[pair])
+        start += len(at)
+        active = active[total[active] > start]
     return most
 
 
-def _pieces(shape: Shape, omega: float) -> Iterator[tuple[float, Array]]:
-    """Half the width of equal pieces, and s'' at the nodes of each, as they follow each other.
+def _one_after_the_other(whole: Complex, own: Complex, z: Complex) -> tuple[Complex, Complex]:
+    """Where pieces (n, k) begin, each ending at whole (z + own) from its own z; and the last ends.
 
-    The panels are cut so that |p h| is at most REACH.
+    Neighbours are joined in pairs, pairs of pairs, and so on.
     """
-    every = [
-        (float(left), panels.half, panels.series[1, i])
-        for panels in shape.panels
-        for i, left in enumerate(panels.left)
-    ]
-    for _, half, series in sorted(every, key=lambda panel: panel[0]):
-        count = max(1, math.ceil(omega * half / REACH))
-        for start in range(0, count, BLOCK):
-            places = np.arange(start, min(start + BLOCK, count))[:, None]
-            yield half / count, legendre.legval((2.0 * places + 1.0 + X) / count - 1.0, series)
+    rate, add = whole, whole * own
+    step = 1
+    while step < whole.shape[1]:
+        joined = add.copy(), rate.copy()
+        joined[0][:, step:] += rate[:, step:] * add[:, :-step]
+        joined[1][:, step:] *= rate[:, :-step]
+        add, rate = joined
+        step *= 2
+    ends = rate * z[:, None] + add
+    return np.hstack((z[:, None], ends[:, :-1])), ends[:, -1]
 
 
-def _most(load: Array, most: float) -> float:
+def _take_most(most: Array, load: Array, of: Whole) -> None:
     """The greatest of |load|, given at the nodes and the right ends of pieces, between them too."""
     size = np.abs(load)
-    most = max(most, float(size.max()))
-    near = np.flatnonzero(size.max(axis=1) >= most * (1.0 - NEAR))
-    if not len(near):
-        return most
+    np.maximum.at(most, of, size.max(axis=1))
+    near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - NEAR))
     series = (load[near, :NODES] @ SERIES.T).T
     slope = legendre.legder(series)
     bend = legendre.legder(slope)
@@ -88,4 +110,4 @@ def _most(load: Array, most: float) -> float:
             legendre.legval(x, slope, tensor=False), turn, out=np.zeros_like(x), where=turn != 0.0
         )
         x = np.clip(x - step, -1.0, 1.0)
-    return max(most, float(np.abs(legendre.legval(x, series, tensor=False)).max()))
+    np.maximum.at(most, of[near], np.abs(legendre.legval(x, series, tensor=False)))

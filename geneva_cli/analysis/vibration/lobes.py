@@ -7,6 +7,7 @@ close to each other find its maxima, and a polynomial between them places each t
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from geneva_cli.analysis.vibration.swing import Swing, left
 from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Whole
 
 PER_ONE = 16  # samples for each 1 of the period ratio
 FEWEST = 64
@@ -33,6 +34,14 @@ class Lobes(NamedTuple):
     share: Array
 
 
+class LobesOfMany(NamedTuple):
+    """The same of n oscillators, all in one: which, ratio and share of each lobe."""
+
+    which: Whole
+    ratio: Array
+    share: Array
+
+
 def shares(shape: Shape, ratio: Array, damping: float) -> Array:
     """The residual amplitude over the step at period ratios."""
     return np.abs(left(shape, Swing(ratio, np.full(ratio.shape, damping))))
@@ -40,29 +49,47 @@ def shares(shape: Shape, ratio: Array, damping: float) -> Array:
 
 def lobes(shape: Shape, low: float, high: float, damping: float) -> Lobes:
     """The local maxima of the residual between two period ratios."""
-    count = max(FEWEST, math.ceil(PER_ONE * (high - low)))
-    ratio = np.linspace(low, high, count + 1)
-    share = shares(shape, ratio, damping)
-    check_time()
-    at = 1 + np.flatnonzero((share[1:-1] >= share[:-2]) & (share[1:-1] > share[2:]))
-    middle, reach = ratio[at], (high - low) / count
+    found = lobes_of_many(
+        lambda _, ratio: shares(shape, ratio, damping), np.array([low]), np.array([high])
+    )
+    return Lobes(found.ratio, found.share)
+
+
+def lobes_of_many(
+    share_at: Callable[[Whole, Array], Array], low: Array, high: Array
+) -> LobesOfMany:
+    """The local maxima of n residuals, each between two period ratios of its own.
+
+    ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each.
+    """
+    count = np.maximum(FEWEST, np.ceil(PER_ONE * (high - low)).astype(np.intp))
+    found = []
+    for number in np.unique(count).tolist():
+        some = np.flatnonzero(count == number)
+        ratio = np.linspace(low[some], high[some], number + 1, axis=1)
+        share = share_at(np.repeat(some, number + 1), ratio.ravel()).reshape(ratio.shape)
+        check_time()
+        before, here, after = share[:, :-2], share[:, 1:-1], share[:, 2:]
+        row, at = np.nonzero((here >= before) & (here > after))
+        found.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
+    which, middle, reach = (np.concatenate(part) for part in zip(*found, strict=True))
     nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-    around = shares(shape, (middle[:, None] + reach * nodes).ravel(), damping)
-    square = around.reshape(len(at), len(nodes)) ** 2
+    places = middle[:, None] + reach[:, None] * nodes
+    square = share_at(np.repeat(which, len(nodes)), places.ravel()).reshape(places.shape) ** 2
     # through the nodes of Chebyshev: his coefficients are sums over them
     vander = _chebyshev.chebvander(nodes, DEGREE)
     series = (square @ vander * (2.0 / (DEGREE + 1))).T
     series[0] *= 0.5
     slope = _chebyshev.chebder(series)
     bend = _chebyshev.chebder(slope)
-    x = np.zeros(len(at))
+    x = np.zeros(len(which))
     for _ in range(NEWTON):
         turn = _chebyshev.chebval(x, bend, tensor=False)
         rate = _chebyshev.chebval(x, slope, tensor=False)
         step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
         x = np.clip(x - step, -1.0, 1.0)
-    places = middle + reach * x
-    return Lobes(places, shares(shape, places, damping))
+    ratios = middle + reach * x
+    return LobesOfMany(which, ratios, share_at(which, ratios))
 
 
 def highest_ratio(shape: Shape, share: float, damping: float) -> float:

@@ -9,6 +9,7 @@ from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import Range
 
 RATIO = Range(1e-6, 1e5)  # period ratios that are computed
@@ -52,8 +53,7 @@ def oscillator(
     inertia = inertia_kgm2(mechanism.spec)
     if not inertia:
         return None
-    natural_hz = math.sqrt(shaft.stiffness_Nm_rad / inertia) / (2.0 * math.pi)
-    ratio = timings(mechanism)[0].motion_s * natural_hz
+    ratio = period_ratio_of(mechanism, shaft.stiffness_Nm_rad, inertia)
     if ratio not in RATIO:
         raise GenevaError(
             f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m2 makes a period "
@@ -61,6 +61,13 @@ def oscillator(
             STIFFNESS,
         )
     return Oscillator(ratio, zeta)
+
+
+def period_ratio_of(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2: float) -> float:
+    """The time of the first motion over the load's natural period; of m designs (m, 1)."""
+    squared = stiffness_Nm_rad / inertia_kgm2
+    natural_hz = library(squared).sqrt(squared) / (2.0 * math.pi)
+    return timings(mechanism)[0].motion_s * natural_hz
 
 
 def needed(

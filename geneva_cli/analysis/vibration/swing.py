@@ -15,11 +15,13 @@ is stable and leaves nothing but the panels' ends (Filon's method). No textbook 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.shape import TERMS, Shape
+from geneva_cli.analysis.vibration.panels import TERMS
+from geneva_cli.analysis.vibration.shape import Shape
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex
@@ -56,10 +58,10 @@ class Swing(NamedTuple):
         zeta = self.damping
         return 2.0 * np.pi * self.ratio * (-zeta + 1j * np.sqrt(1.0 - zeta * zeta))
 
-    def after(self, v: float) -> Complex:
-        """e^(p v), its angle reduced before it is rounded."""
+    def after(self, v: float | Array) -> Complex:
+        """e^(p v), its angle reduced before it is rounded; of arrays each for itself."""
         whole = np.floor(self.ratio)
-        head = math.floor(v * SPLIT) / SPLIT
+        head = np.floor(v * SPLIT) / SPLIT
         turns = (whole * head) % 1.0 + whole * (v - head) + (self.ratio - whole) * v
         angle = 2.0 * np.pi * (turns - np.round(turns))
         zeta = self.damping
@@ -120,31 +122,42 @@ def _integral(shape: Shape, order: int, swing: Swing) -> Complex:
         q = -p * h
         reduced = q if unit == 1.0 else size
         low, high = (int(v) for v in np.searchsorted(size, (SMALL, LARGE)))
-        for part, moments in ((slice(0, low), _powers), (slice(low, high), _downwards)):
+        for part, moments in ((slice(0, low), by_powers), (slice(low, high), by_recurrence)):
             if part.start < part.stop:
-                parts = moments(reduced[part], unit, series) * h
+                parts = moments(reduced[part], unit, series, GRID) * h
                 for i, right in enumerate(panels.right):
                     total[part] += after(1.0 - right, part) * parts[:, i]
         part = slice(high, len(total))
         if high < len(total):
-            first, last = _ends(reduced[part], unit, series)
+            first, last = by_ends(reduced[part], unit, series, GRID)
             for i, (a, b) in enumerate(zip(panels.left, panels.right, strict=True)):
                 both = after(1.0 - a, part) * first[:, i] + after(1.0 - b, part) * last[:, i]
                 total[part] += both / p[part]
     return total
 
 
-def _powers(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
-    """Integrals of f e^(q (x - 1)), an oscillator a row and a panel a column, by powers of q."""
-    q = reduced * unit
-    total = np.zeros((len(q), len(series)), dtype=complex)
+class Product(NamedTuple):
+    """How numbers of oscillators and of panels go together: each with each, or in pairs."""
+
+    spread: Callable[..., Complex]  # of oscillators, against panels
+    sum: Callable[..., Complex]  # (terms, oscillators), (panels, terms) -> sums over terms
+
+
+GRID = Product(lambda x: x[:, None], lambda a, b: a.T @ b.T)
+PAIRS = Product(lambda x: x, lambda a, b: np.einsum("tp,pt->p", a, b))
+
+
+def by_powers(reduced: Array | Complex, unit: complex, series: Array, by: Product) -> Complex:
+    """Integrals of f e^(q (x - 1)), q the oscillators' and f the panels', by powers of q."""
+    q = by.spread(reduced * unit)
+    total: Complex = q * 0.0 * series[:, 0]
     for c in (series @ _MOMENTS).T[::-1]:
-        total *= q[:, None]
+        total *= q
         total += c
     return total
 
 
-def _downwards(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
+def by_recurrence(reduced: Array | Complex, unit: complex, series: Array, by: Product) -> Complex:
     """The same by modified spherical Bessel functions i_n(q) = unit^n y_n, scaled by their sum.
 
     q = unit times ``reduced``; the sum of (2 n + 1) i_n(q) is e^q.
@@ -167,12 +180,14 @@ def _downwards(reduced: Array | Complex, unit: complex, series: Array) -> Comple
         term += square * above  # i_(n-1) = i_(n+1) + (2 n + 1) i_n / q
         above, here = here, term
     scaled = 2.0 * series * square ** (np.arange(TERMS) // 2)
-    even, odd = kept[::2].T @ scaled[:, ::2].T, kept[1::2].T @ scaled[:, 1::2].T
-    found: Complex = (even + unit * odd) / (sums[0] + unit * sums[1])[:, None]
+    even, odd = by.sum(kept[::2], scaled[:, ::2]), by.sum(kept[1::2], scaled[:, 1::2])
+    found: Complex = (even + unit * odd) / by.spread(sums[0] + unit * sums[1])
     return found
 
 
-def _ends(reduced: Array | Complex, unit: complex, series: Array) -> tuple[Complex, Complex]:
+def by_ends(
+    reduced: Array | Complex, unit: complex, series: Array, by: Product
+) -> tuple[Complex, Complex]:
     """What the panels' left and right ends add, times p.
 
     The moments with Legendre's polynomials are m_(n+1) = m_(n-1) - (2 n + 1) m_n / q, from those of
@@ -190,6 +205,6 @@ def _ends(reduced: Array | Complex, unit: complex, series: Array) -> tuple[Compl
         before = even, odd
         even, odd = following
     turned = series * -((-1.0) ** np.arange(TERMS))
-    first = kept[0].T @ series.T + unit * (kept[1].T @ series.T)
-    last = kept[0].T @ turned.T - unit * (kept[1].T @ turned.T)
+    first = by.sum(kept[0], series) + unit * by.sum(kept[1], series)
+    last = by.sum(kept[0], turned) - unit * by.sum(kept[1], turned)
     return first, last

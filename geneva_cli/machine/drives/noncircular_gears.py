@@ -77,7 +77,8 @@ class NoncircularGears(Transmission):
 
     def may_vary(self, table: str, key: str) -> bool:
         """Points are interpolated for one wheel and one law's angles."""
-        return self.ratio is None or table in ("size", "load") or key == "n_rpm"
+        at = table in ("wheel", "drive", "motion") and key != "n_rpm"
+        return self.ratio is None or not (at or (table, key) == ("size", "center_distance_mm"))
 
     @property
     def gears(self) -> Gears:

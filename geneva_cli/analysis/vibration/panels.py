@@ -1,0 +1,187 @@
+"""Motions as pure shapes, cut into panels on each of which their derivatives are polynomials.
+
+A shape is the share s of the step over the share u of the motion's time. Panels are halved until a
+Legendre series of each derivative has ended: that is all that integrals over it need. The panels
+of many motions are found together, and those of one motion are those of m = 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics.budget import check_time
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Whole
+
+    # places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p, k)
+    Derivatives = Callable[[Array, Whole, int], Array]
+
+NODES = 32  # of Gauss's rule on a panel
+TERMS = 20  # of Legendre's series that are kept
+TAIL = 6  # the last of them, which say whether the series has ended
+ENDED = 1e-13  # share of a derivative's greatest value, some hundred roundings of it
+JUMP = 1e-12  # share of a derivative's greatest value: less of a jump is rounding
+HIGHEST, LOWEST = 5, 2  # derivatives that are asked for, and that are needed
+PANELS = 20_000  # more are not made for the sake of a higher derivative
+SAME = 1e-13  # share of a width by which two may differ and be taken for one
+NARROW = 1e-12  # share of the motion: a panel is not halved further
+
+X = np.polynomial.legendre.leggauss(NODES)[0]
+
+
+def _series() -> Array:
+    """Values at the nodes -> coefficients of Legendre's series, to the last digits.
+
+    The inverse of the polynomials' values at the nodes as they are rounded; one step of Newton's
+    method in longer numbers, where the processor has them.
+    """
+    values = np.polynomial.legendre.legvander(X.astype(np.longdouble), NODES - 1)
+    inverse = np.linalg.inv(values.astype(float)).astype(np.longdouble)
+    better: Array = (inverse + inverse @ (np.eye(NODES) - values @ inverse)).astype(float)
+    return better
+
+
+SERIES = _series()
+
+
+class Panels(NamedTuple):
+    """The panels of m motions, one after the other and each in the order of places: p in all.
+
+    ``smooth`` is the highest derivative of a motion that neither jumps inside nor at the ends;
+    derivatives to the next one are meant by ``greatest`` and ``variation``, (n, m).
+    """
+
+    motion: Whole  # (p,) whose panel it is
+    left: Array  # (p,) its ends
+    right: Array
+    series: Array  # (n, p, term): derivatives 1, 2, ... by u as Legendre series
+    smooth: Whole  # (m,)
+    greatest: Array  # the size of each derivative
+    variation: Array  # how much each goes up and down in all, jumps and ends included
+
+    @property
+    def half(self) -> Array:
+        """Half their width."""
+        return 0.5 * (self.right - self.left)
+
+    @property
+    def ends(self) -> Whole:
+        """(m + 1,) where the panels of a motion begin, and those of the one before it end."""
+        return np.searchsorted(self.motion, np.arange(len(self.smooth) + 1))
+
+    def paired(self, motion: Whole) -> tuple[Whole, Whole, Whole]:
+        """Pairs of an oscillator and a panel of its ``motion`` (n,), in order.
+
+        The numbers of both; and the first pair of each oscillator.
+        """
+        ends = self.ends
+        count = (ends[1:] - ends[:-1])[motion]
+        first = np.cumsum(count) - count
+        of = np.repeat(np.arange(len(motion)), count)
+        return of, np.arange(len(of)) + np.repeat(ends[motion] - first, count), first
+
+
+class _Refined(NamedTuple):
+    """Panels' motions and ends, and the derivatives on their nodes (order, p, NODES)."""
+
+    motion: Whole
+    edges: Array
+    values: Array
+
+
+def panelled(derivatives: Derivatives, breaks: Array) -> Panels:
+    """The panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each.
+
+    For as high a derivative as neither jumps nor asks for too many of them.
+    """
+    m, found, top = len(breaks), [], np.full(len(breaks), HIGHEST)
+    rest = np.arange(m)
+    for order in range(HIGHEST, LOWEST - 1, -1):
+        part, rest = _refined(derivatives, breaks, rest, order)
+        gap = np.zeros((HIGHEST - order, *part.values.shape[1:]))
+        found.append(part._replace(values=np.concatenate((part.values, gap))))
+        top[rest] = order - 1
+        if not len(rest):
+            break
+    motion = np.concatenate([part.motion for part in found])
+    edges = np.concatenate([part.edges for part in found])
+    values = np.concatenate([part.values for part in found], axis=1)
+    order_ = np.lexsort((edges[:, 0], motion))
+    motion, (left, right), values = motion[order_], edges[order_].T, values[:, order_]
+    series = values @ SERIES.T
+    greatest = np.zeros((HIGHEST, m))
+    for row, size in zip(greatest, np.abs(values).max(axis=2), strict=True):
+        np.maximum.at(row, motion, size)
+    jumps, variation = _jumps(motion, values, series, m)
+    # the wheel starts and stops without a jump of velocity
+    number = np.arange(1, HIGHEST)[:, None]
+    goes_on = (number < top - 1) & (jumps[1:] <= JUMP * greatest[1:])
+    smooth = 1 + np.cumprod(goes_on, axis=0).sum(axis=0)
+    return Panels(motion, left, right, series[..., :TERMS], smooth, greatest, variation)
+
+
+def _refined(
+    derivatives: Derivatives, breaks: Array, which: Whole, order: int
+) -> tuple[_Refined, Whole]:
+    """The panels of some motions for derivatives up to one; and the motions that ask for too many.
+
+    Panels are halved until the series of each derivative has ended.
+    """
+    m = len(breaks)
+    open_ = np.stack((breaks[which, :-1].ravel(), breaks[which, 1:].ravel()), 1)
+    motion = np.repeat(which, breaks.shape[1] - 1)
+    wide = open_[:, 1] > open_[:, 0]
+    open_, motion = open_[wide], motion[wide]
+    closed: list[_Refined] = []
+    greatest, count, many = np.zeros((order, m)), np.zeros(m, dtype=int), np.zeros(m, dtype=bool)
+    while len(open_):
+        check_time()
+        np.add.at(count, motion, 1)
+        if order > LOWEST and (count > PANELS).any():
+            many = count > PANELS
+            open_, motion = open_[~many[motion]], motion[~many[motion]]
+        left, width = open_[:, :1], open_[:, 1:] - open_[:, :1]
+        found = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
+        for row, values in zip(greatest, np.abs(found).max(axis=2), strict=True):
+            np.maximum.at(row, motion, values)
+        tail = np.abs(found @ SERIES[TERMS - TAIL :].T).max(axis=2)
+        ended = (tail <= ENDED * greatest[:, motion]).all(axis=0) | (width[:, 0] < NARROW)
+        closed.append(_Refined(motion[ended], open_[ended], found[:, ended]))
+        rest, of = open_[~ended], motion[~ended]
+        middle = rest.mean(axis=1)
+        halves = (np.stack((rest[:, 0], middle), 1), np.stack((middle, rest[:, 1]), 1))
+        open_, motion = np.concatenate(halves), np.concatenate((of, of))
+    every = _Refined(
+        np.concatenate([part.motion for part in closed]),
+        np.concatenate([part.edges for part in closed]),
+        np.concatenate([part.values for part in closed], axis=1),
+    )
+    kept = ~many[every.motion]
+    return (
+        _Refined(every.motion[kept], every.edges[kept], every.values[:, kept]),
+        np.flatnonzero(many),
+    )
+
+
+def _jumps(motion: Whole, values: Array, series: Array, m: int) -> tuple[Array, Array]:
+    """Of each derivative the greatest jump between panels or at the ends, and the variation.
+
+    (order, m) each.
+    """
+    first = (series * (-1.0) ** np.arange(NODES)).sum(axis=2)  # at a panel's left end
+    last = series.sum(axis=2)
+    begins = np.append(True, motion[1:] != motion[:-1])
+    ends = np.append(begins[1:], True)
+    before = np.where(begins, 0.0, np.roll(last, 1, axis=1))
+    jump, stop = np.abs(first - before), np.where(ends, np.abs(last), 0.0)
+    through = np.concatenate((first[:, :, None], values, last[:, :, None]), axis=2)
+    rises = jump + stop + np.abs(np.diff(through)).sum(axis=2)
+    greatest, variation = np.zeros((2, len(values), m))
+    for k in range(len(values)):
+        np.maximum.at(greatest[k], motion, np.maximum(jump[k], stop[k]))
+        np.add.at(variation[k], motion, rises[k])
+    return greatest, variation
