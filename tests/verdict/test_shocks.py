@@ -37,7 +37,7 @@ def test_no_tolerance_no_row():
 def test_values_are_those_of_the_worst_machine():
     of = design(1e6)
     [engagement] = of.mechanism.engagements
-    contact = shock.contact(engagement, 0.02 / 50.0, -0.03 / 100.0)
+    contact = shock.first_contact(engagement, 0.02 / 50.0, -0.03 / 100.0)
     check = row(of, "entry_shock_N")
     assert check.value == force_N(of.mechanism, contact.jump)
     assert check.at_deg == contact.at_deg
