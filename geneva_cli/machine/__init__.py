@@ -1,1 +1,1 @@
-"""What turns what: engagements of pin path, slot and motion, of which two give the third."""
+"""The machine: engagements of pin path, slot and motion, of which two give the third."""

@@ -38,10 +38,10 @@ class Axis(NamedTuple):
 
 
 class Body(Protocol):
-    """The body that carries the roller, where that is not the crank's arm."""
+    """Angular velocity of the body that carries the roller, where that is not the crank's arm."""
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """How fast it turns, positive with the wheel, ``tau`` input radians after mid-motion."""
+        """Radians an input radian, positive with the wheel, ``tau`` radians after mid-motion."""
 
 
 Vector: TypeAlias = tuple[Jet, Jet]
@@ -91,7 +91,7 @@ class Slot(ABC):
         """The pin in the wheel's frame; on a sphere its polar angle in the flat development."""
 
     def axis(self, input_deg: Number, order: int = 0) -> Axis | None:
-        """Of a straight slot; None for a curved one."""
+        """A straight slot's lever and speed at input angles; None for a curved slot."""
         return None
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
@@ -167,12 +167,12 @@ class Motion(ABC):
 
 
 def is_mirrored(input_deg: Array) -> bool:
-    """Whether the angles lie symmetrically about mid-motion."""
+    """Whether ascending angles (k,) lie symmetrically about mid-motion."""
     return bool((input_deg == -input_deg[::-1]).all())
 
 
 def mirror(first: Array, count: int, order: int) -> Array:
-    """``count`` values of a derivative from their first half; the even ones change sign."""
+    """``count`` values of a derivative from their first half; even orders change sign."""
     import numpy
 
     rest = first[..., : count - first.shape[-1]][..., ::-1]
@@ -240,12 +240,12 @@ class Engagement:
 
     @property
     def through(self) -> Engagement:
-        """The engagement whose roller runs through the whole slot: this one, as a rule."""
+        """The engagement whose roller runs through the whole slot: itself, but for gear sectors."""
         return self
 
 
 class Anchor(NamedTuple):
-    """A moment about which the pin's path is written without cancellation."""
+    """An input angle about which the pin's path is written without cancellation."""
 
     input_deg: float
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
@@ -270,7 +270,7 @@ class Displacement(Protocol):
 
 
 def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:
-    """A place of the fixed frame in the frame of a wheel at some angle."""
+    """A vector of the fixed frame in the frame of a wheel at the angle ``wheel``, radians."""
     x, y = path
     s, c = sin_cos(wheel)
     return x * c + y * s, y * c - x * s

@@ -1,4 +1,4 @@
-"""A machine to start from, which each kind of drive and wheel brings."""
+"""The example spec that each kind of drive and wheel brings, for ``geneva new``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Example(NamedTuple):
-    """A machine to start from: what it is, and the keys that it sets, table by table."""
+    """An example: its title, and the keys that it sets, table by table."""
 
     about: str
     tables: dict[str, dict[str, object]]

@@ -1,4 +1,4 @@
-"""The motion that a law gives: what curved slots and the groove of a cam are solved from."""
+"""The wheel's motion by a law, from which curved slots and the groove of a cam are solved."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class LawMotion(Motion):
 
     @property
     def symmetric(self) -> bool:
-        """A law with two unlike halves makes a motion with two unlike halves."""
+        """Whether the law is symmetric."""
         return self.law.symmetric
 
     @property
@@ -39,7 +39,7 @@ class LawMotion(Motion):
         return (self.entry_deg, *ascending(inner), self.exit_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Each half of the law from its own end."""
+        """The wheel's angle; each half of the law is evaluated from its own end, exactly."""
         return self._latest(self._halves, input_deg, order)[0]
 
     def _halves(self, input_deg: Number, order: int) -> tuple[Jet]:
@@ -59,7 +59,7 @@ class LawMotion(Motion):
 
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
-    """Raise GenevaError where an extra dwell leaves a motion no angle, or all of the turn."""
+    """Raise GenevaError where an extra dwell leaves the motion no angle, or a whole turn."""
     low, high = natural_deg - 360.0, natural_deg
     refuse(
         (alpha0_deg <= low + MOTION_MIN) | (alpha0_deg >= high - MOTION_MIN),

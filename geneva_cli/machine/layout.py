@@ -1,4 +1,4 @@
-"""What a machine is rebuilt from: its pivots in the fixed frame, and its dimensions by name.
+"""The pivots and dimensions from which a machine can be rebuilt.
 
 The wheel's axis is the origin and the crank's lies on the x axis, as in the assembly's drawing.
 """

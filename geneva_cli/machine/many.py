@@ -14,10 +14,10 @@
 ``found.machine`` is a machine like any other, of the designs that can be built, in their order. The
 numbers that vary in it are arrays (m, 1); what follows from them is (m, 1) too, and at k input
 angles (k,) or (m, k) it is (m, k). ``found.spread`` puts (m, 1) back among the n designs as (n,).
-Why a design is refused, it says itself when it is built alone.
+Why a design is refused is told by building it alone.
 
-Keys that are no numbers (words, lists), and the number of rollers, are one for all of a machine:
-whoever varies them takes the designs apart first, and asks ``may_vary`` which keys may stay.
+Keys that are no numbers (words, lists), and the number of rollers, have one value in all designs of
+a machine: designs that differ in them must be built apart. ``may_vary`` says which keys may vary.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Many(NamedTuple):
         return np.flatnonzero(~self.refused)
 
     def spread(self, values: Number) -> Array:
-        """A number of each design in ``machine``, among all n designs; NaN for those refused."""
+        """The values (m, 1) of the designs in ``machine`` as (n,): NaN for those refused."""
         which = self.which
         out = np.full(len(self.refused), np.nan)
         out[which] = np.broadcast_to(np.reshape(values, -1), which.shape)
@@ -96,7 +96,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
 
 
 def may_vary(spec: Spec, key: str) -> bool:
-    """Whether a key of this spec may be an array: whether it is a number of a kind that takes it.
+    """Whether a key of this spec may be an array: a number, of a kind that takes arrays of it.
 
     Raises GenevaError for a key that the spec does not have.
     """
@@ -108,7 +108,7 @@ def may_vary(spec: Spec, key: str) -> bool:
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
-    """The spec with several keys changed at once: only the whole must be a design."""
+    """The spec with several keys changed at once; only the result must be valid."""
     tables: dict[str, dict[str, object]] = {}
     for key, value in values.items():
         tables.setdefault(key.rpartition(".")[0], {})[_field(spec, key).attribute] = value

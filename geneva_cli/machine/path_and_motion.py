@@ -1,4 +1,4 @@
-"""Path and motion are known, and give the slot: a curved one."""
+"""Engagements whose path and motion are given: the slot, a curved one, is solved for."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from geneva_cli.numerics.jet import Jet, Number
 
 
 class MiddlePath:
-    """The pin's path, written about mid-motion alone."""
+    """The pin's path, written about mid-motion."""
 
     def __init__(self, middle: Anchor) -> None:
         self.middle = middle
@@ -28,7 +28,7 @@ class MiddlePath:
 
 
 class SolvedSlot(Slot):
-    """The path rotated back by the motion."""
+    """The slot as the pin's path seen from the turning wheel."""
 
     curved = True
 

@@ -1,4 +1,4 @@
-"""Path and straight slot are known, and give the motion."""
+"""Engagements whose path and straight slot are given: the motion is solved for."""
 
 from __future__ import annotations
 
@@ -27,12 +27,16 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, piecewise, sin_cos, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-NEAR_END = 0.75  # share of the way to an end from the last anchor before it; beyond, its own serves
-END_DEG = 0.05  # closer than this to entry or exit, relative accuracy is kept too
+NEAR_END = (
+    0.75  # share of the span from the last inner anchor to an end; beyond it, the end's is used
+)
+END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
 
 class AnchoredPath:
-    """A pin's path written about entry, mid-motion, exit and what is between, each where nearest.
+    """A pin's path written about several anchors: entry, mid-motion, exit, and others between.
+
+    Each input angle uses the nearest.
 
     ``ahead`` is the direction of the middle anchor's ray from the line of centres.
     """
@@ -40,7 +44,8 @@ class AnchoredPath:
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.middle = anchors[len(anchors) // 2]
-        # Each anchor serves what is near it; entry and exit, only where the motion goes to zero.
+        # Angles change over half-way between anchors; entry and exit are used only near the ends,
+        # where the motion goes to zero.
         first, *inner, last = [a.input_deg for a in anchors]
         self.cuts = [
             inner[0] + NEAR_END * (first - inner[0]),
@@ -50,7 +55,7 @@ class AnchoredPath:
 
     @cached_property
     def alike(self) -> bool:
-        """Whether the anchors differ in numbers alone."""
+        """Whether the anchors differ in numbers alone, so that one call can serve them all."""
         return are_alike(self.anchors)
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
@@ -81,14 +86,14 @@ class RadialSlot(Slot):
 
 
 class Level(Protocol):
-    """A place along the wheel's axis, as the input turns."""
+    """A coordinate along the wheel's axis, as the input turns."""
 
     def __call__(self, tau: Number, order: int) -> Jet:
         """``tau`` input radians after mid-motion."""
 
 
 class MeridianSlot(Slot):
-    """A spherical wheel's slot, a meridian; the path is the pin's projection along the axis.
+    """A spherical wheel's slot, a meridian; the path is the pin's projection along that axis.
 
     Its pitch curve is given in the flat development, along which lengths on the sphere are kept,
     from the wheel's pole.
@@ -117,8 +122,8 @@ class MeridianSlot(Slot):
 class Followed(Motion):
     """The motion of a wheel whose straight slot follows the pin.
 
-    ``mirrored`` is False where the path's two halves differ; ``closed_peaks`` tells peaks
-    that are had without a search.
+    ``mirrored`` is False where the path's two halves differ; ``closed_peaks`` gives peaks for which
+    no general search is needed.
     """
 
     closed_peaks: ClosedPeaks | None = None
@@ -129,7 +134,7 @@ class Followed(Motion):
         self.entry = path.anchors[0]
 
     def closed_peak(self, quantity: str) -> PeakValue | None:
-        """The greatest size of a quantity, where there is a quicker way to it."""
+        """The peak of a quantity from ``closed_peaks``, if there is one."""
         return self.closed_peaks(quantity) if self.closed_peaks else None
 
     @property
@@ -138,7 +143,7 @@ class Followed(Motion):
         return self.mirrored and super().symmetric
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The pin's direction, taken from the nearest anchor: exactly at rest at both ends."""
+        """The wheel's angle: the pin's direction, from the nearest anchor; at rest at both ends."""
 
         def about(anchor: Anchor) -> Callable[[Number], Jet]:
             def solve(x: Number) -> Jet:
@@ -163,7 +168,7 @@ class Followed(Motion):
 
 
 class Classic(Followed):
-    """A straight radial slot on a plain crank: closed forms beside the anchors.
+    """The motion of a straight radial slot on a plain crank, with its closed forms.
 
     ``sign`` is +1 outside, -1 inside, l = sin b and ``rest`` = 1 - l.
     """
@@ -180,7 +185,7 @@ class Classic(Followed):
         self.sign, self.l, self.rest = sign, l, rest
 
     def closed_peak(self, quantity: str) -> PeakValue | None:
-        """The peaks of velocity and acceleration."""
+        """The peaks of velocity and acceleration in closed form."""
         outside = self.sign > 0.0
         if quantity == "velocity":
             return PeakValue(
@@ -195,9 +200,9 @@ class Classic(Followed):
         return PeakValue(size, -at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """As of any motion, in closed form.
+        """The wheel's angle and its derivatives in closed form, shapes as of ``Motion``.
 
-        Near the ends angle and velocity are written from there, and keep their relative accuracy.
+        Near the ends angle and velocity are written from the end, to keep their relative accuracy.
         """
         if not (isinstance(self.l, float) and input_deg.ndim == 1):
             return super().derivatives(input_deg, orders)
@@ -214,7 +219,7 @@ class Classic(Followed):
         return out
 
     def _near_end(self, input_deg: Array, side: float, order: int) -> Array:
-        """Angle or velocity near exit (side 1) or entry (-1), from there."""
+        """Angle or velocity near exit (side 1) or entry (-1), written from that end."""
         import numpy as np
 
         tau = radians(self.exit_deg - side * input_deg)

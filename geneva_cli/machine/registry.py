@@ -1,4 +1,4 @@
-"""The kinds that a spec may name: wheels, drives and laws, each loaded when it is asked for.
+"""The kinds that a spec may name: wheels, drives and laws, each imported when it is used.
 
 A new kind is one file and one line here.
 """

@@ -1,4 +1,4 @@
-"""Which roller moves the wheel when: the rollers on the crank, and the steps that they make."""
+"""The rollers on the crank: where each stands, and which step of the wheel it makes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ ANGLES = ("drive", "roller_angles_deg")
 def places(spec: Spec) -> list[Place]:
     """The rollers of a machine with straight slots, in the order in which they move the wheel.
 
-    Rollers that move the wheel alike are given once. Raises GenevaError where they would jam.
+    Of rollers that move the wheel alike only the first is returned. Raises GenevaError where they
+    would jam.
     """
     wheel, drive = spec.wheel, spec.drive
     L, m = spec.given_distance_mm, drive.rollers

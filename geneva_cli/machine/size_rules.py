@@ -1,7 +1,7 @@
-"""Sizes with which there is no machine at all: refused where it is built, for every command.
+"""Sizes that make no machine: refused when it is built, for every command.
 
-Only what no choice of the other sizes could mend is refused here: a roller as large as its crank,
-a hub inside its bore. Whether the parts that remain are well made is for ``sizes`` and the checks.
+Only what no choice of the other sizes could mend is refused here, such as a roller as large as
+its crank or a hub inside its bore. Whether the parts that remain are well made is for ``sizes`` and the checks.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Bound(NamedTuple):
     what: str
 
     def error(self) -> GenevaError:
-        """What is said of a size that is not."""
+        """The error for a size that is not below its bound."""
         return GenevaError(
             f"{self.key} = {self.value:g}: it must be below {self.below:.6g}, {self.what}",
             ("size", self.key),

@@ -1,4 +1,6 @@
-"""Straight slot and motion are known, and give the path: the roller slides along the crank.
+"""Engagements whose straight slot and motion are given: the roller's path is solved for.
+
+The roller slides along the crank.
 
 A fixed groove guides it. With the wheel at psi and the crank at phi the law of sines gives the
 roller's distance from the crank's axis, R = L sin psi / sin(phi + psi), and from the wheel's,

@@ -1,4 +1,4 @@
-"""Tolerances with which there is no machine at all: refused where it is built."""
+"""Tolerances that make no machine: refused when it is built."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What turns the crank or moves the roller, one file a kind; what several share is beside them."""
+"""The drives: what turns the crank or moves the roller. One file a kind, and what several share."""

@@ -1,4 +1,4 @@
-"""What a drive is: what turns the crank, or moves the roller, and what it goes together with."""
+"""The base of the drives: what turns the crank, or moves the roller."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class Needs(Enum):
 
 
 class Plan(NamedTuple):
-    """What a drive makes of a spec: the engagements of a period, and what was solved for."""
+    """The engagements of a machine's period, and the proportions that were solved for."""
 
     engagements: tuple[Engagement, ...]
-    period_deg: float  # input angle after which they come round again
+    period_deg: float  # input angle after which the engagements repeat
     ratio: float  # l = R/L at mid-motion
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float
@@ -49,7 +49,7 @@ class Gears(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Drive(Table):
-    """A kind of drive. Its fields are the keys of ``[drive]``."""
+    """A kind of drive; its fields are the keys of ``[drive]``."""
 
     TABLE: ClassVar[str] = "drive"
     NAME: ClassVar[str]
@@ -57,9 +57,8 @@ class Drive(Table):
     WORDS: ClassVar[str]
     # a spec to start from, its kind left out
     EXAMPLE: ClassVar[Example]
-    GEARINGS: ClassVar[
-        tuple[str, ...]
-    ] = ()  # the only wheels that it drives; any, if none is named
+    # the only gearings that it drives; empty: any
+    GEARINGS: ClassVar[tuple[str, ...]] = ()
     LAW: ClassVar[Needs]
     # how many rollers: any number, placed as one likes, or one; several only with like motions
     ONE_ROLLER: ClassVar[bool] = False
@@ -71,11 +70,11 @@ class Drive(Table):
     ALIKE: ClassVar[bool] = False
     # whether its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
-    # whether its roller is carried on a crank, which may be turned for itself
+    # whether its roller is carried on a crank, which a plain drive could turn as well
     CRANKED: ClassVar[bool] = False
     # whether it is a pair of noncircular gears, which have pitch curves
     GEARED: ClassVar[bool] = False
-    # the key of [drive] without which its joints' forces are not known; empty where none is needed
+    # the key of [drive] that the reactions of its links need; empty where they need none
     LENGTH: ClassVar[str] = ""
     # whether its wheel is a flat outline that can be cut
     OUTLINED: ClassVar[bool] = True
@@ -87,7 +86,7 @@ class Drive(Table):
 
     @property
     def turns(self) -> int:
-        """Input turns in a turn of the crank."""
+        """Number of input turns in one turn of the crank."""
         return 1
 
     @property
@@ -96,25 +95,27 @@ class Drive(Table):
         return None
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        """R/L of curved slots with a finite pressure angle at mid-motion; NaN where none has."""
+        """R/L at which curved slots have a finite pressure angle at mid-motion; NaN if none."""
         return math.nan
 
     def may_vary(self, table: str, key: str) -> bool:
-        """Whether a number of a table may be an array of many designs' numbers with this drive."""
+        """Whether a number of a table may be an array along a design axis with this drive."""
         return True
 
     def doubt(self, input_deg: float) -> Doubt | None:
-        """Of a ratio given by points: their decimals, and what share of the ratio at an input angle
-        their rounding moves its second derivative by, which is the crank's jerk.
+        """How far the decimals of a ratio given by points leave the crank's jerk unknown.
+
+        Their number, and by what share of the ratio at an input angle their rounding moves its
+        second derivative; None for a ratio that is not given by points.
         """
         return None
 
     def input_deg(self, crank_deg: float) -> float:
-        """The input angle at which the crank has turned so far from mid-motion."""
+        """The input angle from mid-motion at a crank angle from there, degrees."""
         return crank_deg
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of its own, beside those of wheel and crank; ``sign`` the wheel's.
+        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).
 
         >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
         Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
@@ -122,7 +123,7 @@ class Drive(Table):
         return ()
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """What turns the crank or carries the roller, at input angles from mid-motion.
+        """The links that turn the crank or carry the roller, at input angles from mid-motion.
 
         >>> from numpy import array
         >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
@@ -133,4 +134,4 @@ class Drive(Table):
 
     @abstractmethod
     def plan(self, spec: Spec) -> Plan:
-        """The engagements of a machine. Raises GenevaError where the values make none together."""
+        """The engagements of a machine. Raises GenevaError for values that make none."""

@@ -1,4 +1,4 @@
-"""A crank cut free from what turns it: a block, a gear's tooth, or a pin, along a known line."""
+"""Equilibrium of a crank that is turned by a push along a known line: a block, a tooth, a pin."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from geneva_cli.numerics.jet import Jet, Number, turning
 
 
 class Pushed(ABC):
-    """The crank's shaft holds it, and something pushes it round: without friction, or mass."""
+    """A crank held by its shaft and pushed round, without friction or mass."""
 
     @abstractmethod
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Where it is pushed, over L from the crank's axis, and in what direction, of any size."""
+        """The point of the push from the crank's axis, over L, and its direction as any vector."""
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the crank's shaft, and of what turns the crank, to each load."""
+        """Reactions of the crank's shaft, and of what pushes the crank, to each load."""
         x, y = (Jet(jet.c[:-1]) for jet in path)
         at, way = self.line(input_deg, x.order)
         lever, out = cross(at, way), []

@@ -1,4 +1,4 @@
-"""Drives that turn a crank: the roller is carried on the crank's circle."""
+"""Drives with a transmission between input shaft and crank: the roller runs on a circle."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 class About(NamedTuple):
-    """A transmission between input shaft and crank, about one crank angle."""
+    """A transmission written about one crank angle, so that nothing cancels near it."""
 
     input_deg: float  # input angle there
     # input angle since then, radians, and order -> sin d and 1 - cos d of the crank's angle d
@@ -44,45 +44,46 @@ class About(NamedTuple):
 
 
 def same(tau: Number, order: int) -> tuple[Jet, Jet]:
-    """Of a crank that turns as the input does."""
+    """Sine and versine of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
 
 
 class Carried(NamedTuple):
-    """A pin that a transmission carries round, about a pose."""
+    """The displacement of a crank's pin from a pose, by the input angle."""
 
     pose: Pose
     advance: Displacement
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's displacement since then, along the pose's ray and across it."""
+        """The displacement along the pose's ray and across it, ``tau`` input radians later."""
         return self.pose.displacement(*self.advance(tau, order))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Transmission(Drive):
-    """A drive in front of the crank. ``about`` is all that a kind has to say."""
+    """A drive in front of the crank; a kind defines ``about``, and no more if it needs no more."""
 
     LAW: ClassVar[Needs] = Needs.MAY
     CRANKED: ClassVar[bool] = True
 
     @abstractmethod
     def about(self, crank_deg: float) -> About:
-        """The transmission about a crank angle in degrees, 0 where the wheel is at mid-motion."""
+        """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
 
     @property
     def reach_deg(self) -> float:
-        """How far from mid-motion the crank may be while it moves the wheel."""
+        """The greatest crank angle from mid-motion at which the crank may move the wheel."""
         return 180.0
 
     def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
-        """Closed forms of the peaks behind this transmission, or quicker ways to them."""
+        """Peaks behind this transmission for which no general search is needed; None if none."""
         return None
 
     def input_deg(self, crank_deg: float) -> float:
-        """The input angle at which the crank has turned so far from mid-motion.
+        """The input angle from mid-motion at a crank angle from there, degrees.
 
-        The law is known for one turn of the crank, or of a first wheel one step, about that.
+        ``about`` covers one turn of the crank (of a first wheel one step) about mid-motion; the
+        rest repeats it.
         """
         whole = 2.0 * self.reach_deg
         turns = round(crank_deg / whole)
@@ -103,14 +104,14 @@ class Transmission(Drive):
         return Plan(engagements, period, found[0].ratio, most, spec.given_distance_mm)
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """What holds the crank besides its shaft; None where a length is not known.
+        """The reactions on crank and transmission; None where a length is not known.
 
-        Of the roller that crosses the line of centres at an input angle.
+        ``mid_deg`` is the input angle at which the roller crosses the line of centres.
         """
         return None
 
     def _follows(self, wheel: Gearing, place: Place, L: float) -> Engagement:
-        """The engagement of a straight slot with the roller at a place on the crank."""
+        """The engagement of a straight slot with one of the rollers."""
         here = self.about(place.crank_deg)
         first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
         path = AnchoredPath((first, second, third))
@@ -130,17 +131,17 @@ class Transmission(Drive):
 
     @property
     def direct(self) -> bool:
-        """Whether crank angle and input angle are one, so that the classic closed forms hold."""
+        """Whether crank angle and input angle are equal: then the classic closed forms hold."""
         return False
 
     def _anchor(self, pose: Pose, crank_deg: float) -> Anchor:
-        """The pose of a roller ``crank_deg`` behind the first, as the input sees it."""
+        """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
         here = self.about(crank_deg + pose.crank_deg)
         from_mid = here.input_deg - self.about(crank_deg).input_deg
         return Anchor(from_mid, pose.wheel, pose.along, Carried(pose, here.advance))
 
     def _curved(self, spec: Spec, motion: Motion) -> Plan:
-        """A law and a roller on the crank's circle: the slots are solved for."""
+        """Curved slots, solved for from a law and the crank's circle."""
         wheel, law = spec.wheel, motion.law
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
@@ -179,15 +180,15 @@ class Transmission(Drive):
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
 
-        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN where no R/L below 1
-        does.
+        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN where there is none
+        below 1.
         """
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
-        """Raise GenevaError where the crank cannot turn through the whole motion in one go."""
+        """Raise GenevaError where the transmission does not cover the whole motion."""
         refuse(
             farthest_deg > self.reach_deg * (1.0 + 1e-12),
             lambda: GenevaError(

@@ -25,11 +25,11 @@ from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
-A_SURE = 0.999  # up to it the quicker ways to the peaks miss none
+A_SURE = 0.999  # up to it the quicker searches miss no peak
 
 
 def refuse_rounding(A: float) -> None:
-    """Raise GenevaError so near to 1 that the motion is rounding."""
+    """Raise GenevaError for |A| so near to 1 that the motion is rounding."""
     refuse(
         abs(A) > A_MAX,
         lambda: GenevaError(
@@ -47,7 +47,7 @@ class SideCrankPeak(NamedTuple):
     sign: float
 
     def __call__(self, quantity: str) -> PeakValue | None:
-        """The peak of a quantity, if it is this one; of many designs the velocity's too."""
+        """The peak of the acceleration; for arrays of designs that of the velocity too."""
         if isinstance(self.A, float) and isinstance(self.z, int):
             if quantity != "acceleration" or abs(self.A) > A_SURE:
                 return None
@@ -61,7 +61,7 @@ class SideCrankPeak(NamedTuple):
 
 
 def closed_peaks(A: float, wheel: Gearing, place: Place) -> SideCrankPeak | None:
-    """The peak of a plain wheel's first roller; None for others."""
+    """The peak of a wheel with closed forms and equal steps, at its first roller; else None."""
     closed = wheel.closed_form(place)
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
     if closed is None or wheel.steps or not plain:
@@ -70,7 +70,7 @@ def closed_peaks(A: float, wheel: Gearing, place: Place) -> SideCrankPeak | None
 
 
 class Coulisse(NamedTuple):
-    """The coulisse about one of its angles f: what its turning from there on is made of.
+    """The coulisse's turning from one of its angles f.
 
     h = asin(A sin f) is the angle between input crank and coulisse; ``length`` is the coulisse's,
     cos h + A cos f, ``rest`` = cos h - A cos f. ``grows`` is true on the line of centres for the
@@ -87,7 +87,7 @@ class Coulisse(NamedTuple):
     grows: bool  # of many designs an array of them
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """sin d and 1 - cos d of the coulisse's angle d since then, ``tau`` input radians later."""
+        """sin d and 1 - cos d of the coulisse's turn d, ``tau`` input radians later."""
         A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
         m = library(tau, A, s)
         sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
@@ -119,7 +119,7 @@ class Block(Pushed):
 
 
 def about(A: float, crank_deg: float) -> About:
-    """About a coulisse angle f in degrees, for an offset A between -1 and 1."""
+    """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
     m = library(A, crank_deg)
     s, c = sin_cos_deg(crank_deg)
     # cos h and the coulisse's length are written as sums of positive terms for A near +-1.

@@ -1,8 +1,8 @@
-"""What a motion law is: s(u), the wheel's share of its step against the share of the motion time.
+"""The base of the motion laws s(u): the share of the step by the share of the motion's time.
 
-Both run from 0 to 1. A law is given on its first half as a function of u, and on its second as
-what is left to do, 1 - s, as a function of what is left of the time, w = 1 - u: so both ends are
-exact, and a symmetric law is written once.
+Both run from 0 to 1. A law is written on its first half as s by u, and on its second half as the
+remainder 1 - s by the remaining time w = 1 - u: so both ends are exact, and a symmetric law is
+written once.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Law(Table):
-    """A motion law. Its fields are the keys that it adds to ``[motion]``."""
+    """A motion law; its fields are the keys that it adds to ``[motion]``."""
 
     TABLE: ClassVar[str] = "motion"
     NAME: ClassVar[str]
     ABOUT: ClassVar[str]
-    # why a law may turn the wheel back
+    # said where the law turns the wheel back
     TURNS_BACK: ClassVar[str] = "the law's points must not fall"
     # analytic between the breaks; a spline is not
     ANALYTIC: ClassVar[bool] = True
@@ -60,7 +60,7 @@ class Law(Table):
 
     @property
     def tuned_to(self) -> float | None:
-        """The period ratio of a load that it leaves no vibration, where it is made for one.
+        """The period ratio of the load that it leaves at rest; None for a law not tuned to one.
 
         >>> Cycloidal().tuned_to is None
         True
@@ -68,7 +68,7 @@ class Law(Table):
         return None
 
     def doubt(self) -> Doubt | None:
-        """Of points: the decimals given, and what their rounding moves the third derivative by.
+        """For a law of points their decimals, and how far their rounding moves d³s/du³; else None.
 
         >>> Cycloidal().doubt() is None
         True
@@ -84,7 +84,7 @@ class Law(Table):
         """
 
     def second(self, w: Number, order: int) -> Jet:
-        """What is left, 1 - s, on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
+        """The remainder 1 - s on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
 
         >>> law = SineGroup(0.1)
         >>> round(law.first(0.5, 0).c[0] + law.second(0.5, 0).c[0], 12)
@@ -102,7 +102,7 @@ class Law(Table):
 
 
 def remaining(rest: Jet, end: float = 1.0) -> Jet:
-    """What is left to do as a function of the time left, turned into what is done of ``end``."""
+    """The jet by u of ``end`` less a remainder, from its jet by w, which runs backwards."""
     return Jet([end - rest.c[0], *[c if k % 2 else 0.0 - c for k, c in enumerate(rest.c) if k]])
 
 

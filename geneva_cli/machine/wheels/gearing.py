@@ -1,4 +1,4 @@
-"""What a gearing is: where the crank turns, seen from the wheel, and what follows from it."""
+"""The base of the gearings: external, internal and spherical wheels."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ if TYPE_CHECKING:
 
 
 class Place(NamedTuple):
-    """One roller: the crank angle at which it crosses the line of centres, and its passage.
+    """A roller on the crank, and its passage through a straight slot.
 
-    ``poses`` are entry, middle and exit on its circle, as it would pass with its own crank angle
-    at 0; ``ratio`` is its arm over the centre distance. ``skew`` is an offset slot's; on a sphere
+    ``crank_deg`` is the crank angle at which it crosses the line of centres; ``poses`` are entry,
+    middle and exit on its circle, their crank angles counted from there; ``ratio`` is its arm over
+    the centre distance. ``skew`` is an offset slot's; on a sphere
     ``height`` is the pin's place along the wheel's axis: (top, fall) for top - fall (1 - cos a),
     and ``cone`` the cosine of the pin's cone.
     """
@@ -40,14 +41,14 @@ class Place(NamedTuple):
 
     @property
     def reach_deg(self) -> float:
-        """Farthest from the line of centres that its crank moves the wheel."""
+        """The greatest crank angle from the line of centres at which it moves the wheel."""
         farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
         return farthest
 
 
 @dataclass(frozen=True)
 class Gearing(Table):
-    """A wheel. Its fields are the keys of ``[wheel]``. Raises GenevaError where it cannot be."""
+    """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
 
     TABLE: ClassVar[str] = "wheel"
     NAME: ClassVar[str]
@@ -66,7 +67,7 @@ class Gearing(Table):
 
     @property
     def step(self) -> HalfStep:
-        """Half of an equal step, exactly."""
+        """Half the wheel's step where all are equal, as an exact fraction."""
         return HalfStep(1, self.z)
 
     @property
@@ -76,15 +77,15 @@ class Gearing(Table):
 
     @property
     def skewed(self) -> bool:
-        """Whether slots are not radial or not alike, as a drive or a law may need them.
+        """Whether slots are not radial, or not all alike: some drives and laws cannot have that.
 
-        A truth value, or of an array of designs one each.
+        A truth value; for arrays of designs an array of them.
         """
         return False
 
     @property
     def layout(self) -> Layout:
-        """Dimensions of its own, beside the number of slots.
+        """The dimensions of this kind of wheel, besides its number of slots.
 
         >>> External(6, offset_mm=12.0).layout
         (Dimension(name="slots' axes beside the wheel's", value=12.0, unit='mm'),)
@@ -93,11 +94,11 @@ class Gearing(Table):
 
     @property
     def own_sizes(self) -> dict[str, float]:
-        """What a report shows of this kind of wheel alone, by name."""
+        """Values by name that a report shows of this kind of wheel alone."""
         return {}
 
     def index_deg(self, i: int) -> float:
-        """The wheel's step at its i-th engagement."""
+        """The wheel's step at its i-th engagement, degrees."""
         return self.steps[i] if self.steps else 360.0 / self.z
 
     @abstractmethod
@@ -113,22 +114,22 @@ class Gearing(Table):
         return 1.0 - self.SIGN * ratio
 
     def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
-        """The straight slot in which a roller's path runs, and the motion that the two give.
+        """The straight slot for a roller's path, and the motion that the two give.
 
-        ``turn`` is the crank's from mid-motion.
+        ``turn`` is the crank's angle from mid-motion, as its sine and versine.
         """
         return RadialSlot(path), Followed(path, place.step.b)
 
     def body(self, place: Place, turn: Displacement) -> Body | None:
-        """What carries the roller, where the crank's arm in the plane of the wheel does not."""
+        """The body that carries the roller; None for the crank's arm in the wheel's plane."""
         return None
 
     def hub(self, place: Place) -> float:
-        """Distance of the point that the crank's arm turns about from the wheel's axis, over L."""
+        """Distance from the wheel's axis to the point about which the crank's arm turns, over L."""
         return 1.0
 
     def closed_form(self, place: Place) -> tuple[float, float, float] | None:
-        """Sign, l and 1 - l of the closed forms that hold on a plain crank, where there are any."""
+        """Sign, l and 1 - l of the closed forms of a plain crank; None where there are none."""
         return None
 
     def matched_ratio(self, v: float) -> float:

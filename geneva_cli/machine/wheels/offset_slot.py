@@ -1,4 +1,4 @@
-"""The slot of offset e and the motion that it gives: see skew.py for its proportions."""
+"""Slots of offset e, and the motion that they give (see ``skew`` for their proportions)."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class OffsetFollowed(Followed):
         self.skew = skew
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The slot's direction, taken from the nearest anchor: exactly at rest at both ends."""
+        """The wheel's angle: the slot's direction, from the nearest anchor; at rest at the ends."""
         (entry, mid, exit_), cuts = self.path.anchors, self.path.cuts
         first, last = (self._from_end(end, order) for end in (entry, exit_))
         if are_designs(input_deg, *cuts):  # one formula serves both ends
