@@ -21,7 +21,7 @@ class Pivot(NamedTuple):
 
 
 class Dimension(NamedTuple):
-    """A length, an angle, a number, or a word that names a curve."""
+    """A dimension by name: a length, an angle, a number, or a word."""
 
     name: str
     value: float | str
@@ -29,22 +29,22 @@ class Dimension(NamedTuple):
 
 
 class Joint(Enum):
-    """What is in a link's joint."""
+    """What is in a joint of a link."""
 
-    SHAFT = "shaft"  # one that it is fast on, or that turns in it
-    PIN = "pin"  # that another link turns on, or the frame
+    SHAFT = "shaft"  # a shaft, fast in the link or turning in it
+    PIN = "pin"  # a pin on which it turns against another link or the frame
     ROLLER = "roller"  # the roller's pin
     SLIDE = "slide"  # a pin in a block that slides along the link, from its first joint outwards
-    CARRIED = "carried"  # the roller's pin, in a block that slides so
-    NONE = "none"  # nothing: a place on the link
+    CARRIED = "carried"  # the roller's pin, in such a block
+    NONE = "none"  # nothing: a point of the link
 
 
 class Link(NamedTuple):
     """A body between joints, in mm at input angles: a bar, or a plate of three joints.
 
-    ``joints`` are the x and y of each, arrays along the input angles, and ``kinds`` what is in
-    them. With a radius it is a circle about its one joint: the pitch circle of a gear. ``plane``
-    counts the planes in which links lie, one below the other, from 1 below the wheel's.
+    ``joints`` are the x and y of each joint, arrays (n,) along the input angles; ``kinds`` says
+    what is in each. With a radius the link is the pitch circle of a gear about its one joint. ``plane``
+    is the number of the plane in which it lies: 1 is the first below the wheel's.
     """
 
     name: str

@@ -19,7 +19,7 @@ class LinkTurning(NamedTuple):
     sense: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """How fast it turns, positive with the wheel."""
+        """Radians an input radian, positive with the wheel, ``tau`` radians after mid-motion."""
         x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
         return atan2(y, x).derivative() * self.sense
 

@@ -20,13 +20,13 @@ from geneva_cli.numerics import digits
 from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
-ANCHORS = 4  # on either side of the middle: near the wheel a path is all bends
+ANCHORS = 4  # on either side of the middle: near the wheel the path bends much
 
 
 def engagement_of(path: Path, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
-    """The engagement of a wheel that fits, and the centre distance; the crank's axis is the origin.
+    """The engagement of a wheel for a path, and the centre distance, mm.
 
-    Every place is worked out in 50 digits and rounded once.
+    Everything is worked out in 50 digits and rounded once.
     """
     with localcontext(digits.FIFTY):
         ox, oy = fit.centre
@@ -71,9 +71,9 @@ def engagement_of(path: Path, fit: Fit, step: HalfStep) -> tuple[Engagement, flo
 
 
 def engagement_many(path: Path, found: Fits, step: HalfStep) -> tuple[Engagement, float]:
-    """The engagements of the wheels that fit, and their centre distances, (n, 1).
+    """The engagements of wheels for the paths of n designs, and their centre distances, (n, 1).
 
-    Every place is worked out in long doubles, where the computer has them, and rounded once.
+    Everything is worked out in long doubles, where the computer has them, and rounded once.
     """
     path, found, step = _alike(path, found, step)
     b, sense = step.b, parameter(found.sense)
@@ -118,9 +118,9 @@ def engagement_many(path: Path, found: Fits, step: HalfStep) -> tuple[Engagement
 
 
 def _alike(path: Path, found: Fits, step: HalfStep) -> tuple[Path, Fits, HalfStep]:
-    """With the first design that has a wheel in the place of those that have none.
+    """The designs, with the first that has a wheel in place of those that have none.
 
-    These are refused already; and long doubles that are no numbers take a hundred times as long.
+    Those are refused already, and NaN in long doubles takes a hundred times as long.
     """
     fits = found.entry[:, 0] == found.entry[:, 0]
     if fits.all() or not fits.any():
@@ -141,7 +141,7 @@ class AlongRay(NamedTuple):
     sense: float
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """``tau`` radians of the crank later."""
+        """The displacement ``tau`` radians of the crank later."""
         x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
         along = (x * self.x + y * self.y) * self.scale
         across = (y * self.x - x * self.y) * (self.sense * self.scale)

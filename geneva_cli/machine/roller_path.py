@@ -1,4 +1,4 @@
-"""A roller's closed path about the crank's axis, which a linkage describes."""
+"""The closed path of a linkage's roller."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def rounded(x: Number | Decimal | Long) -> float:
 
 
 def exactly(x: Decimal | Long) -> float:
-    """An exact number, for a formula that is written for floats: it reckons as they do."""
+    """An exact number typed as a float, for formulas written for floats: it computes alike."""
     return cast(float, x)
 
 

@@ -1,7 +1,8 @@
 """Sizes that make no machine: refused when it is built, for every command.
 
 Only what no choice of the other sizes could mend is refused here, such as a roller as large as
-its crank or a hub inside its bore. Whether the parts that remain are well made is for ``sizes`` and the checks.
+its crank or a hub inside its bore. Whether the remaining parts are well made, ``sizes`` and the
+checks decide.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Cam-Geneva: the roller slides along the crank, guided by a fixed groove; the slots stay straight.
 
-Any law that turns the wheel on at mid-motion can be had so, with one slot and a positive drive.
+Every law whose velocity at mid-motion is above 0 can be made so, with straight slots that drive
+the wheel positively.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""A gear sector that takes over from the slot at constant ratio, for steps that a slot cannot make.
+"""Gear sectors that take over from the slot at a constant ratio, for steps that a slot cannot make.
 
-The roller starts the wheel as any straight slot of half angle b does; where the wheel has come up
-to u times the crank's speed, toothed sectors take over at that ratio for a crank angle D, and the
-next roller stops the wheel in its own slot. The speeds agree at the crank angle a_t with
+The roller starts the wheel in a straight slot of half angle b. Where the wheel has reached u times
+the crank's speed, toothed sectors take over at that ratio for a crank angle D, and the next roller
+stops the wheel in its own slot. The speeds agree at the crank angle a_t with
 cos a_t = (u (1 + l²) + l²) / (l (1 + 2u)); the acceleration jumps there, but not for u = l/(1-l),
 where a_t = 0 and the pitch circles are R and L - R. The step is 2 (b - psi_t) + u D.
 """
@@ -62,7 +62,7 @@ class GearSector(PinPath):
     ] = "shockless"
 
     def plan(self, spec: Spec) -> Plan:
-        """The one engagement; the slot's half angle follows from the step."""
+        """The engagement of each roller; the slot's half angle follows from the step."""
         b = self._half_angle(spec.wheel.z)
         u, handover, _ = self._handover(b)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
@@ -98,7 +98,7 @@ class GearSector(PinPath):
         )
 
     def _half_angle(self, z: int) -> float:
-        """The half angle b of the slots that make up the step together with the gears."""
+        """The half angle b of the slots, which together with the gears give the step."""
         wanted, D = math.pi / z, radians(self.sector_deg)
 
         def excess(b: float) -> float:
@@ -107,8 +107,8 @@ class GearSector(PinPath):
 
         if isinstance(self.gear_ratio, str):  # the step grows with b
             return boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
-        # Up to u sin b/(1 - sin b) the slot never gets; beyond, the sooner it does the less it
-        # turns the wheel.
+        # A slot with u > sin b/(1 - sin b) never reaches the speed u; of the others, the sooner one
+        # reaches it, the less it turns the wheel.
         u = self.gear_ratio
         ends = (math.pi / 2.0 - 1e-6, library(u).asin(u / (1.0 + u)))
         least, most = (2.0 * (D / 2.0 - excess(b) / u) for b in reversed(ends))
@@ -136,7 +136,7 @@ class GearSector(PinPath):
 
 
 class SectorMotion(Motion):
-    """The slot's motion at both ends, the gears' between."""
+    """The slot's motion at both ends, and the gears' between them."""
 
     def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
         self.inner, self.u = inner, u
@@ -153,12 +153,12 @@ class SectorMotion(Motion):
         return (self.entry_deg, -self.half_sector, 0.0, self.half_sector, self.exit_deg)
 
     def slot_deg(self, input_deg: Number) -> Number:
-        """The crank angle of the roller in its slot; in the gears, the one at handover."""
+        """The crank angle in the slot's own motion; while the gears drive, the one at handover."""
         out = larger(size(input_deg) - self.half_sector, 0.0) + self.handover_deg
         return library(out, input_deg).copysign(out, input_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The slot's motion, moved out by the gears' in between."""
+        """The wheel's angle: the slot's motion, with the gears' inserted at the handover."""
 
         def before(x: Number) -> Jet:
             at = self.inner.entry_deg + (x - self.entry_deg)
@@ -175,7 +175,7 @@ class SectorMotion(Motion):
 
 
 class SectorPath(NamedTuple):
-    """The roller in its slot; while the gears drive, where it hands over."""
+    """The roller's path in its slot; while the gears drive it stays at the handover."""
 
     inner: Path
     motion: SectorMotion
@@ -196,19 +196,19 @@ class SectorSlot(Slot):
         return self.inner(self.motion.slot_deg(input_deg), order)
 
     def axis(self, input_deg: Number, order: int = 0) -> Axis:
-        """In the gears the lever is the wheel's pitch radius, L/(1+u), and nothing slides."""
+        """The slot's lever and speed; in the gears the pitch radius L/(1+u), and no sliding."""
         lever, along = self.inner.axis(self.motion.slot_deg(input_deg), order)
         slot = self.touches(input_deg)
         return Axis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
 
     def touches(self, input_deg: Number) -> Number:
-        """Not while the gears drive."""
+        """0 while the gears drive, else 1."""
         slot = size(input_deg) >= self.motion.half_sector
         return float(slot) if isinstance(slot, bool) else slot.astype(float)
 
 
 class SectorEngagement(Engagement):
-    """Slot, gears, slot: the roller waits at the handover while the gears drive."""
+    """The engagement of slot, gears and slot: two rollers' passages as one."""
 
     def __init__(
         self, inner: Engagement, slot: RadialSlot, handover: float, sector_deg: float, u: float
@@ -219,12 +219,12 @@ class SectorEngagement(Engagement):
         self._inner, self._sector = inner, motion
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
-        """The roller sits on the crank."""
+        """As of the plain wheel: the roller sits on the crank."""
         return self._inner.carrier(self._sector.slot_deg(input_deg), order)
 
     @property
     def through(self) -> Engagement:
-        """The slot's shape is that of the plain wheel whose slot it is."""
+        """The engagement of the plain wheel that has this slot."""
         return self._inner
 
 

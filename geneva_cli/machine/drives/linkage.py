@@ -1,4 +1,4 @@
-"""What the linkages share: the roller on a closed path, and the wheel that fits it."""
+"""The base of the linkages: a roller on a closed path, and the wheel that the path can drive."""
 
 from __future__ import annotations
 
@@ -45,14 +45,14 @@ if TYPE_CHECKING:
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
-LENGTHS = 1e4  # the longest link over the shortest: beyond, the path is a point or rounding
+LENGTHS = 1e4  # greatest ratio of two links: beyond it the path is a point, or rounding
 
 
 @dataclass(frozen=True, kw_only=True)
 class Linkage(PinPath):
-    """A linkage whose wheel's centre is not given but solved for.
+    """A linkage; the position of the wheel's centre is solved for.
 
-    Its crank is no disc about the line of centres, so it carries no locking disc.
+    Its crank does not carry the roller, and so no locking disc.
     """
 
     LOCKS: ClassVar[bool] = False
@@ -67,11 +67,11 @@ class Linkage(PinPath):
         """The roller's path about the crank's axis."""
 
     def plan(self, spec: Spec) -> Plan:
-        """The one engagement of the wheel that the path can drive.
+        """The engagement of the wheel that the path can drive.
 
-        Of several wheels the gentlest is taken, or the one entered nearest to ``entry_deg``.
-        Raises GenevaError where none fits, or where the spec sets the centre distance, which
-        follows.
+        Of several wheels it is the one with the least peak velocity, or the one entered nearest to
+        ``entry_deg``. Raises GenevaError where there is none, or where the spec sets the centre
+        distance, which follows from the linkage.
         """
         if spec.size.center_distance_mm not in (None, DISTANCE_MM):
             raise GenevaError(
@@ -90,11 +90,11 @@ class Linkage(PinPath):
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
 
     def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
-        """A point of the linkage's own frame, about the crank's axis, in the machine's."""
+        """A pivot at a point (mm) of the linkage's own frame, whose origin is the crank's axis."""
         return Pivot(name, *self._placed(plan, x, y))
 
     def linked(self, plan: Plan) -> Layout:
-        """Joints of crank and roller at input 0; the sense in which the crank turns."""
+        """The crank's pin, the roller, and the crank's sense of rotation, at input angle 0."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
         direction = sin_cos(Jet((at.middle,)))
         pin, roller = at.path.joint(*direction), at.path.place(*direction)
@@ -105,7 +105,7 @@ class Linkage(PinPath):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """Crank, the link that carries the roller, and what holds that link besides."""
+        """The crank, the link that carries the roller, and the one that holds that link."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
         turn = radians(input_deg) + at.middle
         direction = sin_cos(Jet((turn,)))
@@ -127,23 +127,23 @@ class Linkage(PinPath):
         )
 
     def _placed(self, plan: Plan, x: Place, y: Place) -> tuple[Place, Place]:
-        """Places of the linkage's own frame, about the crank's axis, in the machine's."""
+        """Points of the linkage's own frame in the machine's frame."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
         ahead, aside = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
         return plan.center_distance_mm + ahead, aside
 
     @abstractmethod
     def holder(self, end: Moving) -> Link:
-        """What holds the carrying link at its end B, in the linkage's own frame."""
+        """The link or guide that holds the carrying link at its end B, in the linkage's frame."""
 
     @property
     def varies(self) -> bool:
-        """Whether its links are those of many designs."""
+        """Whether a length or angle is an array of designs."""
         return any(is_array(value) for key, value in vars(self).items() if key != "n_rpm")
 
     @property
     def _wanted(self) -> float | None:
-        """The crank's angle near which the roller is to enter, in radians."""
+        """``entry_deg`` in radians."""
         return None if self.entry_deg is None else radians(self.entry_deg)
 
     def _one(self, i: int) -> Self:
@@ -156,7 +156,7 @@ class Linkage(PinPath):
         return one
 
     def _of_many(self, step: HalfStep) -> tuple[Engagement, float]:
-        """The engagements and the centre distances of many designs; those without are marked."""
+        """Engagements and centre distances of many designs; those without a wheel are refused."""
         path = self.roller_path.in_long_doubles()
         found = fits_many(path, step.b, self._wanted)
         for i in found.alone:
@@ -185,7 +185,7 @@ def _none_fits(z: int) -> GenevaError:
 
 
 def refuse_proportions(**lengths: float) -> None:
-    """Raise GenevaError for links so unlike in length that no wheel can be solved for."""
+    """Raise GenevaError for lengths so unlike that no wheel can be solved for."""
     limit = LENGTHS * reduce(smaller, lengths.values())
 
     def error() -> GenevaError:
@@ -202,8 +202,8 @@ def refuse_proportions(**lengths: float) -> None:
 class RodPath(Path):
     """The path of a point of the link that the crank's pin A carries: a coupler, a connecting rod.
 
-    Its numbers are the links' lengths, crank a first, and at the end the point's places along the
-    link, p, and aside, q.
+    Its numbers are the lengths, the crank's a first, and last the point's coordinates along the
+    link, p, and across it, q.
     """
 
     def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
@@ -225,9 +225,7 @@ class RodPath(Path):
 
 
 def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:
-    """Lengths to 50 digits, and so a point's places along a line and aside, from its distance and
-    angle.
-    """
+    """Lengths, and a point's coordinates from its distance and angle, in 50 digits."""
     with localcontext(digits.FIFTY):
         sine, cosine = digits.sin_cos(digits.of_degrees(angle_deg))
         point = Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
@@ -235,7 +233,7 @@ def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decima
 
 
 def _long(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Long, ...]:
-    """The same for arrays of designs, in the longest floating-point numbers that there are."""
+    """The same for arrays of designs, in long doubles."""
     turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
     point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)
     return tuple(np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point))
