@@ -42,9 +42,9 @@ class Joint(Enum):
 class Link(NamedTuple):
     """A body between joints, in mm at input angles: a bar, or a plate of three joints.
 
-    ``joints`` are the x and y of each joint, arrays (n,) along the input angles; ``kinds`` says
-    what is in each. With a radius the link is the pitch circle of a gear about its one joint. ``plane``
-    is the number of the plane in which it lies: 1 is the first below the wheel's.
+    ``joints`` are the x and y of each joint, arrays (n,) by the input angle, and ``kinds`` says
+    what is in each. With a radius the link is the pitch circle of a gear about its one joint.
+    ``plane`` is the number of the plane in which it lies: 1 is the first below the wheel's.
     """
 
     name: str

@@ -1,1 +1,1 @@
-"""Many designs: the table of wheels, synthesis."""
+"""Many designs: the table of wheels, sweeps, comparison, synthesis, and what shows one design."""

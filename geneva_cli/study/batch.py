@@ -1,4 +1,4 @@
-"""Many specs judged side by side: one process for each of the computer's cores."""
+"""The checks of many specs, spread over the processor's cores."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "near
 
 
 class Verdict(NamedTuple):
-    """What is to be said of one spec: its checks and cautions, or why it could not be read."""
+    """The checks and cautions of one spec, or why it could not be read."""
 
     path: str
-    files: tuple[str, ...] = ()  # that the design is read from
+    files: tuple[str, ...] = ()  # all files from which the design was read
     checks: tuple[Check, ...] = ()
     cautions: tuple[str, ...] = ()
     error: str = ""
@@ -31,7 +31,7 @@ class Verdict(NamedTuple):
 
 
 def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
-    """Judge one spec, keys ``given`` set over its own; one that cannot be read is a verdict too."""
+    """The verdict on one spec, with keys ``given`` set over its own; never raises GenevaError."""
     try:
         design = load(path, given)
         told = (*design.warnings, *design.turn_warnings)
@@ -41,7 +41,7 @@ def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
 
 
 def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
-    """The verdicts on specs, in their order; standard input is read here, files anywhere."""
+    """The verdicts on specs, in their order; standard input is read by this process."""
     judge = partial(verdict, given=given)
     files = [path for path in paths if path != "-"]
     found = mapped(judge, files, min(len(files), cores()), "specs")
@@ -50,7 +50,7 @@ def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
 
 
 def checks_table(found: list[Verdict]) -> Table:
-    """One row a check, spec after spec."""
+    """A row for each check, spec after spec."""
     rows = [
         (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest)
         for v in found

@@ -11,7 +11,7 @@ from geneva_cli.specfile.settings import setting
 from geneva_cli.study.names import short_name
 from geneva_cli.study.sweep.values import axis
 
-MOST = 100  # designs; more are no longer seen side by side
+MOST = 100  # designs that can be compared side by side
 
 
 def beside(
@@ -20,10 +20,10 @@ def beside(
     vary: Sequence[str] = (),
     taken: Collection[str] = (),
 ) -> dict[str, Text]:
-    """The texts of the specs by what each is called; ``taken`` are names that none may have.
+    """The specs' texts by a short name each; ``taken`` are names that may not be used.
 
-    ``vary`` are ``KEY=VALUES`` of the one spec there is then: a text for each combination. Raises
-    GenevaError for a spec that cannot be read, or is given twice.
+    With ``vary``, texts ``KEY=VALUES``, there is one spec, and a text for each combination of
+    values. Raises GenevaError for a spec that cannot be read, or is given twice.
     """
     if vary:
         if len(paths) > 1:

@@ -10,8 +10,8 @@ from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.table import Table, rows_table
 
-OWN = ("quantity", "differs")  # columns that no design may be called after
-LEFT_OUT = "inputs."  # what a spec says is in the spec; what differs of it is in the columns' names
+OWN = ("quantity", "differs")  # columns of the table itself: no design's name
+LEFT_OUT = "inputs."  # a spec's keys are not shown: they are in the spec, or in the columns' names
 
 
 def compare(
@@ -22,7 +22,7 @@ def compare(
     ratio: bool = False,
     alike: bool = True,
 ) -> Table:
-    """``quantity``, a column a design, and ``differs``; with ``ratio`` numbers over the first's.
+    """Columns ``quantity``, one for each design, and ``differs``; ``ratio``: over the first design.
 
     One design is varied through values of keys (``vary``, ``KEY=VALUES``), or several are set side
     by side. ``picks`` are the quantities to show, without them all for which no parts are made;
@@ -47,7 +47,7 @@ def compare(
 
 
 def _ratios(cells: Sequence[Cell]) -> list[Cell]:
-    """The first as it is, the others over it where both are numbers."""
+    """The first cell as it is, and the others over it where both are numbers."""
     first, *others = cells
     return [first, *(_over(c, first) for c in others)]
 

@@ -22,7 +22,7 @@ Cell: TypeAlias = float | int | str | bool | None
 
 
 def machine(proof: Proof) -> Values:
-    """What kind of machine it is."""
+    """The kind of machine."""
     spec = proof.mechanism.spec
     return {
         "wheel.z": spec.wheel.z,
@@ -42,13 +42,13 @@ def judged(proof: Proof) -> Values:
 
 
 def cycle(proof: Proof) -> Values:
-    """What the report does not say of the loads: least values, means and root mean squares."""
+    """Least values, means and root mean squares of the loads, which the report leaves out."""
     names = ("min", "min_at_deg", "mean", "rms")
     found = {load: one._asdict() for load, one in summaries(cycle_of(proof.mechanism)).items()}
     return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
 
 
-# The report's, and others of which it says nothing. What makes parts comes last.
+# The report's sections and those above. Those that make parts come last.
 ALL = (
     Section("study.fields:machine"),
     *(s for s in SECTIONS if not s.makes_parts),
@@ -60,7 +60,7 @@ SHOWN = (ALL[0], *(s for s in SECTIONS if not s.makes_parts))  # where nothing i
 
 
 def values(proof: Proof, sections: Iterable[Section] = SHOWN) -> dict[str, Cell]:
-    """The quantities of some sections; what is a text of several lines or a table is left out."""
+    """The quantities of some sections, without tables and texts of several lines."""
     out: dict[str, Cell] = {}
     for section in sections:
         for name, value in section.values(proof).items():
@@ -70,15 +70,15 @@ def values(proof: Proof, sections: Iterable[Section] = SHOWN) -> dict[str, Cell]
 
 
 class Pick(NamedTuple):
-    """Quantities that are asked for, and the sections that they are found in."""
+    """Quantities to show, and the sections that contain them."""
 
     names: tuple[str, ...]
     sections: tuple[Section, ...]
-    # the names as they were asked for, whole: one may have been asked for twice
+    # the whole names in the order of the request, in which one may stand twice
     asked: tuple[str, ...] = ()
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
-        """Their values, None where one does not apply."""
+        """The quantities' values for a machine; None where one does not apply."""
         found = values(Proof(mechanism), self.sections)
         return [found.get(name) for name in self.names]
 
@@ -89,7 +89,7 @@ def pick(
     option: str = "--pick",
     options: Mapping[str, str] | None = None,
 ) -> Pick:
-    """The quantities of these names, which need not be whole: ``dwell_s`` is timing.dwell_s.
+    """The quantities of these names, which may be shortened: ``dwell_s`` is timing.dwell_s.
 
     ``mechanism`` is one that has them; ``options`` says which option asked for a name, where it was
     not ``option``. Raises GenevaError, with the nearest name, for a name that is none, or is not
@@ -116,7 +116,7 @@ def pick(
 
 
 def _named(asked: str, known: Iterable[str], option: str) -> str | None:
-    """The whole name of what is asked for; None where there is none yet."""
+    """The whole name of a quantity among those known; None if it is not among them."""
     among = list(known)
     if asked in among:
         return asked

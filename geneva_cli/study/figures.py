@@ -15,9 +15,9 @@ from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.beside import beside
 
 QUANTITIES = tuple(OF_NAME)  # what may be drawn of a design
-FAMILY = 12  # curves of a panel that are told apart
+FAMILY = 12  # curves of a panel that can be told apart by eye
 FEW = 40  # points of a curve that are marked
-RANDOM = "drawn at random"  # rows of which nearly each has values of its own
+RANDOM = "drawn at random"  # the name of rows whose other keys nearly all differ
 ROOM = 0.02  # of the x axis, beside points
 TABLES = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
 
@@ -28,9 +28,9 @@ def of_specs(
     show: Sequence[str] = (),
     vary: Sequence[str] = (),
 ) -> tuple[Figure, list[Design], list[LeftOut]]:
-    """The cycles of some specs over one axis; the designs, and what it lacks of which path.
+    """The cycles of some specs in one figure, the designs, and what the figure lacks of which.
 
-    ``vary`` are ``KEY=VALUES`` that the one spec there is then is drawn for.
+    With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
 
     Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
 
@@ -92,7 +92,7 @@ def _keys(table: Columns) -> list[str]:
 
 
 def _families(table: Columns, x: str) -> dict[str, list[int]]:
-    """The numbers of the rows that belong together, by what they have in common."""
+    """The row numbers of each curve, by the values of the other keys that its rows share."""
     keys = _keys(table)
     others = [key for key in keys if key != x]
     every = list(range(len(table.rows)))
@@ -135,7 +135,7 @@ def _curve(
 
 
 def _without_gaps(rows: Sequence[tuple[float | None, float | None]]) -> list[Piece]:
-    """The stretches of x between rows without a value."""
+    """The rows in order of x, cut where one has no value."""
     out: list[list[tuple[float, float]]] = [[]]
     for x, y in sorted((r for r in rows if r[0] is not None), key=lambda r: r[0] or 0.0):
         if x is None or y is None:

@@ -1,4 +1,4 @@
-"""What designs are called where several stand side by side, and their quantities."""
+"""Short names of designs that are shown side by side, and the usual names of quantities."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ def short_name(path: str, paths: Sequence[str], taken: Collection[str] = ()) -> 
 
 
 def usual_fields() -> list[str]:
-    """The names of what a loaded wheel of straight slots can be asked for, as ``velocity.max``.
+    """The names of the quantities of a loaded wheel with straight slots, as ``velocity.max``.
 
-    They stand for those of all machines where there is no design yet, as in a shell's completion.
+    They are used where there is no design yet, as in a shell's completion.
     """
     from geneva_cli.machine.mechanism import build
     from geneva_cli.machine.spec import Spec

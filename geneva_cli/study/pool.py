@@ -1,4 +1,4 @@
-"""Work spread over the computer's cores, its results in order."""
+"""Work spread over processes, with its results in order."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 R = TypeVar("R")
-AHEAD = 4  # results a worker may be ahead of the one that is waited for: memory stays flat
+AHEAD = 4  # results that may wait for each worker, so that memory stays bounded
 
 
 def mapped(
     work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
 ) -> Iterator[R]:
-    """``work`` of each item, in order, by ``workers`` processes; by this one where they are one.
+    """``work`` of each item, in order, by several processes, or by this one for 1 worker.
 
-    Raises GenevaError, which calls the items ``what``, where a process is ended from outside.
+    Raises GenevaError if a process is ended from outside; ``what`` is the word for the items in it.
     """
     if workers < 2:
         yield from map(work, items)
@@ -53,7 +53,7 @@ def mapped(
 
 
 def cores() -> int:
-    """How many processes may run at once here."""
+    """The number of cores that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:  # a system that does not say
@@ -61,7 +61,7 @@ def cores() -> int:
 
 
 def _attend() -> None:
-    """A worker ends with the program that started it, and by Ctrl-C, without a word of its own."""
+    """Make a worker end with the program that started it, and silently by Ctrl-C."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     threading.Thread(target=_leave, daemon=True).start()
 

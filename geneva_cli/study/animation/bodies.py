@@ -1,4 +1,4 @@
-"""The bodies of a scene: parts as they are cut, and what stands for parts that are not drawn."""
+"""The bodies of a scene: parts as they are cut, and symbols for parts that are not drawn."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
 
 
 def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
-    """Of a ring, with its slots inside: the rim first, and then what is cut out of it."""
+    """An internal wheel's shapes: its rim first, and then what is cut out of it."""
     rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == WHEEL)
     if not rims:
         return shapes
@@ -74,7 +74,7 @@ def _at(r: float, a: float) -> tuple[float, float]:
 
 
 def _mark(shapes: tuple[Shape, ...], turn: Turn) -> Shape:
-    """A dot behind the first slot's end: without it one slot looks like another."""
+    """A dot behind the first slot's end, by which the slots can be told apart."""
     one = turn.passages[0]
     least = float(np.hypot(*turn.pin(one, np.linspace(one.entry, one.exit, 181)).T).min())
     return Circle(PITCH, (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)

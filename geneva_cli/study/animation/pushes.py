@@ -1,4 +1,4 @@
-"""The rollers' forces on the wheel, where they bear."""
+"""The rollers' forces on the wheel, at their points of contact."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ INSIDE = 1e-6  # of a motion, from its ends
 
 
 def pushes(cycle: Cycle, turn: Turn) -> Iterator[Push]:
-    """One for each passage of the turn; none without a load."""
+    """The force of each passage over a turn; none without a load."""
     if not cycle.is_loaded:
         return
     each = len(cycle.mechanism.engagements)
@@ -43,12 +43,14 @@ def pushes(cycle: Cycle, turn: Turn) -> Iterator[Push]:
 
 
 def _normals(one: Passage, local: Array, turn: Turn) -> Array:
-    """Unit normals of the slot in the fixed frame, whichever way; of a sphere's as it is seen."""
+    """Unit normals of the slot in the fixed frame, of either sign; a sphere's in projection."""
     if turn.mechanism.spec.wheel.FLAT:
         x, y = one.engagement.slot(local, 2)
         way = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
         bend = np.column_stack((x.c[2] + 0.0 * local, y.c[2] + 0.0 * local))
-        slow = np.hypot(*way.T) < 1e-6  # the roller turns round, and goes on along its bend
+        slow = (
+            np.hypot(*way.T) < 1e-6
+        )  # at a cusp the roller turns back, in the direction of its second derivative
         way[slow] = bend[slow]
         psi = one.engagement.motion(local, 0).c[0]
         c, s = np.cos(psi), np.sin(psi)

@@ -66,7 +66,7 @@ def scene(design: Design) -> Scene:
 
 
 def _seen(design: Design, bars: tuple[Bar, ...]) -> str:
-    """What the picture shows otherwise than the machine is."""
+    """A remark on what the picture simplifies."""
     if not design.spec.wheel.FLAT:
         return " Seen along the wheel's shaft."
     gears = any(bar.radius for bar in bars)
@@ -110,7 +110,7 @@ def _box(
     radius: float,
     turn_deg: float,
 ) -> Box:
-    """What all bodies, turned any way, and all joints and rollers cover."""
+    """The box of all bodies at any angle, and of all joints and rollers over the turn."""
     boxes = []
     for body in made:
         reach = max(map(_reach, body.shapes))
@@ -129,7 +129,7 @@ def _box(
 
 
 def _plates(bar: Bar, t: float) -> Box:
-    """What a link and its blocks cover at an input angle."""
+    """The box of a link and its blocks at an input angle."""
     corners = []
     for plate in bar.plates:
         x, y, angle = pose(bar, plate, t)
@@ -144,7 +144,7 @@ def _plates(bar: Bar, t: float) -> Box:
 
 
 def _reach(shape: Shape) -> float:
-    """How far from its own origin a shape gets, to a little."""
+    """A shape's greatest distance from its own origin, approximately."""
     if isinstance(shape, Circle):
         return math.hypot(*shape.centre) + shape.radius
     ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))

@@ -1,4 +1,4 @@
-"""A function of the input angle as knots of a cubic that keeps to it."""
+"""Functions of the input angle as knots of cubics, within a stated error."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ DIFFERENCE = 1e-3  # degrees, of a slope that is not known
 
 
 def still(value: float) -> Track:
-    """A value that does not move."""
+    """The track of a constant."""
     return Track((0.0,), (float(value),), (0.0,))
 
 
 def track(
     pieces: Iterable[tuple[float, float, Moving]], error: float, start: float, gain: float = 0.0
 ) -> Track:
-    """Stretches one after the other, each of one smooth function, within ``error`` of it.
+    """The track of stretches that follow each other, each of one smooth function, within ``error``.
 
     ``start`` is the input angle from which the track counts.
 
@@ -62,7 +62,7 @@ def sampled(f: Callable[[Array], Array], a: float, b: float) -> Moving:
 
 
 def resting(value: float) -> Moving:
-    """No motion."""
+    """A constant with its slope of 0."""
     return lambda x: (0.0 * x + value, 0.0 * x)
 
 
@@ -72,7 +72,7 @@ def cut(a: float, b: float, places: Sequence[float]) -> list[tuple[float, float]
 
 
 def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Array, Array]:
-    """Even steps, and halves of those whose cubic is not within the error."""
+    """Knots, values and slopes: even steps, halved where the cubic is not within the error."""
     knots = np.linspace(a, b, BEGUN + 1)
     while True:
         v, s = moving(knots)

@@ -1,4 +1,4 @@
-"""Where wheel, crank, rollers and links of a machine are, over the turn after which it repeats."""
+"""The motion of wheel, crank, rollers and links over the turn after which a machine repeats."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SHARE = 2e-6  # of the centre distance, of joints and rollers: below what a scre
 
 
 class Passage(NamedTuple):
-    """One roller's way through a slot: its engagement, and the input angle of its middle."""
+    """One roller's passage through a slot: its engagement, and its mid-motion's input angle."""
 
     engagement: Engagement
     mid: float
@@ -78,7 +78,7 @@ class Turn:
         return track(pieces, ANGLE, self.start, turned + first)
 
     def crank(self) -> Track:
-        """The direction of what carries the first roller, about the crank's axis, radians."""
+        """The crank's direction about its axis, radians: that of what carries the first roller."""
         one, sign = self.passages[0], self.mechanism.spec.wheel.SIGN
         sense = one.engagement.crank_sense
         ahead = math.pi if sign > 0.0 else 0.0
@@ -109,7 +109,7 @@ class Turn:
         return self._place(lambda x: self.pin(one, x))
 
     def bars(self, found: Outlines | None) -> tuple[Bar, ...]:
-        """The links, as they are cut where they are; ``found`` are the outlines of the rest."""
+        """The links as they are cut; ``found`` are the outlines of the other parts, if any."""
 
         def joint(i: int, j: int) -> Place:
             return self._place(
@@ -150,7 +150,7 @@ class Turn:
 
 
 def _plates(mechanism: Mechanism, found: Outlines | None) -> dict[str, tuple[Carried, ...]]:
-    """What each link is cut as, by its name; nothing where its sizes leave no plate."""
+    """The plates of each link by its name; nothing where its sizes leave none."""
     out: dict[str, tuple[Carried, ...]] = {}
     try:
         cut_ = [m.part for m in drawn_links(mechanism, found).cut if isinstance(m.part, Plate)]

@@ -39,7 +39,7 @@ class Group:
 
 
 def groups(rows: Sequence[Sequence[Value]], wide: Sequence[int]) -> Iterator[Group]:
-    """Rows apart by what is no array: ``wide`` are the numbers of the keys that may be."""
+    """Groups of rows that differ only in the keys numbered ``wide``, which may be arrays."""
     apart: dict[tuple[Value, ...], list[int]] = {}
     for i, row in enumerate(rows):
         apart.setdefault(tuple(v for k, v in enumerate(row) if k not in wide), []).append(i)
@@ -65,9 +65,9 @@ def table(
     names: Sequence[str],
     read: Callable[[Sequence[Value]], Spec],
 ) -> Mapping[int, list[Cell]]:
-    """The quantities of the designs that can be had together, by their numbers among ``rows``.
+    """Quantities of the designs that can be worked out as arrays, by their numbers in ``rows``.
 
-    ``read`` gives the spec of a row. What is missing is had by itself, or cannot be built.
+    ``read`` makes the spec of a row. Designs that are missing must be built alone, or cannot be.
     """
     out: dict[int, list[Cell]] = {}
     words = [k for k in range(len(keys)) if any(isinstance(row[k], str) for row in rows)]

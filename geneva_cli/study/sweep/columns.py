@@ -1,4 +1,4 @@
-"""The quantities of many designs at once, by the names that one design's report gives them."""
+"""Quantities of many designs as arrays, by the names that they have in a report."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
-from geneva_cli.analysis.loads.quantities import known as known_loads
+from geneva_cli.analysis.loads.quantities import in_arrays as known_loads
 from geneva_cli.analysis.loads.summary import SHOWN, shares
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
 from geneva_cli.analysis.strength import pin as pins
@@ -31,7 +31,7 @@ RATES = {
     "jerk": (3, "rad_s3"),
     "power": (3, "rad2_s3"),
 }
-# what the report tells the greatest size of, and what the cycle calls it
+# loads of which the report has the greatest size, and their names in the cycle
 SIZED = {
     "torque_Nm": "wheel_torque_Nm",
     "pin_force_N": "pin_force_N",
@@ -41,15 +41,15 @@ SIZED = {
 SUMMED = ("min", "min_at_deg", "mean", "rms")  # of each quantity of the cycle
 KINETIC = "loads.kinetic_power_W"
 PIN = "strength.pin."
-# of the roller's pin, under the greatest force; its margin is asked of each design
+# of the roller's pin under the greatest force; its margin is no array
 PINS = ("diameter_mm", "bending_MPa", "shear_MPa", "stress_MPa", "least_diameter_mm")
 ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
-def known(names: Sequence[str]) -> bool:
-    """Whether all these quantities are had for arrays of designs.
+def in_arrays(names: Sequence[str]) -> bool:
+    """Whether all these quantities can be worked out for arrays of designs.
 
-    >>> known(["timing.dwell_s", "jerk.max"]), known(["sizes.ratio"])
+    >>> in_arrays(["timing.dwell_s", "jerk.max"]), in_arrays(["sizes.ratio"])
     (True, False)
     """
     return all(
@@ -73,9 +73,9 @@ def _group(name: str) -> str:
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
-    """The quantities of a machine of so many designs, (count,) each; None where one has none.
+    """Quantities of ``count`` designs in one machine, (count,) each; None if one is unknown.
 
-    Infinite is what nothing bounds, and NaN what must be asked of the design alone.
+    A value is infinite where nothing bounds it, and NaN where the design must be built alone.
     """
     groups = dict.fromkeys(_group(name) for name in names)
     found: Columns = {}
@@ -98,7 +98,7 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
 
 
 def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
-    """Of the quantities that all these designs have."""
+    """The loads that are asked for and that all these designs have."""
     cycle = Cycle(machine)
     given = cycle.given
     loaded = np.ravel(given.inertia_Nm + given.resists_Nm > 0.0)
@@ -126,7 +126,7 @@ def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
 
 
 def _pin(machine: Mechanism) -> Columns:
-    """Of the roller's pin, where a face width and an allowable stress are known."""
+    """The stresses of the roller's pin; its least diameter where an allowable stress is given."""
     given, pin = setting(machine), pins.pin(machine)
     if pin is None:
         return {}
@@ -146,7 +146,7 @@ def _pin(machine: Mechanism) -> Columns:
 
 
 def _timing(machine: Mechanism) -> Columns:
-    """Of machines whose engagements are alike: others have no one timing."""
+    """The timing of machines whose engagements are alike; nothing of others."""
     first, *others = timings(machine)
     return {} if others else {f"timing.{n}": v for n, v in first._asdict().items()}
 

@@ -70,7 +70,7 @@ class Sweep(NamedTuple):
     @property
     def together(self) -> bool:
         """Whether the quantities are known for arrays of designs."""
-        return columns.known(self.pick.names)
+        return columns.in_arrays(self.pick.names)
 
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()

@@ -11,7 +11,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.sweep.columns import known
+from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number, refuse_contradictions
 from geneva_cli.study.synthesis.rows import Row
 from geneva_cli.study.synthesis.together import numbers
@@ -54,7 +54,7 @@ def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
     assert wanted.pick
     names = wanted.names
     specs = [row.spec for row in found]
-    together = numbers(specs, names) if known(names) else [None] * len(specs)
+    together = numbers(specs, names) if in_arrays(names) else [None] * len(specs)
     alone = [spec for spec, one in zip(specs, together, strict=True) if one is None]
     rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
     values = [one or next(rest) for one in together]

@@ -12,7 +12,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.study.sweep.columns import known
+from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
@@ -42,8 +42,8 @@ def search(wish: Wish) -> Found:
     wanted = _asked(wish)
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
-    quick = [b for b in wish.limits if known([b.name])]
-    least = wish.sort if wanted.sort and known([wanted.sort]) else ""
+    quick = [b for b in wish.limits if in_arrays([b.name])]
+    least = wish.sort if wanted.sort and in_arrays([wanted.sort]) else ""
     one_each = best([*families(wish, reached)], quick, wish.any_motion, least)
     specs = [_limited(wish, spec) for spec in _keeping(quick, [*dict.fromkeys(one_each)])]
     found = [row for row in rows(wish, specs, errors) if _kept(wish, row)]
