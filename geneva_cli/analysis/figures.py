@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.analysis import peaks
 from geneva_cli.analysis.loads import summary
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes
-from geneva_cli.analysis.loads.quantities import known
+from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
 from geneva_cli.errors import Caution, GenevaError, cut, nearest
@@ -112,7 +112,7 @@ def _title(machines: Sequence[Mechanism]) -> str:
 
 
 def _known(cycle: Cycle) -> set[str]:
-    loads = set(known(cycle))
+    loads = set(known_quantities(cycle))
     shared = summary.shares(cycle).items()
     loads |= {name for name, (of, share, _) in shared if share is not None and of in loads}
     return {*MOTION, *loads}

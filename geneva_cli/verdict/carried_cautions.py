@@ -1,6 +1,6 @@
-"""What a designer must be told about what the wheel carries and what drives it.
+"""Cautions about what the wheel carries, and about what drives it.
 
-The wheel itself, weight to one side or out of reach, and keys with nothing to act on.
+The wheel's own inertia, unbalanced or distant masses, and keys without effect.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Motor
 
 NAME = "wheel"  # of the [[mass]] that is the wheel itself
-SHOWN = 0.01  # share of the inertia that is given
+SHOWN = 0.01  # share of the given inertia: less of the wheel's own is not mentioned
 FAR = 5.0  # centre distances to a body, beyond most tables
-FULL_CIRCLE = 2  # bodies from which on so many alike are taken to stand evenly around the axis
+FULL_CIRCLE = 2  # so many alike, or more, are taken to stand evenly around the axis
 
 
 def carried_cautions(mechanism: Mechanism, plate: MassProperties | None) -> list[Caution]:
@@ -51,7 +51,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
 
 
 def _to_one_side(spec: Spec) -> list[Caution]:
-    """On a horizontal axis a body to one side takes a torque of gravity, which is not counted."""
+    """Masses to one side of a horizontal axis: the torque of gravity is not counted."""
     if spec.support.axis != "horizontal":
         return []
     out: list[Caution] = []
@@ -71,7 +71,7 @@ def _to_one_side(spec: Spec) -> list[Caution]:
 
 
 def _far(mechanism: Mechanism) -> list[Caution]:
-    """A body where no table reaches."""
+    """A mass farther off than any table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     share = far / mechanism.center_distance_mm
     if share <= FAR:
@@ -86,7 +86,7 @@ def _far(mechanism: Mechanism) -> list[Caution]:
 
 
 def _for_nothing(spec: Spec) -> list[Caution]:
-    """Keys that have nothing to act on."""
+    """Keys without effect."""
     out: list[Caution] = []
     if not spec.is_loaded and spec.motor != Motor():
         out.append(

@@ -1,4 +1,4 @@
-"""What a designer must be told without asking: each caution says what, where and what helps."""
+"""Cautions about a machine's motion and slots: what is the matter, where, and what helps."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import extrema
 from geneva_cli.spec.tables import Z_USUAL
 
-SHOWN_DOUBT = 0.01  # share of the greatest jerk
+SHOWN_DOUBT = 0.01  # share of the greatest jerk: less is not mentioned
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
 def cautions(mechanism: Mechanism) -> list[Caution]:
-    """Everything that a number alone would hide."""
+    """The cautions about a machine that need neither its loads nor its parts."""
     out: list[Caution] = []
     z = mechanism.spec.wheel.z
     if z > Z_USUAL:
@@ -76,9 +76,9 @@ def _no_lock(mechanism: Mechanism) -> bool:
 
 
 def _rounded_points(mechanism: Mechanism) -> list[Caution]:
-    """What the points of a file, as rounded as they are, leave unknown of the jerk."""
+    """How far the rounding of a file's points leaves the jerk unknown."""
     engagement, law = mechanism.engagements[0], mechanism.law
-    top = peak(engagement.motion, "velocity")  # of a ratio, the crank's jerk counts there most
+    top = peak(engagement.motion, "velocity")  # where the jerk of a ratio counts most
     ratio = mechanism.spec.drive.doubt(engagement.mid_deg + top.at_deg)
     points = law.doubt() if law else None
     if ratio:
@@ -102,7 +102,7 @@ def _rounded_points(mechanism: Mechanism) -> list[Caution]:
 
 
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
-    """The least velocity and its input angle, where the wheel turns against its direction."""
+    """The least velocity and its input angle if the wheel turns back; else None."""
     engagement, pick = mechanism.engagements[0], QUANTITIES["velocity"]
     motion = engagement.motion
 
@@ -115,7 +115,7 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
         x for a, b in zip(breaks, breaks[1:], strict=False) for x in (*extrema(curve, a, b), b)
     ]
     least = min(places, key=lambda x: curve(x)[0])
-    # Rounding leaves a law that stands still a few units in its last place on either side of 0.
+    # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
     noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
     value = curve(least)[0]
     at_deg = mechanism.shown_deg(engagement.mid_deg + least)

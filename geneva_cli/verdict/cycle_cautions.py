@@ -1,6 +1,4 @@
-"""What a designer must be told about a cycle: where the wheel drives the motor, and numbers whose
-size says that another unit was meant.
-"""
+"""Cautions about a cycle: where the wheel drives the motor, and numbers of an unlikely size."""
 
 from __future__ import annotations
 
@@ -14,10 +12,10 @@ from geneva_cli.machine.mechanism import Mechanism
 
 SOUND_M_S = 343.0
 STEEL_KGM3 = 7850.0
-# The largest table that a wheel of centre distance L may be thought to turn: solid steel, six L
-# across and half of one thick. What is heavier is nearly always kg cm2.
+# The largest table that a wheel of centre distance L is expected to turn: solid steel, 6 L across
+# and L/2 thick. A larger inertia is nearly always one in kg cm2.
 ACROSS, THICK = 6.0, 0.5
-BRIEF = 1e-4  # share of a motion: at rest, before and after it, signs are rounding
+BRIEF = 1e-4  # share of a motion: next to a rest signs are rounding
 ROUNDING = 1e-9  # share of the greatest torque
 
 
@@ -27,7 +25,7 @@ def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
-    """Input angles from and to which the wheel drives the input, within one motion each."""
+    """The intervals of input angle, as shown, in which the wheel drives the input."""
     shown, out = cycle.mechanism.shown_deg, list[tuple[float, float]]()
     last = None
     for engagement, stretch in cycle.stretches:
@@ -47,7 +45,7 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     if least is None or alpha.min is None or not least < -ROUNDING * abs(most or least):
         return []
     where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in back_driven_deg(cycle))
-    # All that brakes the wheel at its greatest deceleration: the input then never has to.
+    # With so much resistance the wheel is braked without the input even where it slows down most.
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min
     return [

@@ -1,4 +1,4 @@
-"""What a designer must be told about loads: which have no bound, and limits that none keeps."""
+"""Cautions about loads: those without a bound, and limits that no speed keeps."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import math
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
-from geneva_cli.analysis.loads.quantities import STRESS, ends_of, known
+from geneva_cli.analysis.loads.quantities import STRESS, ends_of, known_quantities
 from geneva_cli.analysis.loads.summary import extremes
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 
 
 def load_cautions(mechanism: Mechanism) -> list[Caution]:
-    """Cautions that need the loads, which are looked for only where they are shown."""
+    """The cautions that need the loads; none without a load."""
     if not mechanism.spec.is_loaded:
         return []
     cycle = cycle_of(mechanism)
@@ -28,7 +28,7 @@ def _kept(cycle: Cycle) -> bool:
     """Whether the limits on loads are kept at the speed as it is."""
     limits = zip(loads.LIMITED, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
     given = {name: limit for name, limit in limits if limit}
-    if not given.keys() <= set(known(cycle)):
+    if not given.keys() <= set(known_quantities(cycle)):
         return False
     found = zip(extremes(cycle, list(given)), given.values(), strict=True)
     return all(max(one.max, -one.min) <= limit for one, limit in found)
@@ -55,7 +55,7 @@ def _jammed(cycle: Cycle) -> list[Caution]:
 
 
 def _on_an_edge(cycle: Cycle) -> list[Caution]:
-    if STRESS not in known(cycle):
+    if STRESS not in known_quantities(cycle):
         return []
     stress, force = ends_of(cycle, STRESS, "pin_force_N")
     if math.isfinite(stress.max) or math.isinf(force.max) or math.isinf(force.min):

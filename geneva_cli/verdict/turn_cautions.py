@@ -1,4 +1,4 @@
-"""What a designer must be told about a whole turn that breaks no limit."""
+"""Cautions about a whole turn of the parts that breaks no limit."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def turn_cautions(proof: Proof) -> list[Caution]:
         ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.found)
     except GenevaError:
         return []
-    # What is free both ways is play, which has a limit of its own.
+    # Freedom both ways is play, which has a limit of its own.
     free = max(ahead.deg, behind.deg)
     if free <= limit or proof.turn.motion.deg >= free * (1.0 - SAME):
         return []

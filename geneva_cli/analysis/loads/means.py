@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED, ends_of, known
+from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED, ends_of, known_quantities
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -35,7 +35,7 @@ def means_of(cycle: Cycle) -> Mapping[str, Means]:
 
     What has no bound has no mean either: nearly always, and never one to rely on.
     """
-    names = known(cycle)
+    names = known_quantities(cycle)
     found = ends_of(cycle, *names)
     names = [name for name, ends in zip(names, found, strict=True) if _is_bounded(ends)]
 

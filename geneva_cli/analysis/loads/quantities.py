@@ -1,4 +1,4 @@
-"""The quantities of a cycle by their names, and the greatest and least of each, looked for once."""
+"""The quantities of a cycle by their names, and the extremes of each, which are searched once."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
 from geneva_cli.analysis.loads.forces import Row
 
 STRESS = "contact_stress_MPa"
-MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # what is known without a load
+MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
 KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power of an inertia of 1
-PRESSED = (STRESS, PV)  # what is known with a face width alone
-# Whose squares are looked for: a root has no slope where it is 0, nor has the size of a vector.
+PRESSED = (STRESS, PV)  # known only with a face width
+# Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
-# What each quantity is at an instant, whose extremes are looked for.
+# Each quantity at an instant.
 QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: Row(i.omega_rad_s),
     "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
@@ -29,8 +29,8 @@ QUANTITIES: dict[str, Quantity] = {
 }
 
 
-def known(cycle: Cycle) -> list[str]:
-    """The quantities of which there is a value."""
+def known_quantities(cycle: Cycle) -> list[str]:
+    """The names of the quantities that have a value for this machine and load."""
     missing = {KINETIC} if cycle.given.hertz is not None else {KINETIC, *PRESSED}
     if not any(engagement.reactions for engagement in cycle.mechanism.engagements):
         missing.add("guide_force_N")
@@ -39,22 +39,22 @@ def known(cycle: Cycle) -> list[str]:
 
 
 def ends_of(cycle: Cycle, *names: str) -> list[Extremes]:
-    """Greatest and least of quantities that are known, over all motions."""
+    """The extremes of known quantities over all motions."""
     return [_of_all(ends_of_each(cycle, name)) for name in names]
 
 
 def ends_of_each(cycle: Cycle, name: str) -> list[Extremes]:
-    """Greatest and least of a quantity that is known, a row an engagement.
+    """The extremes of a known quantity, one for each engagement.
 
-    All that are known are looked for at once: a search pays for the motion, not for what is asked.
+    All known quantities are searched at once, as nearly all of the cost is the motion's.
     """
     if not cycle.found:
-        names = (*known(cycle), KINETIC)
+        names = (*known_quantities(cycle), KINETIC)
         cycle.look({name: QUANTITIES[name] for name in names})
     return cycle.found[name]
 
 
 def _of_all(each: list[Extremes]) -> Extremes:
-    """The first that is greatest, and the first that is least."""
+    """The greatest maximum and the least minimum, of equal ones the first."""
     most, least = max(each, key=lambda one: one.max), min(each, key=lambda one: one.min)
     return Extremes(most.max, most.max_at_deg, least.min, least.min_at_deg)

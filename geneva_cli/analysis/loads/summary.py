@@ -12,7 +12,14 @@ import numpy as np
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.means import Means, means_of, plain_of
-from geneva_cli.analysis.loads.quantities import PRESSED, PV, SQUARED, STRESS, ends_of, known
+from geneva_cli.analysis.loads.quantities import (
+    PRESSED,
+    PV,
+    SQUARED,
+    STRESS,
+    ends_of,
+    known_quantities,
+)
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.errors import Caution
@@ -92,7 +99,7 @@ class Summary(NamedTuple):
 @lru_cache(maxsize=16)
 def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     """The summary of each quantity, by its name; None for each value that is not known."""
-    names = known(cycle)
+    names = known_quantities(cycle)
     found = ends_of(cycle, *names)
 
     means = means_of(cycle)
@@ -204,7 +211,7 @@ def missing(cycle: Cycle) -> list[Caution]:
     wide = cycle.given.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
-    if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known(cycle):
+    if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known_quantities(cycle):
         needs = f"needs {spec.drive.LENGTH} in [drive]"
         out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
@@ -234,7 +241,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
-    found = {name: plain_of(states, name) for name in known(cycle)}
+    found = {name: plain_of(states, name) for name in known_quantities(cycle)}
     for name, (source, share, _) in shares(cycle).items():
         if share is not None and source in found:
             found[name] = found[source] * share

@@ -11,7 +11,7 @@ from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
-from geneva_cli.analysis.loads.quantities import in_arrays as known_loads
+from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.loads.summary import SHOWN, shares
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
 from geneva_cli.analysis.strength import pin as pins
@@ -103,7 +103,7 @@ def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
     given = cycle.given
     loaded = np.ravel(given.inertia_Nm + given.resists_Nm > 0.0)
     lent = {n: source for n, (source, share, _) in shares(cycle).items() if share is not None}
-    there = known_loads(cycle)
+    there = known_quantities(cycle)
     sized = dict.fromkeys(a[1] for a in asked if a[-1] in ("max", "at_deg"))
     sized = dict.fromkeys(q for q in sized if SIZED[q] in there)
     summed = dict.fromkeys(a[1] for a in asked if a[-1] in SUMMED)

@@ -1,4 +1,4 @@
-"""Does the crank arm keep its walls, and clear the wheel's hub? Asked where the spec names it."""
+"""The crank arm: its walls, and its clearance to the wheel's hub. Made where its keys are given."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do the two branches of a curved slot, the way in and the way out, stay together?
+"""The distance of a curved slot's two branches, the way in and the way out.
 
 Farther apart than the slot is wide, they leave an island between them, which falls out.
 """

@@ -1,4 +1,4 @@
-"""Are gears that roll on each other convex, so that a hob can cut them?"""
+"""The convexity of noncircular gears: a hob cuts no hollow ones."""
 
 from __future__ import annotations
 

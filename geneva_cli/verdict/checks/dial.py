@@ -1,4 +1,4 @@
-"""Does the wheel keep its walls round keyway and bolts? Asked where the spec names them."""
+"""The wheel's walls round its keyway and the dial's bolts. Made where their keys are given."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Does the wheel rest between its steps?"""
+"""The dwell between two steps."""
 
 from __future__ import annotations
 

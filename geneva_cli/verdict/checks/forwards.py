@@ -1,4 +1,4 @@
-"""Does the wheel turn forwards throughout?"""
+"""The direction of the wheel's motion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Can the roller follow a groove that leads it, in the dwell too?"""
+"""The pressure angle in a cam's groove, over the whole turn."""
 
 from __future__ import annotations
 

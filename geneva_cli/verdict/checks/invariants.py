@@ -1,4 +1,4 @@
-"""Do the motion's peaks keep the spec's limits? Derivatives by the input angle in radians."""
+"""The motion's peaks against the spec's limits (derivatives by the input angle in radians)."""
 
 from __future__ import annotations
 

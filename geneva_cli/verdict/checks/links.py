@@ -1,4 +1,4 @@
-"""Do the links keep their walls, and clear what passes through their planes?"""
+"""The links: their walls, and their clearance to what passes through their planes."""
 
 from __future__ import annotations
 

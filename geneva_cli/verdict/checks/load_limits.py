@@ -1,4 +1,4 @@
-"""Do the greatest loads keep the spec's limits?"""
+"""The greatest loads against the spec's limits."""
 
 from __future__ import annotations
 

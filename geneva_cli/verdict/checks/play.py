@@ -1,4 +1,4 @@
-"""Is the wheel held in its dwell, handed over to the roller, and led in its motion?"""
+"""The wheel's play in its dwell, between lock and slot, and in its motion."""
 
 from __future__ import annotations
 

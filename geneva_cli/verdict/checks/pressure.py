@@ -1,4 +1,4 @@
-"""Does the slot's wall turn the wheel, rather than push on its shaft?"""
+"""The pressure angle between roller and slot."""
 
 from __future__ import annotations
 

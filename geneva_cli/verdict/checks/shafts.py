@@ -1,4 +1,4 @@
-"""Do shafts and hubs clear what passes them by?"""
+"""The clearance of shafts and hubs to what passes them."""
 
 from __future__ import annotations
 

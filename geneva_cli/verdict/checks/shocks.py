@@ -1,4 +1,4 @@
-"""Does the roller strike its slot harder than it may, at the worst of the tolerances?"""
+"""The forces of shocks at the worst of the tolerances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do pin, horn, lock, shafts and roller hold, where the spec says what they may bear?"""
+"""Stresses and life of pin, horn, lock, shafts and roller, where the spec gives limits."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Found: TypeAlias = tuple[float | None, float | None]
 
 
 class Bound(NamedTuple):
-    """What a part may bear, as a spec gives it, and what it bears."""
+    """A part's limit in the spec, and how its value is found."""
 
     limit: Callable[[Spec], float | None]
     found: Callable[[Strength], Found]

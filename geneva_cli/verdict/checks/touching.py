@@ -1,4 +1,4 @@
-"""Do parts overlap anywhere in a whole turn?"""
+"""The gaps between parts in a whole turn."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Is a curved slot's wall cut back by the roller's own cutter?"""
+"""Undercut of a curved slot's walls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do walls stay in the wheel and the crank? Each is held to ``wall_min_mm``."""
+"""Walls of wheel and crank, each against ``wall_min_mm``."""
 
 from __future__ import annotations
 

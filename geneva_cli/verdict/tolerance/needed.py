@@ -1,12 +1,12 @@
 """The clearances with which every machine within the tolerances still turns.
 
 The tightest machine has the largest roller in the narrowest slot, and the largest disc in the
-smallest recess. Where the roller comes in, the wheel rests in its lock: what the crank's radius,
-the centre distance and the slot's angle are off there lies across the slot. The wheel gives way to
-it by the least play of its lock; the rest must be clearance. What the centre distance is off takes
-of the lock's clearance. These sums are exact where the roller enters along the slot. What is left
-of the clearances must be 0 or more; then the parts of that machine, and of the loosest, are turned
-through a whole turn of the crank.
+smallest recess. Where the roller enters, the wheel rests in its lock, and the deviations of crank
+radius, centre distance and slot angle put the roller beside the slot. The wheel gives way by the
+least play of its lock; the slot's clearance must take the rest. The deviation of the centre
+distance reduces the lock's clearance. These sums are exact where the roller enters along the slot.
+Where the clearances suffice, the parts of that machine, and of the loosest, are turned through a
+whole turn.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ LOOSE = "smallest roller and locking disc, widest slot and recess"
 
 
 class Needed(NamedTuple):
-    """What the clearances must be, mm per side; and whether the parts turn within all tolerances.
+    """The clearances needed, mm per side, and whether the parts turn within all tolerances.
 
     ``lock_mm`` is None without a locking disc. ``turns`` is None where parts cannot be turned;
     ``why`` says what fails, or why it cannot be told.
@@ -40,15 +40,17 @@ class Needed(NamedTuple):
     why: str
 
 
-def needed(mechanism: Mechanism, proof: Proof, sizes: dict[str, float], yields: float) -> Needed:
+def needed(
+    mechanism: Mechanism, proof: Proof, sizes: dict[str, float], least_play: float
+) -> Needed:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
-    ``sizes`` are the tolerances in millimetres and radians, those that apply; ``yields`` is the
-    least play of the lock, radians.
+    ``sizes`` are the tolerances that apply, in millimetres and radians; ``least_play`` is that of
+    the lock, radians.
     """
     spec = mechanism.spec
     fit = 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"])
-    slot = fit + max(_across(mechanism, e, sizes, yields) for e in mechanism.engagements)
+    slot = fit + max(_across(mechanism, e, sizes, least_play) for e in mechanism.engagements)
     ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
     if not spec.is_flat:
         return Needed(slot, None, None, "the parts are not drawn or turned against each other")
@@ -72,9 +74,9 @@ def needed(mechanism: Mechanism, proof: Proof, sizes: dict[str, float], yields: 
 
 
 def _across(
-    mechanism: Mechanism, engagement: Engagement, sizes: dict[str, float], yields: float
+    mechanism: Mechanism, engagement: Engagement, sizes: dict[str, float], least_play: float
 ) -> float:
-    """How far the roller may be beside its slot where it enters and leaves, mm, or 0."""
+    """The roller's greatest distance beside its slot at entry and exit, mm; at least 0."""
     L, arm = mechanism.center_distance_mm, arm_mm(mechanism, engagement)
     share = sizes["crank_radius_mm"] / arm
     most = 0.0
@@ -87,7 +89,7 @@ def _across(
         of_arm = abs(nx * (px - engagement.hub) + ny * py) * L * share
         of_distance = abs(nx) * sizes["center_distance_mm"]
         lever = abs(ny * px - nx * py) * L
-        of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(yields))
+        of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(least_play))
         most = max(most, of_arm + of_distance + of_angle)
     return most
 
@@ -95,7 +97,7 @@ def _across(
 def corner(
     spec: Spec, found: Outlines, sizes: dict[str, float], sign: float, slot: float, lock: float
 ) -> Spec:
-    """The spec of the tightest machine (-1) or of the loosest (+1), all other sizes as they are."""
+    """The spec of the tightest machine (``sign`` -1) or the loosest (+1); other sizes fixed."""
     size, given = found.sizes, spec.size
     roller = size.roller - sign * 0.5 * sizes["roller_diameter_mm"]
     clearance = max(given.allowances.slot_clearance_mm + sign * slot, 0.0)

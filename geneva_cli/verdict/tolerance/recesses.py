@@ -1,4 +1,4 @@
-"""What locks a wheel: the corners of its recesses and the arcs of its disc, from the outlines."""
+"""The locks of a wheel, from its outlines: corners of its recesses, and arcs of its disc."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tolerances of one machine: its place in the dwell, its motion, its entry, its clearances."""
+"""The effect of one machine's tolerances on its dwell, motion, entry and clearances."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLACES = 361  # of a motion
 
 
 class Entry(NamedTuple):
-    """The jump at entry, over the input's speed, by its size; a machine that misses counts as 0."""
+    """Sizes of the jump at entry over the input's speed; 0 for a machine that misses the axis."""
 
     worst: float
     mean: float
@@ -36,7 +36,7 @@ class Entry(NamedTuple):
 
 
 class Study(NamedTuple):
-    """What the tolerances do; None where a machine has nothing of the kind, as ``warnings`` say."""
+    """The effects of the tolerances; None where one does not exist, as ``warnings`` say."""
 
     dwell: Spread | None
     motion: Spread | None
@@ -123,9 +123,9 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
 
 
 def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
-    """The roller must stay clear of the wheel's axis, and the crank keep its radius, in every draw.
+    """Raise GenevaError where some machine's roller may reach the wheel's axis or the crank's.
 
-    A normal distribution has tails: what is drawn of it lies within three times its plus or minus.
+    A normal distribution has tails: deviations lie within three times the plus or minus.
     """
     times = TAIL if mechanism.spec.tolerance.distribution == "normal" else 1.0
     play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
@@ -146,7 +146,7 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
 def _applicable(
     mechanism: Mechanism, given: dict[str, float]
 ) -> tuple[dict[str, float], list[Caution]]:
-    """The tolerances that move something in this machine, the others 0; and why they do not."""
+    """The tolerances, 0 for those without effect in this machine; and why they have none."""
     use, warnings = dict(given), list[Caution]()
     why = {}
     if not mechanism.spec.drive.ONE_ARM:

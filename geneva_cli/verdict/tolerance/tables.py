@@ -20,7 +20,7 @@ ARCSEC = 3600.0  # in a degree
 def tolerance_table(
     mechanism: Mechanism, proof: Proof, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study as a record; ``radius_mm`` is where micrometres are told, none without it."""
+    """The study as a record, with micrometres at ``radius_mm``, if that is given."""
     if radius_mm is not None and not (0.0 < radius_mm < math.inf):
         raise GenevaError(f"--radius {radius_mm:g}: it must be above 0 mm, and finite")
     found = study(mechanism, proof, samples, seed)
@@ -50,7 +50,7 @@ def tolerance_table(
 
 
 def histogram_table(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Table:
-    """How the machines spread: for each angle the middles of bins, and their shares.
+    """Histograms of the machines: for each angle the middles of bins, and the share in each.
 
     Raises GenevaError where neither angle is known.
     """

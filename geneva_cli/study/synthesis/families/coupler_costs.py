@@ -31,7 +31,7 @@ class Costs(NamedTuple):
     motion_deg: Array
 
     def of(self, name: str) -> Array:
-        """A quantity that ``known`` knows, (n,)."""
+        """A quantity that ``is_known`` knows, (n,)."""
         group, _, told = name.partition(".")
         if group == "timing":
             dwell = 360.0 - self.motion_deg
@@ -59,7 +59,7 @@ class Costs(NamedTuple):
         return np.array([self.wish.n_rpm(1, float(x)) for x in self.motion_deg])
 
 
-def known(name: str) -> bool:
+def is_known(name: str) -> bool:
     """Whether the search knows a quantity."""
     group, _, told = name.partition(".")
     if group == "timing":

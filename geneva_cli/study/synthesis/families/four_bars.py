@@ -22,7 +22,7 @@ from geneva_cli.machine.path_wheels import followed
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.families.coupler import driving
-from geneva_cli.study.synthesis.families.coupler_costs import known
+from geneva_cli.study.synthesis.families.coupler_costs import is_known
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
@@ -57,7 +57,7 @@ def four_bars(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         return
     found = _found(wish, wheel, free, natural)
     names = [wish.sort.lstrip("-") or PEAK, *(b.name for b in wish.limits)]
-    left = 1 if all(map(known, names)) else 1 + OTHERS
+    left = 1 if all(map(is_known, names)) else 1 + OTHERS
     for i in range(len(found.cost)):
         spec = _spec(wish, wheel, found, i)
         if spec is not None:
@@ -76,12 +76,12 @@ def _found(wish: Wish, wheel: Gearing, free: Span, natural: float) -> Pool:
     roller = min(ROLLER, THIN * math.sin(wheel.step.b))
     if given is not None:
         roller = given / frame.given_distance_mm
-    bounds = tuple(b for b in wish.limits if known(b.name))
+    bounds = tuple(b for b in wish.limits if is_known(b.name))
     goal = Goal(wish, wheel, free, roller, bounds, PEAK)
     least = wish.sort.lstrip("-")
     if least:
         sign = -1.0 if wish.sort.startswith("-") else 1.0
-        return searched(goal._replace(least=least, sign=sign) if known(least) else goal)
+        return searched(goal._replace(least=least, sign=sign) if is_known(least) else goal)
     if not wish.any_motion:
         return searched(goal)
     same = searched(goal._replace(motion=Span(natural, natural)))
