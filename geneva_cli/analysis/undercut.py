@@ -14,6 +14,7 @@ import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import Pitch, pitch, retraces
+from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
@@ -81,7 +82,7 @@ def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
             _of_branch(at, degrees, outer, side, r, L, back)
             for at, degrees, side in ((inward, x, 1.0), (outward, -x, -1.0))
         )
-    deeper = (other.depth_mm > one.depth_mm) | np.isnan(one.depth_mm)
+    deeper = (other.depth_mm > one.depth_mm * (1.0 + TIE)) | np.isnan(one.depth_mm)
     return Undercuts(*(np.where(deeper, b, a) for a, b in zip(one, other, strict=True)))
 
 

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from geneva_cli.numerics.arrays import all_true, choose
@@ -129,6 +129,17 @@ class Falsi:
         else:
             self.bad, self.short, self._stayed = x, left, min(self._stayed, 0) - 1
             self.left *= 0.5 if self._stayed < -1 else 1.0
+
+
+def first_greatest(values: Sequence[float]) -> int:
+    """Which of some values is the greatest; of some that are one but for rounding, the first.
+
+    >>> first_greatest([1.0, 3.0, 3.0000000000000004])
+    1
+    """
+    most = max(values)
+    bar = most - TIE * abs(most) if math.isfinite(most) else most
+    return next(i for i, value in enumerate(values) if value >= bar)
 
 
 def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:

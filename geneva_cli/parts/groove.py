@@ -13,7 +13,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
 from geneva_cli.machine.slot_and_motion import SolvedPath
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.numerics.roots import boundary_by_sections
+from geneva_cli.numerics.roots import boundary_by_sections, first_greatest
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
 LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
 FEW = 720  # of them, where a little less will do
+TOP = 0.99  # of the steepest place of them: another top may be as steep
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
@@ -132,21 +133,32 @@ def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
 
     tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
     """
-    grid = _all_round(groove)
+    grid = _all_round(groove)[:-1]
     R, slope, _ = _distances(groove, grid)
-    i = int(np.argmax(np.abs(slope) / R))
-    low, high = grid[max(i - 1, 0)], grid[min(i + 1, LOOKS)]
-    sense = math.copysign(1.0, slope[i])
+    steep = np.abs(slope) / R
+    tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
+    tops &= steep > TOP * steep.max()
+    middle = 0.5 * (groove.motion.entry_deg + groove.motion.exit_deg)
+    # a groove is as steep before the motion as after it: from the middle of the dwell on
+    places = sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops])
+    found = [_steepest(groove, x) for x in places]
+    tangent, at_deg = found[first_greatest([top for top, _ in found])]
+    return math.degrees(math.atan(tangent)), at_deg
+
+
+def _steepest(groove: SolvedPath, about: float) -> tuple[float, float]:
+    """The greatest tangent within a place of the grid of ``about``, and where it is."""
+    step = 360.0 / LOOKS
+    sense = math.copysign(1.0, _distances(groove, np.array([about]))[1][0])
 
     def rises(x: Array) -> Mask:
         r, dr, ddr = _distances(groove, x)
         return sense * (r * ddr - dr * dr) > 0.0
 
-    at_deg = boundary_by_sections(
-        rises, float(low), float(high)
-    )  # a corner of the groove, or a smooth top
+    # a corner of the groove, or a smooth top
+    at_deg = boundary_by_sections(rises, about - step, about + step)
     r, dr, _ = _distances(groove, np.array([at_deg]))
-    return math.degrees(math.atan(abs(dr[0]) / r[0])), at_deg
+    return float(abs(dr[0]) / r[0]), at_deg
 
 
 def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:

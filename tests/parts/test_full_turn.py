@@ -103,8 +103,15 @@ FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
     found = outlines(load(str(path)))
-    assert passes(found, full_turn(found))
+    turn = full_turn(found)
+    assert passes(found, turn)
     assert not list(overlaps(found, 20))
+    mechanism = found.assembly.given
+    one = len(mechanism.engagements) == 1 and mechanism.spec.drive.turns == 1
+    if one and mechanism.engagements[0].motion.symmetric:
+        # what is as small or as great on the way out is told of the way in
+        for told in (turn.driving, turn.lock, turn.dwell, turn.hand_over, turn.motion):
+            assert told is None or told.at_deg <= 0.0 or told.at_deg == 180.0
 
 
 def opening(rim: float, radius: float) -> float:

@@ -19,6 +19,7 @@ from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.roots import TIE, first_greatest
 from geneva_cli.spec.tables import Limits
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ def _over_all(mechanism: Mechanism, given: Setting, quantity: str) -> Greatest:
     best = Greatest(0.0, 0.0)
     for engagement in mechanism.engagements:
         found = _greatest(engagement, given)[quantity]
-        if found.max > best.max:
+        if found.max > best.max * (1.0 + TIE):
             best = Greatest(found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg))
     return best
 
@@ -106,10 +107,11 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
     if not is_straight(engagement) and not retraces(engagement):
         pressure = Greatest(90.0, 0.0)
     stress = Greatest(math.sqrt(square[0].max), square[0].at_deg) if square else Greatest(0.0, 0.0)
+    shafts = sorted((driving, driven), key=lambda found: found.at_deg)
     return {
         "torque_Nm": torque,
         "pin_force_N": force,
-        "input_torque_Nm": max(driving, driven, key=lambda found: found.max),
+        "input_torque_Nm": shafts[first_greatest([found.max for found in shafts])],
         "contact_stress_MPa": force if square and math.isinf(force.max) else stress,
         "pressure_deg": pressure,
     }

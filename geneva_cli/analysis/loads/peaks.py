@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier is meant
+# So are values that differ by less of their greatest size: a length is looked for as its square,
+# and where that is 0 some units in the last place of the length are left, squared.
+NOUGHT = 1e-28
 
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
@@ -84,7 +87,9 @@ def looked(
             out.append(Greatest(math.inf, min(brink, 0.0) if ends[i] == math.inf else brink))
         else:
             places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
-            out.append(_greatest(places, engagement, least))
+            value = found.value[i]
+            size = float(np.abs(value[np.isfinite(value)]).max(initial=0.0))
+            out.append(_greatest(places, engagement, least, size))
     return out, found
 
 
@@ -132,13 +137,18 @@ def _tops(
     return out
 
 
-def _greatest(places: list[tuple[float, float]], engagement: Engagement, least: float) -> Greatest:
+def _greatest(
+    places: list[tuple[float, float]], engagement: Engagement, least: float, size: float
+) -> Greatest:
+    """The first of the greatest of some values, which come to ``size``."""
     most = max(value for _, value in places)
+    most = 0.0 if abs(most) <= NOUGHT * size else most
     if not most > least:
         return Greatest(least, engagement.entry_deg)
     if math.isinf(most):
         return Greatest(most, 0.0)
-    first = min(x for x, value in places if value >= most - TIE * abs(most))
+    tie = max(TIE * abs(most), NOUGHT * size)
+    first = min(x for x, value in places if value >= most - tie)
     return Greatest(most, at_break(first, engagement))
 
 

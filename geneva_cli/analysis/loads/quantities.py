@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
 from geneva_cli.analysis.loads.forces import Row
+from geneva_cli.numerics.roots import first_greatest
 
 STRESS = "contact_stress_MPa"
 MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
@@ -56,5 +57,6 @@ def ends_of_each(cycle: Cycle, name: str) -> list[Extremes]:
 
 def _of_all(each: list[Extremes]) -> Extremes:
     """The greatest maximum and the least minimum, of equal ones the first."""
-    most, least = max(each, key=lambda one: one.max), min(each, key=lambda one: one.min)
+    most = each[first_greatest([one.max for one in each])]
+    least = each[first_greatest([-one.min for one in each])]
     return Extremes(most.max, most.max_at_deg, least.min, least.min_at_deg)

@@ -23,6 +23,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.machine.pitch_curve import pitch
+from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -140,7 +141,7 @@ def horn(
     for side in horns(mechanism, half_width_mm, recess_mm):
         start = _Search(side, _from(_halves(side), GRID), _from([side.mouth_deg], GRID)[0])
         found = _looked(mechanism, start, width_mm)
-        if found and not (best and best[0].stress_MPa >= found[0].stress_MPa):
+        if found and not (best and found[0].stress_MPa <= best[0].stress_MPa * (1.0 + TIE)):
             best = found
     if best is None:
         return None
@@ -181,7 +182,8 @@ def _looked(
     thick = side.thickness(wall)
     contact = places[:, : roller.size], normals[:, : roller.size]
     stress = _stress(mechanism, side, width, roller.ravel(), contact, wall, thick)
-    i, j = divmod(int(np.argmax(stress)), len(u))
+    first = int(np.argmax(stress >= stress.max() * (1.0 - TIE)))
+    i, j = divmod(first, len(u))
     if not stress[i, j] > 0.0:
         return None
     half, k = divmod(i, roller.shape[1])

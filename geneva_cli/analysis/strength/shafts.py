@@ -24,6 +24,7 @@ from geneva_cli.analysis.loads.instant import instant
 from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.peaks import maxima
 from geneva_cli.numerics.arrays import first_of, parameter
+from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -143,7 +144,7 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     for engagement in mechanism.engagements:
         found, turned = maxima(engagement, known, rows)
         most = max(most, turned.max)
-        if found.max > both:
+        if found.max > both * (1.0 + TIE):
             both, at_deg = found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg)
     moment, _, *rest = first_of(_turned(mechanism, ends, np.array([both]), at_deg, most))
     assert moment is not None

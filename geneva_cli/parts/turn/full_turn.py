@@ -11,12 +11,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.turn.play import NEAR, Play, edges, play_of, push_deg, search_deg, windows
+from geneva_cli.parts.turn.play import (
+    EXACT,
+    NEAR,
+    Play,
+    edges,
+    play_of,
+    push_deg,
+    search_deg,
+    windows,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -48,6 +57,10 @@ class Most(NamedTuple):
 
     deg: float
     at_deg: float
+
+
+Place = TypeVar("Place", Gap, Most)
+Earlier: TypeAlias = Callable[[float], float]
 
 
 class FullTurn(NamedTuple):
@@ -90,41 +103,57 @@ def full_turn(outlines: Outlines) -> FullTurn:
     Raises NotProved where that takes more than ``gaps.WORK``.
     """
     outlines.gaps.begin()
-    driving, idle, lock = _smallest(outlines, positions(outlines))
+    earlier = _earlier(outlines)
+    driving, idle, lock = _smallest(outlines, positions(outlines), earlier)
     play = play_of(outlines)
     most = search_deg(outlines)
     middles = np.array([0.5 * (w.start + w.end) for w in windows(outlines) if w.rests])
     dwell = np.degrees(np.maximum(*edges(outlines, middles))) if len(middles) else np.zeros(0)
     push = push_deg(outlines, play)
-    place = outlines.assembly.shown_deg
+
+    def shown(found: Place) -> Place:
+        return found._replace(at_deg=outlines.assembly.shown_deg(found.at_deg))
+
+    def most_of(values: Array, at: Array) -> Most:
+        return shown(_most(values, at, earlier))
+
     led = play.input_deg[play.guided]
     return FullTurn(
-        _placed(driving, place),
-        _placed(idle, place) if idle else None,
-        _placed(lock, place) if outlines.crank else None,
-        _most(dwell, middles, place),
-        _most(play.either[~play.guided], play.input_deg[~play.guided], place),
-        _most(play.both[play.guided], led, place),
-        _most(play.on[play.guided], led, place),
-        _most(play.back[play.guided], led, place),
-        _most(push, play.input_deg[:-1], place),
+        shown(driving),
+        shown(idle) if idle else None,
+        shown(lock) if outlines.crank else None,
+        most_of(dwell, middles),
+        most_of(play.either[~play.guided], play.input_deg[~play.guided]),
+        most_of(play.both[play.guided], led),
+        most_of(play.on[play.guided], led),
+        most_of(play.back[play.guided], led),
+        most_of(push, play.input_deg[:-1]),
         most,
         play,
     )
 
 
-def _placed(gap: Gap, place: Callable[[float], float]) -> Gap:
-    return gap._replace(at_deg=place(gap.at_deg))
+def _earlier(outlines: Outlines) -> Earlier:
+    """What tells which of two input angles of a turn is the earlier, as they are shown.
+
+    A turn of the input is shown from half a turn before mid-motion on, so that the second half of
+    the last dwell comes first; a period of several turns from the first entry.
+    """
+    *_, last = windows(outlines)
+    turn, several = outlines.assembly.turn_deg, outlines.assembly.given.spec.drive.turns > 1
+    middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
+    return lambda input_deg: input_deg - turn if input_deg > middle else input_deg
 
 
-def _most(values: Array, at: Array, place: Callable[[float], float]) -> Most:
+def _most(values: Array, at: Array, earlier: Earlier) -> Most:
     """The greatest and its place: the middle of the first, where it stays as great for a while."""
-    if not len(values) or not values.max() > NO_PLAY:
+    size = float(values.max(initial=0.0))
+    if not size > NO_PLAY:
         return Most(0.0, 0.0)
-    same = values >= values.max() * (1.0 - SAME)
-    first = int(np.argmax(same))
-    after = int(np.argmin(np.append(same[first:], False)))
-    return Most(float(values.max()), place(float(at[first + (after - 1) // 2])))
+    same = values >= size - max(SAME * size, math.degrees(EXACT))
+    first = np.flatnonzero(same & ~np.append(False, same[:-1]))
+    last = np.flatnonzero(same & ~np.append(same[1:], False))
+    return Most(size, min(at[(first + last) // 2].tolist(), key=earlier))
 
 
 def positions(outlines: Outlines) -> Array:
@@ -145,7 +174,7 @@ def positions(outlines: Outlines) -> Array:
     return np.unique(np.concatenate((found, near)))
 
 
-def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
+def _smallest(outlines: Outlines, at: Array, earlier: Earlier) -> tuple[Gap, Gap | None, Gap]:
     """The smallest gaps: of rollers at their own slots, of others meanwhile, of the crank."""
     gaps = outlines.gaps
 
@@ -162,9 +191,15 @@ def _smallest(outlines: Outlines, at: Array) -> tuple[Gap, Gap | None, Gap]:
 
     several = len(outlines.assembly.rollers) > 1
     return (
-        _least(own, at, outlines.close, "roller and slot"),
-        _least(others, at, outlines.close, "idle roller and wheel") if several else None,
-        _least(lambda x: gaps.locking(gaps.pose(x)), at, outlines.close, "locking disc and wheel"),
+        _least(own, at, outlines.close, earlier, "roller and slot"),
+        _least(others, at, outlines.close, earlier, "idle roller and wheel") if several else None,
+        _least(
+            lambda x: gaps.locking(gaps.pose(x)),
+            at,
+            outlines.close,
+            earlier,
+            "locking disc and wheel",
+        ),
     )
 
 
@@ -179,11 +214,11 @@ def _drives(outlines: Outlines, x: Array) -> NDArray[np.bool_]:
     return np.column_stack(columns)
 
 
-def _least(gap: Callable[[Array], Array], at: Array, close: float, parts: str) -> Gap:
+def _least(
+    gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier, parts: str
+) -> Gap:
     """The smallest gap over a turn: around each place where it is smallest, ever closer."""
     values = gap(at)
-    best = int(np.argmin(values))
-    found = float(values[best]), float(at[best])
     inner = np.arange(1, len(at) - 1)
     dips = inner[
         (values[1:-1] < values[:-2] - DIP) & (values[1:-1] <= values[2:])
@@ -192,15 +227,17 @@ def _least(gap: Callable[[Array], Array], at: Array, close: float, parts: str) -
     # Only where it comes near to the smallest can a smaller one lie between.
     dips = dips[np.argsort(values[dips])][:DIPS]
     low, high = at[dips - 1], at[dips + 1]
+    closer: list[tuple[Array, Array]] = []
     for _ in range(ROUNDS if len(dips) else 0):
         x = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINER)
         v = gap(x.ravel()).reshape(x.shape)
         i = np.argmin(v, axis=1)
         rows = np.arange(len(x))
-        if v[rows, i].min() < found[0]:
-            row = int(np.argmin(v[rows, i]))
-            found = float(v[row, i[row]]), float(x[row, i[row]])
+        closer.append((v[rows, i], x[rows, i]))
         low, high = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, FINER - 1)]
+    size = min(float(v.min()) for v in (values, *(v for v, _ in closer)))
     # A gap that stays the same for a while is said to be where it begins.
-    early = np.flatnonzero(values <= found[0] + close)
-    return Gap(found[0], float(at[early[0]]) if len(early) else found[1], parts)
+    same = values <= size + close
+    places = [at[same & ~np.append(False, same[:-1])]]
+    places += [x[v <= size + close] for v, x in closer[-1:]]
+    return Gap(size, min(np.concatenate(places).tolist(), key=earlier), parts)
