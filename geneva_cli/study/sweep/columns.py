@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.loads.summary import SHOWN, shares
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
-from geneva_cli.analysis.strength import pin as pins
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
+from geneva_cli.study.sweep.part_columns import is_known, part_columns
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -40,9 +39,6 @@ SIZED = {
 }
 SUMMED = ("min", "min_at_deg", "mean", "rms")  # of each quantity of the cycle
 KINETIC = "loads.kinetic_power_W"
-PIN = "strength.pin."
-# of the roller's pin under the greatest force; its margin is no array
-PINS = ("diameter_mm", "bending_MPa", "shear_MPa", "stress_MPa", "least_diameter_mm")
 ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
@@ -53,12 +49,9 @@ def in_arrays(names: Sequence[str]) -> bool:
     (True, False)
     """
     return all(
-        _group(name) in ("timing", *QUANTITIES) or _is_load(name) or _is_pin(name) for name in names
+        _group(name) in ("timing", *QUANTITIES) or _is_load(name) or is_known(name)
+        for name in names
     )
-
-
-def _is_pin(name: str) -> bool:
-    return name.startswith(PIN) and name.removeprefix(PIN) in PINS
 
 
 def _is_load(name: str) -> bool:
@@ -86,8 +79,7 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
         found |= _peaks(machine, sought)
     if "loads" in groups:
         found |= _loads(machine, [name.split(".") for name in names if _group(name) == "loads"])
-    if "strength" in groups:
-        found |= _pin(machine)
+    found |= part_columns(machine, names)
     out = []
     for name in names:
         value = found.get(name)
@@ -123,26 +115,6 @@ def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
         kinetic: Any = kinetic_power_W(machine, cast("float", power[:, None]))
         values[KINETIC] = np.where(np.ravel(given.inertia_Nm) > 0.0, np.ravel(kinetic), np.nan)
     return {name: np.where(loaded, v, np.nan) for name, v in values.items() if v is not None}
-
-
-def _pin(machine: Mechanism) -> Columns:
-    """The stresses of the roller's pin; its least diameter where an allowable stress is given."""
-    given, pin = setting(machine), pins.pin(machine)
-    if pin is None:
-        return {}
-    force = greatest_of_many(machine, ["pin_force_N"])["pin_force_N"].max[:, None]
-    force = np.where(given.inertia_Nm + given.resists_Nm > 0.0, force, np.nan)
-    under = pin.under(force)
-    values: Columns = {
-        "diameter_mm": pin.diameter_mm,
-        "bending_MPa": under.bending,
-        "shear_MPa": under.shear,
-        "stress_MPa": under.equivalent,
-    }
-    allowed = machine.spec.material_roller.stress_max_MPa
-    if allowed:
-        values["least_diameter_mm"] = pins.least_diameter_mm(pin, force, allowed)
-    return {f"{PIN}{name}": value for name, value in values.items()}
 
 
 def _timing(machine: Mechanism) -> Columns:
