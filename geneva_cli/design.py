@@ -493,9 +493,10 @@ class Design:
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
-        ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove`` or ``coupon``;
-        millimetres. With a kerf, the paths of a cut so wide; with dog bones, those of a cutter of
-        a diameter in the corners that stand in; ``GenevaError`` where there is no room for them.
+        ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``, ``gears`` or
+        ``coupon``; millimetres. With a kerf, the paths of a cut so wide; with dog bones, those of
+        a cutter of a diameter in the corners that stand in. Raises GenevaError where there is no
+        room for them.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')

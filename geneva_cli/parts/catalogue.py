@@ -38,7 +38,7 @@ PARTS = {
     "links": Part(drawing="link_drawings:links", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
     "assembly": Part(drawing="drawings:assembly"),
-    "gears": Part("gear_curves:gears_table"),
+    "gears": Part("gear_curves:gears_table", "gear_drawings:gears", alone=True),
     "groove": Part("groove:groove_table", "drawings:groove"),
     "coupon": Part(drawing="coupon:coupon", cut=True),
     "sheet": Part(sheet="sheet.sheet:sheet"),

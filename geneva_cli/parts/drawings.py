@@ -1,7 +1,7 @@
 """Drawings of the parts, each in its own frame, and of the machine put together.
 
 Layers: WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut; ROLLER is a circle; PITCH is where rollers
-run, and where gears roll.
+run, and where gears roll; CENTER has marks.
 """
 
 from __future__ import annotations

@@ -48,13 +48,7 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
     The driver is given as it is cut, so its angle runs against the input; likewise the driven.
     """
-    drive = mechanism.spec.drive
-    gears = drive.gears
-    if gears is None:
-        geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
-        raise GenevaError(
-            f'--part gears: kind = "{drive.NAME}" has none; {" or ".join(geared)} has'
-        )
+    gears = required_gears(mechanism)
     phi = np.linspace(-np.pi, np.pi, samples or SAMPLES)
     turn, ratio = _ratio(gears, phi)
     C, i = gears.distance_mm, ratio.c[0]
@@ -76,6 +70,17 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
     return Table(NAMES, columns)
 
 
+def required_gears(mechanism: Mechanism) -> Gears:
+    """The noncircular gears of a machine; raises GenevaError where it has none."""
+    drive = mechanism.spec.drive
+    if drive.gears is None:
+        geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
+        raise GenevaError(
+            f'--part gears: kind = "{drive.NAME}" has none; {" or ".join(geared)} has'
+        )
+    return drive.gears
+
+
 def convexity(gears: Gears) -> Convexity:
     """The least convexity of both gears over a turn."""
     _, ratio = _ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))
@@ -85,12 +90,20 @@ def convexity(gears: Gears) -> Convexity:
 
 def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
     """The crank's angle and the ratio with two derivatives, over a turn of the input."""
+    ratio, turned = ratio_and_turn(gears, phi)
+    turn = np.unwrap(np.angle(turned))
+    return turn - turn[len(turn) // 2], ratio
+
+
+def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:
+    """The ratio with two derivatives by the input's angle in radians, and the driven gear's turning
+    since input 0 as a unit complex number.
+    """
     sine, versine = gears.advance(phi, 3)
     cosine = 1.0 - versine
-    turn = np.unwrap(np.arctan2(sine.c[0], cosine.c[0]))
-    turn = turn - turn[len(turn) // 2]
     low_cosine, low_sine = Jet(cosine.c[:-1]), Jet(sine.c[:-1])
-    return turn, sine.derivative() * low_cosine + versine.derivative() * low_sine
+    ratio = sine.derivative() * low_cosine + versine.derivative() * low_sine
+    return ratio, array(cosine.c[0]) + 1j * array(sine.c[0])
 
 
 def _convexities(ratio: Jet) -> tuple[np.ndarray, np.ndarray]:

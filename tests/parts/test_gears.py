@@ -1,15 +1,25 @@
 """Noncircular gears: pitch curves, convexity, a ratio from a file; and the cam's groove."""
 
 import math
+from functools import cache
 
+import mpmath
 import numpy as np
 import pytest
+import repo
+from shapely.affinity import rotate, translate
+from shapely.geometry import Polygon
 from words import Drive, Keys, Motion, Spec, Wheel, points
 
+from geneva_cli import Design, External, Internal, NoncircularGears, load
+from geneva_cli.curves.measure import segment_length
+from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gear_curves import convexity, gears_table
+from geneva_cli.parts.gear_drawings import driven_curve, driver_curve
 from geneva_cli.parts.groove import _distances, groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks
@@ -57,6 +67,64 @@ def test_elliptical_gears_are_ellipses():
     expected = 100.0 * 0.5 * (1.0 - 0.09) / (1.0 + 0.3 * np.cos(np.radians(at["input_deg"])))
     assert at["driver_radius_mm"] == pytest.approx(expected, rel=1e-14)
     assert min(convexity(mechanism.spec.drive.gears)) > 0.0
+
+
+@cache
+def drawn(name, kind):
+    """A design and the drawing of its gears."""
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    return design, design.drawing("gears", curves=kind)
+
+
+def curves(drawing):
+    return [s for s in drawing.shapes if isinstance(s, Contour) and s.closed]
+
+
+@pytest.mark.parametrize("kind", ["arcs", "spline"])
+@pytest.mark.parametrize("name", ["noncircular-gears", "elliptical-gears"])
+def test_drawn_pitch_curves_are_closed_and_equally_long(name, kind):
+    """An ellipse's length is 4 a E(e); both curves of any pair roll on each other once a turn."""
+    design, drawing = drawn(name, kind)
+    driven, driver = curves(drawing)
+    lengths = [math.fsum(map(segment_length, one.segments)) for one in (driven, driver)]
+    assert lengths[0] == pytest.approx(lengths[1], rel=1e-9)
+    if name == "elliptical-gears":
+        C, e = design.spec.drive.gear_distance_mm, design.spec.drive.eccentricity
+        # the curves are fitted to 8e-9 C and less, and may be longer by as much
+        assert lengths[0] == pytest.approx(2.0 * C * float(mpmath.ellipe(e * e)), rel=4e-9)
+
+
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+def test_drawn_gears_mesh_as_the_crank_turns(gearing):
+    """A ratio without symmetry: turned as the machine turns them, both curves touch all the way."""
+    phi = np.radians(np.arange(0.0, 361.0, 2.0))
+    ratio = 1.0 + 0.2 * np.sin(phi) + 0.1 * np.cos(2.0 * phi)  # its mean is 1: the gears close
+    drive = NoncircularGears(ratio=tuple(zip(np.degrees(phi), ratio, strict=True)))
+    wheel = External(6) if gearing == "external" else Internal(6)
+    where, C = assembly(Design(wheel, drive).mechanism), drive.gear_distance_mm
+    sense = math.copysign(1.0, float(np.diff(where.crank(np.array([0.0, 1.0])))[0]))
+    every = np.linspace(-np.pi, np.pi, 20000, endpoint=False)  # chords are off by 1e-6 mm
+    driven, driver = (
+        Polygon(curve(drive.gears, sense)(every)[0]) for curve in (driven_curve, driver_curve)
+    )
+    for input_deg in (0.0, 111.0, 301.0):
+        x = math.radians(input_deg)
+        turn = x + 0.2 * (1.0 - math.cos(x)) + 0.05 * math.sin(2.0 * x)  # of the ratio above
+        one = rotate(driven, sense * turn, (0, 0), use_radians=True)
+        other = translate(rotate(driver, -sense * x, (0, 0), use_radians=True), C)
+        assert one.distance(other) < 1e-5
+        assert one.intersection(other).area < 1e-5
+
+
+def test_gears_have_bores_at_their_axes_and_marks():
+    _, drawing = drawn("noncircular-gears", "arcs")
+    bores = [shape for shape in drawing.shapes if isinstance(shape, Circle)]
+    assert [bore.centre for bore in bores] == [(0.0, 0.0), (120.0, 0.0)]
+    marks = [shape for shape in drawing.shapes if shape.layer == "CENTER"]
+    assert len(marks) == 2 * len(bores)
+    assert drawing.layers == ("PITCH", "BORE", "CENTER")
+    with pytest.raises(GenevaError, match='--part gears: kind = "crank" has none'):
+        Design(External(6)).drawing("gears")
 
 
 def ratio_file(tmp_path, change=lambda ratio: ratio):
