@@ -75,28 +75,29 @@ def _pin(machine: Mechanism, asked: Collection[str]) -> Columns:
     return out
 
 
-def _shaft(name: str) -> Callable[[Mechanism, Collection[str]], Columns]:
-    """Of the wheel's shaft, or the crank's."""
+def _wheel_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
+    return _shaft(machine, shafts.wheel_shaft(machine.spec.shaft), shafts.on_wheel)
 
-    def of(machine: Mechanism, asked: Collection[str]) -> Columns:
-        spec = machine.spec
-        if name == "crank" and not spec.wheel.FLAT:
-            return dict.fromkeys(SHAFT, np.inf)
-        if name == "wheel":
-            ends, on = shafts.wheel_shaft(spec.shaft), shafts.on_wheel
-        else:
-            on = shafts.on_driven_crank if spec.drive.CRANKED else shafts.on_crank
-            ends = shafts.crank_shaft(spec.shaft)
-        found = shafts.shaft_of_many(machine, ends, on)
-        if found is None:
-            return {}
-        moment = cast("Array", found.moment_Nm) * _loaded(machine)
-        rows = {k: v for k, v in found._asdict().items() if v is not None}
-        if found.stress_MPa is not None and spec.shaft.shear_stress_max_MPa is not None:
-            rows["margin"] = _margin(found.stress_MPa, spec.shaft.shear_stress_max_MPa)
-        return {k: np.where(np.isfinite(moment), v, moment) for k, v in rows.items()}
 
-    return of
+def _crank_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
+    """Of a crank whose shaft is parallel to the wheel's, as ``verdict.strength`` has it."""
+    spec = machine.spec
+    if not spec.wheel.FLAT:
+        return {}
+    on = shafts.on_driven_crank if spec.drive.CRANKED else shafts.on_crank
+    return _shaft(machine, shafts.crank_shaft(spec.shaft), on)
+
+
+def _shaft(machine: Mechanism, ends: shafts.Ends, on: shafts.On) -> Columns:
+    found = shafts.shaft_of_many(machine, ends, on)
+    if found is None:
+        return {}
+    moment = cast("Array", found.moment_Nm) * _loaded(machine)
+    rows = {k: v for k, v in found._asdict().items() if v is not None}
+    allowed = machine.spec.shaft.shear_stress_max_MPa
+    if found.stress_MPa is not None and allowed is not None:
+        rows["margin"] = _margin(found.stress_MPa, allowed)
+    return {k: np.where(np.isfinite(moment), v, moment) for k, v in rows.items()}
 
 
 def _life(machine: Mechanism, asked: Collection[str]) -> Columns:
@@ -157,7 +158,7 @@ def _reversal(machine: Mechanism, asked: Collection[str]) -> Columns:
 def _slot(machine: Mechanism, asked: Collection[str]) -> Columns:
     found = positive_drives(machine)
     if found is None:
-        return dict.fromkeys(SLOT, np.inf)
+        return {}
     return dict(zip(SLOT, (found.share, found.gap_mm, found.gap_at_deg), strict=True))
 
 
@@ -171,8 +172,8 @@ LIFE = (
 SLOT = ("not_driven_share", "branch_gap_mm", "branch_gap_at_deg")
 GROUPS = {
     "strength.pin": Group(PIN, _pin),
-    "strength.wheel_shaft": Group(SHAFT, _shaft("wheel")),
-    "strength.crank_shaft": Group(SHAFT, _shaft("crank")),
+    "strength.wheel_shaft": Group(SHAFT, _wheel_shaft),
+    "strength.crank_shaft": Group(SHAFT, _crank_shaft),
     "life": Group(LIFE, _life),
     "vibration": Group(Vibrations._fields, _vibration),
     "shock.entry": Group(Blow._fields, _entry),
