@@ -18,16 +18,11 @@ from geneva_cli.curves.belt import belt
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.crank import (
-    crank_circles,
-    is_whole,
-    keyway_direction,
-    roller_centres,
-    sectors,
-)
+from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.parts.hole_walls import apart, beyond
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.reliefs import keyway_direction, sectors
 from geneva_cli.parts.sizes import even
 
 LAYER, HOLES = "ARM", "BORE"

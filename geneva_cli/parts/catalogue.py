@@ -31,7 +31,7 @@ class Part(NamedTuple):
 
 
 PARTS = {
-    "slot": Part("slot_profile:profile_table", "drawings:slot"),
+    "slot": Part("slot_sampling:profile_table", "drawings:slot"),
     "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table", cut=True),
     "crank": Part(drawing="drawings:crank", cut=True),
     "arm": Part(drawing="drawings:arm", cut=True),

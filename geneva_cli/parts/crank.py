@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
+from geneva_cli.parts.reliefs import SAME, Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
@@ -39,41 +40,6 @@ TINY = 1e-9
 THIN = 0.1  # of the disc's radius: a locking sector is no thinner
 POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
 SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
-SAME = 1e-9  # radians: directions nearer to each other are one
-
-
-class Relief(NamedTuple):
-    """Where the disc is relieved, as directions on the crank, radians, counterclockwise."""
-
-    start: float
-    end: float
-    roller: int  # whose motion it is for
-
-    @property
-    def half(self) -> float:
-        """Half of its width."""
-        return 0.5 * (self.end - self.start)
-
-
-def reliefs(assembly: Assembly) -> list[Relief]:
-    """The reliefs around the crank: where the line of centres is on it while the wheel moves."""
-    found = []
-    for i, (engagement, behind) in enumerate(assembly.rollers):
-        ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
-        start, end = sorted(_lock_directions(assembly, behind, ends))
-        found.append(Relief(start, end, i))
-    first = found[0].start
-    out = []
-    for one in found:
-        start = first + (one.start - first + SAME) % math.tau - SAME
-        out.append(one._replace(start=start, end=start + one.end - one.start))
-    return sorted(out)
-
-
-def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> list[float]:
-    """The directions at some input angles, unwound about the one at mid-motion."""
-    centre = assembly.lock(middle)
-    return [centre + math.remainder(assembly.lock(end) - centre, math.tau) for end in ends]
 
 
 def crank_contours(
@@ -90,7 +56,7 @@ def crank_contours(
     if not is_whole(assembly, sizes):
         return _rings(assembly, sizes, around, swept, spare)
     if relief == "sector":
-        around = _merged([_widened(sizes, one, swept) for one in around])
+        around = merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector
     if sum(one.end - one.start for one in around) > math.tau - SAME:
         raise GenevaError(
@@ -99,7 +65,7 @@ def crank_contours(
             ("size", "roller_radius_mm"),
         )
     found: list[Segment] = []
-    for one, after in _followed(around):
+    for one, after in followed(around):
         found += cut(assembly, sizes, one)
         if after - one.end > SAME:
             found.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
@@ -109,17 +75,6 @@ def crank_contours(
 def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
     """Whether something of the disc is left at the crank's axis."""
     return assembly.sign > 0.0 and assembly.L - sizes.rim > sizes.relief
-
-
-def without_lock(assembly: Assembly) -> bool:
-    """Whether one motion follows another without a dwell, so that no disc is left between them."""
-    return any(after - one.end <= SAME for one, after in _followed(reliefs(assembly)))
-
-
-def _followed(around: list[Relief]) -> list[tuple[Relief, float]]:
-    """Each relief with where the next one starts; between them the disc locks."""
-    starts = [one.start for one in around[1:]] + [around[0].start + math.tau]
-    return list(zip(around, starts, strict=True))
 
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
@@ -142,7 +97,7 @@ def _rings(
     radius = np.concatenate([p[0] for p in points])
     direction = np.concatenate([p[1] for p in points])
     found = []
-    for one, after in _followed(around):
+    for one, after in followed(around):
         if after - one.end <= SAME:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
@@ -196,19 +151,6 @@ def _floor(
     return edge, float((centre + reach).max(initial=0.0)) + spare
 
 
-def _merged(around: list[Relief]) -> list[Relief]:
-    """Reliefs with nothing between them as one."""
-    found = around[:1]
-    for one in around[1:]:
-        if one.start - found[-1].end > SAME:
-            found.append(one)
-        else:
-            found[-1] = found[-1]._replace(end=max(one.end, found[-1].end))
-    if len(found) > 1 and found[0].start + math.tau - found[-1].end <= SAME:
-        found = [found[0]._replace(start=found[-1].start - math.tau), *found[1:-1]]
-    return found
-
-
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
     """Rollers, pins and bore, which may have a keyway."""
     found: list[Shape] = []
@@ -231,18 +173,6 @@ def roller_centres(assembly: Assembly) -> list[Point]:
         reach = math.hypot(x, y)
         found.append((reach * math.cos(angle), reach * math.sin(angle)))
     return found
-
-
-def sectors(assembly: Assembly) -> list[tuple[float, float]]:
-    """Where the disc locks: directions on the crank, radians, from and to."""
-    return [
-        (one.end, after) for one, after in _followed(reliefs(assembly)) if after - one.end > SAME
-    ]
-
-
-def keyway_direction(assembly: Assembly) -> float:
-    """Where the crank's keyway stands: amid a locking sector, away from reliefs and rollers."""
-    return next((0.5 * (start + end) for start, end in sectors(assembly)), math.pi)
 
 
 def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:

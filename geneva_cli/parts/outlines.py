@@ -12,7 +12,8 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.crank import crank_contours, is_whole, without_lock
+from geneva_cli.parts.crank import crank_contours, is_whole
+from geneva_cli.parts.reliefs import without_lock
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.walls.curved import curved_walls

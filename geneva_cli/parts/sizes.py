@@ -1,31 +1,22 @@
-"""Every size of the parts, in millimetres: as the spec gives it, or a default that works.
+"""The sizes of the parts, in millimetres: as the spec gives them, or defaults.
 
-The rim ends where the roller enters: a smaller wheel loses it, a larger one is fouled by it. The
-locking disc reaches past the rim, or it could not lock, and leaves a horn beside the slot.
+The rim is where the roller enters: on a smaller wheel the roller would lose its slot, on a larger
+one it would touch the rim. The locking disc reaches past the rim and leaves a horn beside the slot.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import Engagement
-from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
-
-if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Engagement
-    from geneva_cli.numerics.jet import Array
-
-TURN = 720  # input angles at which a roller's path is looked at
 
 
 class Sizes(NamedTuple):
-    """Lengths and radii; also the bores and hubs are radii here, 0 where there is none."""
+    """Lengths and radii, mm; bores and hubs are radii too. 0 where there is none."""
 
     roller: float
     half_width: float  # of the slot: roller and clearance
@@ -53,26 +44,8 @@ class Sizes(NamedTuple):
         return self.arm - self.half_width - self.recess
 
 
-class RollerPaths(NamedTuple):
-    """What the paths of the rollers' centres leave of wheel and crank, whatever their radius."""
-
-    ends: tuple[float, ...]  # of each kind of slot: how near to the wheel's axis, inside how far
-    arm: float  # least distance of a roller, and of the slots beside it, from the crank's axis
-
-
-def roller_paths(assembly: Assembly) -> RollerPaths:
-    """The ways of a machine's rollers."""
-    paths = [_pitch(assembly, s) for s in assembly.kinds]
-    reach = [np.hypot(*points.T) for points in paths]
-    ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
-    beside = [
-        _to_slot(assembly, s, points) for s, points in zip(assembly.kinds, paths, strict=True)
-    ]
-    return RollerPaths(ends, min(_arm(assembly), *beside))
-
-
 def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
-    """The sizes of a machine's parts; ``known`` its rollers' ways, where somebody has them.
+    """The sizes of a machine's parts; ``known`` are its roller paths, if they are at hand.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
@@ -123,7 +96,7 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
 
 
 class Thicknesses(NamedTuple):
-    """Of the parts along the axis, mm."""
+    """The parts' thicknesses along the axis, mm."""
 
     wheel: float
     lock: float
@@ -132,7 +105,7 @@ class Thicknesses(NamedTuple):
 
 
 def thicknesses(size: Size, L: float) -> Thicknesses:
-    """The thicknesses as they are given, or the wheel's for all."""
+    """The thicknesses of a spec; by default the wheel's for all."""
     wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
     arm = _or(size.arm_thickness_mm, wheel)
     lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
@@ -149,33 +122,6 @@ def wall_min(size: Size, L: float) -> float:
     return _or(size.wall_min_mm, L / 200.0)
 
 
-def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
-    """Radius at which the wheel ends where a roller of radius r enters and leaves a slot.
-
-    There the roller touches the wall that faces the crank's axis, at the foot of the
-    perpendicular from it.
-    """
-    x, y = engagement.slot(engagement.entry_deg, 0)
-    if not engagement.slot.offset:
-        return math.hypot(assembly.L * math.hypot(x.c[0], y.c[0]), r)
-    return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
-
-
-def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
-    """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
-    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
-    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
-    cx, cy = rest(assembly, engagement, end)
-    share = r / math.dist((px, py), (cx, cy))
-    return px + share * (cx - px), py + share * (cy - py)
-
-
-def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
-    """The crank's axis in the wheel's frame before (-1) and after (1) an engagement's motion."""
-    b = -end * engagement.half_step
-    return assembly.L * math.cos(b), assembly.L * math.sin(b)
-
-
 def _or(given: float | None, default: float) -> float:
     return default if given is None else given
 
@@ -185,12 +131,12 @@ def _half(diameter: float | None) -> float | None:
 
 
 def _bore(end: float, wall: float, hub: float | None, L: float) -> float:
-    """A bore of the wheel that leaves a wall to the slots' ends, inside a hub that is given."""
+    """The wheel's default bore: it leaves a wall to the slots' ends, within a given hub."""
     return even(min(L / 12.0, 0.4 * end, end - wall, *([0.4 * hub] if hub else [])))
 
 
 def _crank_bore(given: Size, room: float, L: float) -> float:
-    """Half the room between axis and relief; too thin a shaft ends below the wheel instead."""
+    """The crank's bore: by default half the room inside the relief, none where that is too thin."""
     if given.crank_bore_mm is not None:
         return 0.5 * given.crank_bore_mm
     within = 0.4 * given.crank_hub_mm if given.crank_hub_mm else math.inf
@@ -198,39 +144,17 @@ def _crank_bore(given: Size, room: float, L: float) -> float:
 
 
 def even(radius: float) -> float:
-    """A radius of which the diameter has two digits, rounded down; 0 where nothing is left."""
+    """A radius rounded down to a diameter of two digits; 0 for no radius."""
     if radius <= 0.0:
         return 0.0
     step = 10.0 ** (math.floor(math.log10(2.0 * radius)) - 1)
     return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
 
 
-def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
-    """Points of a slot's pitch curve, (n, 2)."""
-    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
-    return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
-
-
-def _arm(assembly: Assembly) -> float:
-    """Least distance of the rollers from the crank's axis."""
-    turn = np.linspace(0.0, assembly.turn_deg, TURN, endpoint=False)
-    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
-    # others follow their leaders
-    far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]
-    return float(min(np.hypot(*p.T).min() for p in far))
-
-
-def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
-    """Distance of the slots beside it from the crank's axis, while the wheel rests."""
-    return float(
-        min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
-    )
-
-
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     """The locking disc's radius: a horn as thick as the roller's radius, or a fifth of the room.
 
-    0 for none: linkages hold their wheel in other ways.
+    0 for no disc; linkages have none.
     """
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:

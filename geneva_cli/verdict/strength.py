@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import lock, shafts
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.crank import sectors
+from geneva_cli.parts.reliefs import sectors
 from geneva_cli.verdict.life import Life
 
 if TYPE_CHECKING:

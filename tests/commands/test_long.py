@@ -23,7 +23,7 @@ from geneva_cli.analysis.motion import HELD, SAMPLES_MAX, motion_table
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
-from geneva_cli.parts.slot_profile import profile_table
+from geneva_cli.parts.slot_sampling import profile_table
 from geneva_cli.study.survey import survey
 from geneva_cli.table import PIECE, Table, record_table, rows_table
 

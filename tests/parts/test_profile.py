@@ -8,7 +8,8 @@ from mpmath import mp, mpf
 from words import Drive, Motion, Spec, Wheel, named
 
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.parts.slot_profile import chord_errors, nodes, profile_table, slot
+from geneva_cli.parts.slot_profile import slot
+from geneva_cli.parts.slot_sampling import chord_errors, nodes, profile_table
 from geneva_cli.spec.tables import Size
 
 L = 200.0

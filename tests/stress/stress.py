@@ -52,7 +52,8 @@ from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.registry import DRIVES, GEARINGS
 from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
-from geneva_cli.parts.slot_profile import nodes, slot
+from geneva_cli.parts.slot_profile import slot
+from geneva_cli.parts.slot_sampling import nodes
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 

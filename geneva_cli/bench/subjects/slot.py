@@ -15,7 +15,8 @@ from geneva_cli.machine.laws.standard import Cycloidal
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
-from geneva_cli.parts.slot_profile import chord_errors, nodes, slot
+from geneva_cli.parts.slot_profile import slot
+from geneva_cli.parts.slot_sampling import chord_errors, nodes
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from geneva_cli.curves.moments import Moments
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.quadrature import rule
-from geneva_cli.parts.sizes import rest
+from geneva_cli.parts.roller_paths import rest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

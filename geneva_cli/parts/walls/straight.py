@@ -12,7 +12,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sizes import Sizes, corner, mouth, rest
+from geneva_cli.parts.roller_paths import corner, mouth, rest
+from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
 LOOKS = 721  # places at which the deepest is looked for

@@ -17,8 +17,10 @@ from geneva_cli.machine.pitch_curve import Pitch, retraces
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.sizes import Sizes, rest
-from geneva_cli.parts.slot_profile import nodes, pitch_at
+from geneva_cli.parts.roller_paths import rest
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.slot_profile import pitch_at
+from geneva_cli.parts.slot_sampling import nodes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

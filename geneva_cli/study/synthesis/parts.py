@@ -22,7 +22,8 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.sizes import RollerPaths, roller_paths, sizes
+from geneva_cli.parts.roller_paths import RollerPaths, roller_paths
+from geneva_cli.parts.sizes import sizes
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
 if TYPE_CHECKING:

@@ -1,0 +1,86 @@
+"""The paths of the rollers' centres, and the slots' mouths, in the wheel and about the crank."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.arrays import scalar
+from geneva_cli.parts.assembly import Assembly
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+TURN = 720  # input angles at which a path is sampled
+
+
+class RollerPaths(NamedTuple):
+    """How near the rollers' centres come to the axes, mm, whatever the rollers' radius."""
+
+    ends: tuple[
+        float, ...
+    ]  # of each kind of slot, least distance from the wheel's axis (inside: greatest)
+    arm: float  # least distance of a roller, and of the slots beside it, from the crank's axis
+
+
+def roller_paths(assembly: Assembly) -> RollerPaths:
+    """The paths of a machine's rollers."""
+    paths = [_pitch(assembly, s) for s in assembly.kinds]
+    reach = [np.hypot(*points.T) for points in paths]
+    ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
+    beside = [
+        _to_slot(assembly, s, points) for s, points in zip(assembly.kinds, paths, strict=True)
+    ]
+    return RollerPaths(ends, min(_arm(assembly), *beside))
+
+
+def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
+    """The rim's radius, at which a roller of radius r enters and leaves a slot.
+
+    It is where the roller touches the wall that faces the crank's axis, at the foot of the
+    perpendicular from that axis.
+    """
+    x, y = engagement.slot(engagement.entry_deg, 0)
+    if not engagement.slot.offset:
+        return math.hypot(assembly.L * math.hypot(x.c[0], y.c[0]), r)
+    return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
+
+
+def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
+    """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
+    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
+    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    cx, cy = rest(assembly, engagement, end)
+    share = r / math.dist((px, py), (cx, cy))
+    return px + share * (cx - px), py + share * (cy - py)
+
+
+def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
+    """The crank's axis in the wheel's frame before (-1) and after (1) an engagement's motion."""
+    b = -end * engagement.half_step
+    return assembly.L * math.cos(b), assembly.L * math.sin(b)
+
+
+def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
+    """Points of a slot's pitch curve, (n, 2)."""
+    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
+    return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+
+
+def _arm(assembly: Assembly) -> float:
+    """Least distance of the rollers from the crank's axis."""
+    turn = np.linspace(0.0, assembly.turn_deg, TURN, endpoint=False)
+    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
+    # others follow their leaders
+    far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]
+    return float(min(np.hypot(*p.T).min() for p in far))
+
+
+def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
+    """Least distance from the crank's axis to the slots on either side, while the wheel rests."""
+    return float(
+        min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
+    )
