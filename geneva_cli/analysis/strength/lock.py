@@ -34,6 +34,7 @@ from geneva_cli.analysis.strength.horn import SHEAR, horns
 if TYPE_CHECKING:
     from geneva_cli.analysis.strength.horn import Side
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.jet import Array
 
 SECTIONS = 4001  # of a horn, summed by trapezoids: to a millionth
 
@@ -128,24 +129,27 @@ def _bending(
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     every = []
     for side in horns(mechanism, half_width, recess):
-        s, thick, middle, ahead = _sections(side)
-        tilt = phi - ahead  # of the force against the sections; it goes through the disc's axis
-        moment = s * math.cos(tilt) + middle * math.sin(tilt)
-        further = s >= -recess * math.sin(tilt)
-        moment, across = np.where(further, moment, 0.0), np.where(further, math.cos(tilt), 0.0)
+        wall, normal, thick = _sections(side)
+        middle = wall + 0.5 * thick * normal
+        towards = -side.centre / math.hypot(*side.centre)  # the wheel's axis
+        ahead = math.acos(min(1.0, abs(float(towards @ side.across))))
+        tilt = phi - ahead  # of the force, which goes through the disc's axis, against the mouth's
+        x, y = -math.sin(tilt), math.cos(tilt)
+        further = wall[0] >= recess * x
+        moment = np.where(further, middle[0] * y - middle[1] * x, 0.0)
+        across = np.where(further, x * normal[0] + y * normal[1], 0.0)
+        push = abs(x * normal[1] - y * normal[0])
         give = 12.0 * moment**2 / (E * thick**3) + SHEAR * across**2 / (G * thick)
-        stress = 6.0 * abs(moment) / thick**2 + abs(math.sin(tilt)) / thick
-        sum_ = float(np.sum(0.5 * (give[1:] + give[:-1]) * np.diff(s)))
+        stress = 6.0 * abs(moment) / thick**2 + push / thick
+        way = np.hypot(*np.diff(wall))
+        sum_ = float(np.sum(0.5 * (give[1:] + give[:-1]) * way))
         every.append((sum_, float(stress.max()), float(thick.min())))
     return max(every)
 
 
-def _sections(side: Side) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """Places, thicknesses and middles of a horn's sections, and the direction across the slot."""
-    wall, _ = side.wall(side.places(SECTIONS))
-    thick = side.thickness(wall)
+def _sections(side: Side) -> tuple[Array, Array, Array]:
+    """The wall at a horn's sections, its normals there, and their thickness."""
+    wall, normal = side.wall(side.places(SECTIONS))
+    thick = side.thickness(wall, normal)
     real = np.isfinite(thick)
-    s, thick = wall[0][real], thick[real]
-    towards = -side.centre / math.hypot(*side.centre)  # the wheel's axis
-    ahead = math.acos(min(1.0, abs(float(towards @ side.across))))
-    return s, thick, wall[1][real] - 0.5 * thick, ahead
+    return wall[:, real], normal[:, real], thick[real]
