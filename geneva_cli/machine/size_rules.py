@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.spec import Spec
@@ -18,33 +17,24 @@ from geneva_cli.numerics.arrays import smaller
 from geneva_cli.spec.tables import Size
 
 
-class Bound(NamedTuple):
-    """A size in mm that must be below another, and what that is."""
-
-    key: str
-    value: float
-    below: float
-    what: str
-
-    def error(self) -> GenevaError:
-        """The error for a size that is not below its bound."""
-        return GenevaError(
-            f"{self.key} = {self.value:g}: it must be below {self.below:.6g}, {self.what}",
-            ("size", self.key),
-        )
-
-
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
     size = spec.size
-    for one in _bounds(spec, L, ratio):
-        refuse(one.value >= one.below, one.error)
+    for key, value, below, what in _bounds(spec, L, ratio):
+        refuse(value >= below, partial(_too_large, key, value, below, what))
     if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
         refuse(size.face_width_mm > size.wheel_thickness_mm, partial(_thin, size))
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
             refuse((hub > 0.0) & (hub < bore), partial(_hub_in_bore, part, hub, bore))
+
+
+def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
+    return GenevaError(
+        f"{key} = {value:g}: it must be below {below:.6g}, {what}",
+        ("size", key),
+    )
 
 
 def _thin(size: Size) -> GenevaError:
@@ -63,7 +53,8 @@ def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:
     )
 
 
-def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
+def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, float, str]]:
+    """Keys of sizes that are set, their values, what these must be below, and what that is."""
     size, r = spec.size, spec.roller_radius_mm(L)
     ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps] or [ratio]
     short, long = L * min(ratios), L * max(ratios)
@@ -104,4 +95,4 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[Bound]:
         if value is not None and getattr(size, key) is None:
             what += f'; it is the one of process = "{size.process}"'
         if value is not None:
-            yield Bound(key, value, below, what)
+            yield key, value, below, what
