@@ -15,8 +15,8 @@ from test_outline import made
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.outlines import slot_walls
+from geneva_cli.parts.turn.freedom import EXACT, SHARE, free_angles
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.play import EXACT, SHARE, edges
 from geneva_cli.parts.wheel import wheel_contour
 
 SECONDS = 30  # of one machine
@@ -49,8 +49,8 @@ def require_no_less_play(found, rng, wheels):
             after = wider(found, *((more, 0.0) if in_slot else (0.0, more)))
         except GenevaError:
             return count
-        less = np.stack(edges(found, at))
-        play = np.stack(edges(after._replace(close=found.close + spare), at))
+        less = np.stack(free_angles(found, at))
+        play = np.stack(free_angles(after._replace(close=found.close + spare), at))
         assert (play >= less * (1.0 - 2.0 * SHARE) - 2.0 * EXACT).all(), (less, play, at)
         found = after
     return wheels

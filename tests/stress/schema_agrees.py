@@ -8,6 +8,7 @@ schema's file and a folder of specs, is compared with the schema: `make editors`
 """
 
 import json
+import os
 import random
 import re
 import subprocess
@@ -25,9 +26,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.spec.schema import Points, checked, fields
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile import reader
 from geneva_cli.specfile.json_schema import FILE, schema
 from geneva_cli.specfile.template import KINDS, template
+from geneva_cli.specfile.tree import spec_of
 
 SPECS = 2000
 # editors' checkers, each said to take a spec by a status of 0
@@ -115,7 +116,7 @@ def of_one_value(tree, error):
 def read(tree):
     """What the reader refuses, or None."""
     try:
-        reader._spec(tree, "spec.toml")
+        spec_of(tree, "spec.toml")
     except GenevaError as error:
         return error
     return None
@@ -154,7 +155,7 @@ def main(tools):
     rng = random.Random(14)
     texts = [spec(rng) for _ in range(SPECS)]
     with tempfile.TemporaryDirectory() as folder:
-        reader.os.chdir(folder)
+        os.chdir(folder)
         for name, content in FILES.items():
             Path(folder, name).write_text(content)
         said = [(text, disagreement(text)) for text in texts]

@@ -72,10 +72,7 @@ def _front(m: Library, w: Wheel[K], s: K, c: K) -> tuple[K, K]:
 
 def acceleration(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """The size of the acceleration at the crank angle f, and the input angle there, radians."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
+    s, c, v, C, rho = _at(m, w, f)
     D = w.rest2 + 2.0 * w.l * v
     f1 = C / rho
     # l sin f is common to both terms
@@ -84,7 +81,15 @@ def acceleration(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     return w.l * s * abs(wheel - front), _input(m, w, s, c, C, rho)
 
 
-def _versine(m: Library, w: Wheel[K], sine: K, cosine: K) -> K:
+def _at(m: Library, w: Wheel[K], f: K) -> tuple[K, K, K, K, K]:
+    """At the crank angle f its sine and cosine, the versine, C and rho."""
+    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
+    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+    C, rho = _front(m, w, s, c)
+    return s, c, _versine(w, sine, cosine), C, rho
+
+
+def _versine(w: Wheel[K], sine: K, cosine: K) -> K:
     """1 - cos f outside, 1 + cos f inside, from the half angle."""
     if isinstance(sine, float):
         half = sine if w.sign > 0.0 else cosine
@@ -125,10 +130,7 @@ def acceleration_slope_sign(m: Library, w: Wheel[K], c: K) -> K:
 
 def acceleration_slopes(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """First and second derivative of the acceleration by f, both over f1² l (1-l²) / D³."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
+    s, c, v, C, rho = _at(m, w, f)
     l, A, sign = w.l, w.A, w.sign
     D = w.rest2 + 2.0 * l * v
     N = v * (w.big - 2.0 * l * v) - w.rest2
@@ -157,10 +159,7 @@ def velocity_fall(m: Library, w: Wheel[K], c: K) -> K:
 
 def velocity_fall_slope(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """h and its slope over f."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
+    s, c, v, C, rho = _at(m, w, f)
     D = w.rest2 + 2.0 * w.l * v
     own, front = w.rest * (1.0 + w.l), w.A * w.minus
     slope = front * (D - 2.0 * w.l * (w.rest - v)) - own * w.A * rho * (2.0 * w.A * c + C)
@@ -169,9 +168,6 @@ def velocity_fall_slope(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
 
 def velocity(m: Library, w: Wheel[K], f: K) -> tuple[K, K]:
     """The velocity at the crank angle f, and the input angle there, radians."""
-    sine, cosine = m.sin(0.5 * f), m.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    v = _versine(m, w, sine, cosine)
-    C, rho = _front(m, w, s, c)
+    s, c, v, C, rho = _at(m, w, f)
     D = w.rest2 + 2.0 * w.l * v
     return w.sign * w.l * (w.rest - v) / D * (C / rho), _input(m, w, s, c, C, rho)

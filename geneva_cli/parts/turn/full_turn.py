@@ -16,16 +16,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 import numpy as np
 
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.turn.play import (
-    EXACT,
-    NEAR,
-    Play,
-    edges,
-    play_of,
-    push_deg,
-    search_deg,
-    windows,
-)
+from geneva_cli.parts.turn.freedom import EXACT, free_angles, search_deg
+from geneva_cli.parts.turn.play import NEAR, Play, play_of, push_deg, windows
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -108,7 +100,7 @@ def full_turn(outlines: Outlines) -> FullTurn:
     play = play_of(outlines)
     most = search_deg(outlines)
     middles = np.array([0.5 * (w.start + w.end) for w in windows(outlines) if w.rests])
-    dwell = np.degrees(np.maximum(*edges(outlines, middles))) if len(middles) else np.zeros(0)
+    dwell = np.degrees(np.maximum(*free_angles(outlines, middles))) if len(middles) else np.zeros(0)
     push = push_deg(outlines, play)
 
     def shown(found: Place) -> Place:
@@ -188,18 +180,11 @@ def _smallest(outlines: Outlines, at: Array, earlier: Earlier) -> tuple[Gap, Gap
         return gaps.locking(gaps.pose(x))
 
     own, others = partial(rollers, idle=False), partial(rollers, idle=True)
-
     several = len(outlines.assembly.rollers) > 1
     return (
         _least(own, at, outlines.close, earlier, "roller and slot"),
         _least(others, at, outlines.close, earlier, "idle roller and wheel") if several else None,
-        _least(
-            lambda x: gaps.locking(gaps.pose(x)),
-            at,
-            outlines.close,
-            earlier,
-            "locking disc and wheel",
-        ),
+        _least(crank, at, outlines.close, earlier, "locking disc and wheel"),
     )
 
 

@@ -1,8 +1,8 @@
 """The wheel's play through a turn: how far it can be turned from its place until parts touch.
 
-Slot and lock hold the wheel in turn. Where they change over, and in a slot that is wider than its
-roller, the wheel is free for a little; it must not be free for more, and what stands off by its
-play must be pushed into line and not against itself.
+Slot and lock hold the wheel in turn. Where one takes over from the other, and in a slot that is
+wider than its roller, the wheel has a little play. It must not have more, and a wheel that is off
+by its play must be pushed into line, not blocked.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.roots_many import End, boundary_many
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.turn.gaps import Pose, turned_points
+from geneva_cli.parts.turn.freedom import free_angles, search_deg, touching
+from geneva_cli.parts.turn.gaps import turned_points
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,11 +27,6 @@ CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and ro
 ENDS = 24  # positions there,
 DWELL = 5  # in the rest of a dwell, and
 MOTION = 15  # in the rest of a motion; odd, so that mid-motion is one
-STEP = 1e-3  # radians, of the wheel: a roller of r mm reaches (L STEP)^2 / (8 r) into such a step
-AHEAD = 32  # such steps that are looked at together, and
-TOGETHER = 1 << 13  # positions of all times the wheel's pieces, at most
-EXACT = 1e-10  # radians: a play is found to this,
-SHARE = 1e-7  # or to this share of it
 AROUND = 5  # parts into which an interval is cut about a peak
 CLOSER = 9  # times; 5**-9 of some degrees is a millionth
 SMALL = 1e-3  # degrees: over which a roller's speed is taken
@@ -80,11 +75,6 @@ class Window(NamedTuple):
     rests: bool
 
 
-def search_deg(outlines: Outlines) -> float:
-    """A play as large as this is none: half a step on, the wheel's place is lost."""
-    return math.degrees(min(engagement.half_step for engagement, _ in outlines.assembly.rollers))
-
-
 def windows(outlines: Outlines) -> Iterator[Window]:
     """The motions and dwells of a turn."""
     assembly, rollers = outlines.assembly, outlines.assembly.rollers
@@ -109,15 +99,6 @@ def play_of(outlines: Outlines) -> Play:
     return found
 
 
-def edges(outlines: Outlines, at: Array) -> tuple[Array, Array]:
-    """How far the wheel can be turned back and on at input angles, radians, until parts touch."""
-    count = len(at)
-    pose = outlines.gaps.pose(at)
-    both = np.concatenate((np.arange(count), np.arange(count)))
-    found = _edge(outlines, pose.at(both), np.repeat((-1.0, 1.0), count))
-    return found[:count], found[count:]
-
-
 def push_deg(outlines: Outlines, play: Play) -> Array:
     """The pressure angle at which the wheel is pushed into line between positions; 0 if it is not.
 
@@ -137,14 +118,6 @@ def push_deg(outlines: Outlines, play: Play) -> Array:
     return found
 
 
-def touching(outlines: Outlines) -> float:
-    """A play, radians, that is none: parts that touch along their way part so slowly.
-
-    Two circles of the rim's radius that overlap by ``close`` are told apart no better.
-    """
-    return math.sqrt(2.0 * outlines.close / outlines.sizes.rim)
-
-
 def _places(outlines: Outlines) -> Array:
     """Input angles of a turn, closely where lock and roller change over."""
     close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
@@ -157,7 +130,7 @@ def _places(outlines: Outlines) -> Array:
 
 def _measured(outlines: Outlines, at: Array) -> Play:
     assembly, sizes = outlines.assembly, outlines.sizes
-    back, on = edges(outlines, at)
+    back, on = free_angles(outlines, at)
     pushes = [_pressure(outlines, at, lead) for lead in (-back, on)]
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
@@ -234,46 +207,3 @@ def _pressure(outlines: Outlines, at: Array, lead: Array) -> Array:
         stops = gaps.rollers(pose, lead).min(axis=1) <= gaps.locking(pose, lead)
         out[here] = np.where(stops, np.degrees(gaps.pressure(pose, lead)), 0.0)
     return out
-
-
-def _edge(outlines: Outlines, pose: Pose, way: Array) -> Array:
-    """How far the wheel can be turned one way in each pose: first to where it is stopped.
-
-    No point of the wheel moves farther than the gap in a step, or than a step in which what is
-    stepped over is less deep than the parts are known.
-    """
-    most, together = math.radians(search_deg(outlines)), TOGETHER // len(outlines.gaps.around)
-    count, gaps, close = len(way), outlines.gaps, outlines.close
-    low, high = np.zeros(count), np.full(count, np.inf)
-    g_low = gaps.gap(pose, low, gaps.near) + close
-    g_high = np.full(count, -1.0)
-    here = np.flatnonzero(g_low >= 0.0)  # where parts overlap as it stands there is no play
-    high[g_low < 0.0] = 0.0
-    ahead = 1
-    while len(here):
-        first = low[here] + np.maximum(g_low[here] / _reach(outlines), STEP)
-        x = np.minimum(first[:, None] + STEP * np.arange(ahead), most)
-        turned = (way[here, None] * x).ravel()
-        g = gaps.gap(pose.at(np.repeat(here, ahead)), turned, gaps.near).reshape(x.shape) + close
-        past = np.logical_and.accumulate(g >= 0.0, axis=1).sum(axis=1)  # how many before a stop
-        free, stopped = np.flatnonzero(past > 0), np.flatnonzero(past < ahead)
-        last = free, past[free] - 1
-        low[here[free]], g_low[here[free]] = x[last], g[last]
-        stop = stopped, past[stopped]
-        high[here[stopped]], g_high[here[stopped]] = x[stop], g[stop]
-        here = here[(past == ahead) & (x[:, -1] < most)]
-        ahead = max(1, min(2 * ahead, AHEAD, together // max(len(here), 1)))
-    here = np.flatnonzero((high < np.inf) & (high > 0.0))
-
-    def left(which: NDArray[np.intp], x: Array, width: float) -> Array:
-        near = min(_reach(outlines) * width, gaps.near)
-        return gaps.gap(pose.at(here[which]), way[here[which]] * x, near) + close
-
-    good, bad = End(low[here], g_low[here]), End(high[here], g_high[here])
-    low[here] = boundary_many(left, good, bad, lambda x: np.maximum(EXACT, SHARE * x))
-    return low
-
-
-def _reach(outlines: Outlines) -> float:
-    """The wheel's points are no farther from its axis."""
-    return max(outlines.sizes.rim, outlines.sizes.outer)
