@@ -4,7 +4,7 @@ Sizes within 16 units in the last place of the quantity's; NaN where one design 
 """
 
 import math
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -14,6 +14,10 @@ from geneva_cli.analysis import blows, change_of_sides, undercut
 from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.strength import roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
+from geneva_cli.analysis.tolerance.dimensions import corners
+from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
+from geneva_cli.analysis.tolerance.motion_error import motion_errors
+from geneva_cli.analysis.tolerance.spread import spread
 from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.many import vibrations_of_many
 from geneva_cli.analysis.vibration.oscillator import needed
@@ -146,6 +150,30 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
     assert (np.sign(far[1:]) != np.sign(far[:-1])).sum() == 3
     # a top between two of the angles is less than 1e-10 of the way above both
     assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_tolerances(name):
+    """Angles are differences of directions: rounding is a share of a radian's.
+
+    The root of the squares is told at the worst's place, which is known to 1e-7 of itself.
+    """
+    machine, each = designs(name)
+    plays, jumps = motion_plays(machine), entry_jumps_worst(machine, used(machine))
+    for i, one in each:
+        use = list(used(one).values())
+        if plays is None:
+            assert motion_errors(one) == []
+            continue
+        every = [(error, error.greatest(corners(use))) for error in motion_errors(one)]
+        error, at = max(every, key=lambda found: found[1].error[0])
+        there = partial(error, input_deg=at.at_deg[0], side=at.side[0])
+        told = spread(there, use, at.error[0], np.zeros(1))
+        same(plays.worst_deg, i, told.worst, size=10.0)
+        same(plays.rss_deg, i, told.rss, 1e-7)
+        assert (jumps is None) == (blows.entry_blow(one) is None)
+        if jumps is not None:
+            assert jumps[i] >= abs(blows.entry_blow(one).jump)
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -6,7 +6,6 @@ million machines at once (order 0) and its exact slope by one dimension (order 1
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
@@ -14,6 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
@@ -44,9 +45,19 @@ def tolerances(spec: Spec) -> dict[str, float]:
     """The plus or minus of each dimension, in millimetres and radians."""
     given = spec.tolerance.as_dict()
     return {
-        name: math.radians(given[name]) if name.endswith("_deg") else given[name]
+        name: radians(given[name]) if name.endswith("_deg") else given[name]
         for name in Deviations._fields
     }
+
+
+def without_effect(spec: Spec) -> dict[str, str]:
+    """The dimensions whose deviations have no effect in a machine, and why."""
+    why = {}
+    if not spec.drive.ONE_ARM:
+        why["crank_radius_mm"] = "no crank's arm carries the roller"
+    if not spec.wheel.FLAT:
+        why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
+    return why
 
 
 def deviations(values: list[Number]) -> Deviations:
@@ -60,8 +71,11 @@ def slope_of(number: int) -> Deviations:
 
 
 def corners(sizes: list[float]) -> Deviations:
-    """Every combination of the ends of the tolerances that are not 0: arrays of 2**n machines."""
-    ends = [(-size, size) if size else (0.0,) for size in sizes]
+    """Every combination of the ends of the tolerances that are not 0: arrays of 2**n machines.
+
+    Of m designs, whose tolerances may be (m, 1), the arrays may be (2**n, m, 1).
+    """
+    ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
     return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
 
 

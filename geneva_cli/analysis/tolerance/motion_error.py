@@ -11,7 +11,8 @@ The slopes are a plain crank's. e is the distance of the slot's axis from the wh
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,10 +20,15 @@ from geneva_cli.analysis.blows import arm_mm
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array, choose
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import array, choose, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
 LOOKS = 361  # input angles at which a motion is sampled
+TAIL = 3.0  # plus or minuses: nine standard deviations
 CLOSER = 12  # samplings, each about the greatest of the last and a tenth as wide
 
 
@@ -53,25 +59,62 @@ class MotionError(NamedTuple):
         """The clearance per side, mm; below 0 the roller does not go into the slot."""
         return by.slot_clearance + self.clearance
 
-    def greatest(self, by: Deviations) -> tuple[float, float, float]:
-        """The greatest error of any of the machines, radians, its input angle and its side."""
-        each = Deviations(*[Jet([np.atleast_1d(z)[:, None] for z in jet.c]) for jet in by])
-        best = (-1.0, 0.0, 1.0)
+    def room_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
+        """What the centre distance and the crank's radius may be off by together, of every draw.
+
+        Further off the roller may reach the wheel's axis, or the crank's. A normal distribution
+        has tails: deviations lie within ``TAIL`` times the plus or minus.
+        """
+        times = TAIL if spec.tolerance.distribution == "normal" else 1.0
+        play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
+        e = self.engagement
+        entry, exit_ = (np.ravel(x) for x in (e.entry_deg, e.exit_deg))
+        x, y = e.path(np.linspace(entry, exit_, LOOKS, axis=-1), 0)
+        near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
+        nearest = self.L * (near - size(e.slot.offset))
+        room = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
+        return parameter(room if room.size > 1 else float(room[0, 0]))
+
+    def greatest(self, by: Deviations) -> Worst:
+        """The greatest error of any of the machines: (n,) of n designs, or (1,) of one.
+
+        The machines are a first axis of the deviations, (k,) or of n designs (k, n, 1).
+        """
+        each = Deviations(*[Jet([_machines_first(z) for z in jet.c]) for jet in by])
+        entry, exit_ = (np.ravel(x) for x in (self.engagement.entry_deg, self.engagement.exit_deg))
+        best: Worst | None = None
         for side in (1.0, -1.0):
-            low, high = self.engagement.entry_deg, self.engagement.exit_deg
+            low, high = entry, exit_
             for _ in range(CLOSER):
-                at = np.linspace(low, high, LOOKS)
+                at = np.linspace(low, high, LOOKS, axis=-1)
                 off = (array(self(each, at, side).c[0]) * side).max(axis=0)
-                i = int(np.argmax(off))
-                best = max(best, (float(off[i]), float(at[i]), side), key=_size)
-                step = (at[1] - at[0]) * LOOKS / 20.0
-                low = max(self.engagement.entry_deg, at[i] - step)
-                high = min(self.engagement.exit_deg, at[i] + step)
+                at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
+                i = np.argmax(off, axis=1)
+                here = Worst(off[every, i], at[every, i], np.full(len(off), side))
+                best = here if best is None else here.beyond(best)
+                step = (at[:, 1] - at[:, 0]) * LOOKS / 20.0
+                low = np.maximum(entry, here.at_deg - step)
+                high = np.minimum(exit_, here.at_deg + step)
+        assert best is not None
         return best
 
 
-def _size(found: tuple[float, float, float]) -> float:
-    return found[0]
+class Worst(NamedTuple):
+    """Greatest errors of n designs, radians, their input angles and their sides: (n,) each."""
+
+    error: Array
+    at_deg: Array
+    side: Array
+
+    def beyond(self, other: Worst) -> Worst:
+        """Each of these where it is greater than the other, else that."""
+        more = self.error > other.error
+        return Worst(*(np.where(more, a, b) for a, b in zip(self, other, strict=True)))
+
+
+def _machines_first(z: Number) -> Array:
+    """Deviations of machines as (k, n, 1), n being 1 for one design."""
+    return np.reshape(z, (np.shape(z)[0] if np.ndim(z) else 1, -1, 1))
 
 
 def _asin(height: Jet, square: Jet) -> Jet:

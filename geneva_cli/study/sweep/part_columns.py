@@ -21,6 +21,7 @@ from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.strength import pin as pins
 from geneva_cli.analysis.strength import roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
+from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.many import Vibrations, vibrations_of_many
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -162,6 +163,19 @@ def _slot(machine: Mechanism, asked: Collection[str]) -> Columns:
     return dict(zip(SLOT, (found.share, found.gap_mm, found.gap_at_deg), strict=True))
 
 
+def _play(machine: Mechanism, asked: Collection[str]) -> Columns:
+    found = motion_plays(machine)
+    return {} if found is None else found._asdict()
+
+
+def _jump(machine: Mechanism, asked: Collection[str]) -> Columns:
+    """Of designs with tolerances that are none too wide: others say so themselves."""
+    found, plays = entry_jumps_worst(machine, used(machine)), motion_plays(machine)
+    if found is None or plays is None:
+        return {}
+    return {"worst": np.where(np.isnan(plays.worst_deg), np.nan, found)}
+
+
 PIN = ("diameter_mm", "bending_MPa", "shear_MPa", "stress_MPa", "least_diameter_mm", "margin")
 SHAFT = ("moment_Nm", "at_deg", "stress_MPa", "least_diameter_mm", "twist_deg", "margin")
 LIFE = (
@@ -179,6 +193,9 @@ GROUPS = {
     "shock.entry": Group(Blow._fields, _entry),
     "shock.reversal": Group((*Blow._fields, "drag_Nm"), _reversal),
     "slot": Group(SLOT, _slot),
+    # what the random machines of a study tell is told of each design alone
+    "tolerance.motion_play": Group(("worst_deg", "rss_deg"), _play),
+    "tolerance.entry_jump": Group(("worst",), _jump),
 }
 
 

@@ -7,9 +7,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.tolerance.dimensions import Deviations, Draws, corners, tolerances
+from geneva_cli.analysis.tolerance.dimensions import (
+    Deviations,
+    Draws,
+    corners,
+    tolerances,
+    without_effect,
+)
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.motion_error import motion_errors
+from geneva_cli.analysis.tolerance.many import entry_jumps_worst
+from geneva_cli.analysis.tolerance.motion_error import Worst, motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
 from geneva_cli.errors import Caution, GenevaError, cut
@@ -22,8 +29,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 10_000_000
-TAIL = 3.0  # plus or minuses: nine standard deviations
-PLACES = 361  # of a motion
 
 
 class Entry(NamedTuple):
@@ -61,7 +66,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     found = _locks(mechanism, proof, warnings)
     lock = max(found, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
     least_play = min((float(np.min(one(ends).angle.c[0])) for one in found), default=0.0)
-    errors = [(one, *one.greatest(ends)) for one in motion_errors(mechanism)]
+    errors = [(one, *_first(one.greatest(ends))) for one in motion_errors(mechanism)]
     farthest = max(errors, key=lambda found: found[1], default=None)
     jumps = max(entry_jumps(mechanism), key=lambda one: _most(one(ends)[0]), default=None)
     normal = mechanism.spec.tolerance.distribution == "normal"
@@ -93,7 +98,9 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         )
     if jumps:
         jump = drawn.jump
-        entry = Entry(_most(jumps(ends)[0]), float(jump.mean()), float(jump.std()), drawn.missed)
+        worst_jump = entry_jumps_worst(mechanism, use)
+        assert worst_jump is not None  # there are slots to enter
+        entry = Entry(float(worst_jump[0]), float(jump.mean()), float(jump.std()), drawn.missed)
     else:
         warnings.append(
             Caution(
@@ -127,13 +134,8 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
 
     A normal distribution has tails: deviations lie within three times the plus or minus.
     """
-    times = TAIL if mechanism.spec.tolerance.distribution == "normal" else 1.0
-    play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
     for one in motion_errors(mechanism):
-        e = one.engagement
-        x, y = e.path(np.linspace(e.entry_deg, e.exit_deg, PLACES), 0)
-        nearest = one.L * (float(np.hypot(x.c[0], y.c[0]).min()) - abs(e.slot.offset))
-        room = min((nearest - one.clearance) / times - play, one.arm / times)
+        room = one.room_mm(mechanism.spec, use)
         if not use["center_distance_mm"] + use["crank_radius_mm"] < room:
             raise GenevaError(
                 "the tolerances are too wide for a machine: center_distance_mm and "
@@ -148,11 +150,7 @@ def _applicable(
 ) -> tuple[dict[str, float], list[Caution]]:
     """The tolerances, 0 for those without effect in this machine; and why they have none."""
     use, warnings = dict(given), list[Caution]()
-    why = {}
-    if not mechanism.spec.drive.ONE_ARM:
-        why["crank_radius_mm"] = "no crank's arm carries the roller"
-    if not mechanism.spec.wheel.FLAT:
-        why["center_distance_mm"] = "the shafts meet, whatever the sphere's radius"
+    why = without_effect(mechanism.spec)
     for name, reason in why.items():
         if use[name]:
             use[name] = 0.0
@@ -168,6 +166,11 @@ def _locks(mechanism: Mechanism, proof: Proof, warnings: list[Caution]) -> list[
     except GenevaError as error:
         warnings.append(Caution("not-known", f"no parts: {error}"))
         return []
+
+
+def _first(found: Worst) -> tuple[float, float, float]:
+    """Of the one design."""
+    return float(found.error[0]), float(found.at_deg[0]), float(found.side[0])
 
 
 def _most(values: Array) -> float:

@@ -1,0 +1,124 @@
+"""The worst that tolerances do to many designs' motions and entries; of one design m is 1.
+
+The rest of a study is random machines, which are an array already: as many as one design's take
+the time of as many designs, and so of each design alone.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Tolerance
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(6), tolerance=Tolerance(slot_angle_deg=0.1, crank_radius_mm=0.02))
+    >>> found = many(spec, {"wheel.z": np.array([4, 6])})
+    >>> motion_plays(found.machine).worst_deg.round(6)
+    array([0.122925, 0.115281])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.blows import arm_mm
+from geneva_cli.analysis.shock import first_contacts
+from geneva_cli.analysis.tolerance.dimensions import (
+    corners,
+    deviations,
+    slope_of,
+    tolerances,
+    without_effect,
+)
+from geneva_cli.analysis.tolerance.motion_error import LOOKS, MotionError, Worst, motion_errors
+from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import array, parameter
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
+
+MOST = 1 << 20  # places of machines with deviations looked at together
+
+
+class MotionPlays(NamedTuple):
+    """How far wheels may be off during a motion, as of ``Spread``: (m,) each.
+
+    NaN of tolerances that are all 0, or too wide for a machine.
+    """
+
+    worst_deg: Array
+    rss_deg: Array
+    at_deg: Array
+
+
+def used(mechanism: Mechanism) -> dict[str, float]:
+    """The plus or minus of each dimension, 0 where it has no effect; of m designs (m, 1)."""
+    return tolerances(mechanism.spec) | dict.fromkeys(without_effect(mechanism.spec), 0.0)
+
+
+def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
+    """The plays of m designs; None of curved slots, which are solved for."""
+    errors, sizes = motion_errors(mechanism), list(used(mechanism).values())
+    if not errors:
+        return None
+    motions = [engagement.motion for engagement in mechanism.engagements]
+    own = [motion(motion.entry_deg, 1).c[1] + motion.entry_deg for motion in motions]
+    m = max(np.size(value) for value in (*sizes, *own, *errors[0][1:]))
+    machines = 2 ** sum(bool(np.any(size)) for size in sizes)
+    group = max(1, MOST // (machines * LOOKS))
+    parts = [
+        _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)
+    ]
+    return MotionPlays(*(np.concatenate(rows) for rows in zip(*parts, strict=True)))
+
+
+def _of(mechanism: Mechanism, n: int) -> MotionPlays:
+    use = used(mechanism)
+    sizes = list(use.values())
+    best = Worst(*np.full((3, n), -1.0))
+    rss, shown = np.zeros((2, n))
+    known = sum(sizes) > np.zeros((n, 1))
+    for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
+        found = Worst(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
+        more = found.error > best.error
+        best = found.beyond(best)
+        rss = np.where(more, _rss(error, sizes, found), rss)
+        at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + found.at_deg[:, None]))
+        shown = np.where(more, np.ravel(at_deg), shown)
+        both = use["center_distance_mm"] + use["crank_radius_mm"]
+        known = known & (both < error.room_mm(mechanism.spec, use))
+    rows = (np.degrees(best.error), np.degrees(rss), shown)
+    return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
+
+
+def _rss(error: MotionError, sizes: list[float], at: Worst) -> Array:
+    """The root of the squares of what each dimension alone does, at these places."""
+    x, side = at.at_deg[:, None], at.side[:, None]
+    rest = error(deviations([0.0] * len(sizes)), x, side).c[0]
+    parts = [
+        array(error(slope_of(i), x, side).c[1]) * size
+        for i, size in enumerate(sizes)
+        if np.any(size)
+    ]
+    squares = sum((part * part for part in parts), np.zeros((len(x), 1)))
+    return np.ravel(abs(array(rest)) + np.sqrt(squares))
+
+
+def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
+    """The greatest jump of velocity at entry for any of the deviations, over the input's speed.
+
+    (m,) of m designs; 0 where the roller always misses the slot's axis. None of slots and grooves
+    that are solved for.
+    """
+    worst: Array | None = None
+    for engagement in mechanism.engagements:
+        crank = use["crank_radius_mm"] / arm_mm(mechanism, engagement)
+        center = use["center_distance_mm"] / mechanism.center_distance_mm
+        for one, other in product((-1.0, 1.0), repeat=2):
+            found = first_contacts(engagement, one * crank, other * center)
+            if found is None:
+                return None
+            jump = np.nan_to_num(abs(found.jump))
+            worst = jump if worst is None else np.maximum(worst, jump)
+    return worst
