@@ -477,7 +477,7 @@ class Design:
 
         if not tolerance_mm > 0.0:
             raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
-        if is_alone(part) and not self.spec.is_flat:
+        if not self.spec.is_flat and is_alone(self.mechanism, part):
             return Proof(self.mechanism)
         made = self._located(lambda: outlines(self.mechanism, tolerance_mm))
         return Proof(self.mechanism, made)
@@ -568,7 +568,7 @@ class Design:
         from geneva_cli.output.notebook import shown
 
         drawing = None
-        with suppress(GenevaError):  # spherical wheels are no flat parts
+        with suppress(GenevaError):  # toothed sectors are no outline
             drawing = self.drawing("assembly")
         report = self.report
         return shown(report.table, report.passes, drawing, self.figure())

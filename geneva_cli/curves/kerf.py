@@ -56,7 +56,9 @@ def paths(drawing: Drawing, kerf: float) -> Drawing:
         _path(shape, outside[shape], kerf) if shape in outside else shape
         for shape in drawing.shapes
     )
-    return drawing._replace(title=f"{drawing.title}, kerf {kerf:g} mm", shapes=shapes, solid=None)
+    return drawing._replace(
+        title=f"{drawing.title}, kerf {kerf:g} mm", shapes=shapes, solid=None, shells=None
+    )
 
 
 def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circle:

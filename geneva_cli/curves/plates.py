@@ -1,15 +1,18 @@
-"""Solids that are drawn out of outlines along the axis, and parts put together of them.
+"""Solids that are drawn out of outlines along the axis, or of a sphere; parts put together of them.
 
-The wheel's plane is z = 0..thickness; lengths in millimetres, angles in radians.
+The wheel's plane is z = 0..thickness, or its sphere's centre the origin; lengths in millimetres,
+angles in radians.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.curves.measure import area
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.shapes import Circle, Contour, Point, backwards
+from geneva_cli.curves.sphere import Region, Vector
 
 MM = 1e-3  # metres
 
@@ -43,6 +46,34 @@ class Plate(NamedTuple):
         return _counterclockwise(self.outline).less(total(map(_counterclockwise, self.holes)))
 
 
+class Shell(NamedTuple):
+    """What lies between two spheres about the origin, over regions that touch along whole arcs."""
+
+    name: str
+    layer: str
+    regions: tuple[Region, ...]
+    inner: float
+    outer: float
+
+    @property
+    def volume(self) -> float:
+        """Solid angle times a third of the difference of the cubes, mm³."""
+        return math.fsum(r.area for r in self.regions) * (self.outer**3 - self.inner**3) / 3.0
+
+    def inertia(self, axis: Vector) -> float:
+        """The volume's moment of inertia about an axis through the centre, mm⁵.
+
+        >>> from geneva_cli.curves.sphere import SphereArc, place
+        >>> half = place(math.pi / 2.0, 0.0)
+        >>> dome = Region((SphereArc((0.0, 0.0, 1.0), math.pi / 2.0, half, half),), (0.0, 0.0, 1.0))
+        >>> ball = Shell("", "WHEEL", (dome,), 0.0, 10.0)
+        >>> round(ball.inertia((0.0, 0.0, 1.0)) / ball.volume, 12)  # 2/5 r²
+        40.0
+        """
+        seen = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
+        return seen * (self.outer**5 - self.inner**5) / 5.0
+
+
 class Group(NamedTuple):
     """Parts put together: each turned about its own origin, and then moved."""
 
@@ -58,14 +89,19 @@ class Member(NamedTuple):
     turn: float = 0.0  # counterclockwise
 
 
-Part: TypeAlias = Plate | Group
+Part: TypeAlias = Plate | Shell | Group
+
+
+def solids(part: Part) -> list[Plate | Shell]:
+    """All solids of a part, each as often as it is used."""
+    if isinstance(part, Group):
+        return [one for member in part.members for one in solids(member.part)]
+    return [part]
 
 
 def plates(part: Part) -> list[Plate]:
-    """All plates of a part, each as often as it is used."""
-    if isinstance(part, Plate):
-        return [part]
-    return [plate for member in part.members for plate in plates(member.part)]
+    """Those of them that are flat."""
+    return [one for one in solids(part) if isinstance(one, Plate)]
 
 
 class MassProperties(NamedTuple):

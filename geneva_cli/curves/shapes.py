@@ -100,13 +100,15 @@ class Drawing(NamedTuple):
     """Shapes and a title.
 
     ``look`` is for drawings to look at, where the format has such, and None for those to cut.
-    ``solid`` is what is drawn as the solid that it is, for formats of solids.
+    ``solid`` is what is drawn as the solid that it is, for formats of solids; ``shells`` are
+    what it becomes where it is laid flat here, and go before it.
     """
 
     title: str
     shapes: tuple[Shape, ...]
     look: Look | None = None
     solid: Part | None = None
+    shells: Part | None = None
 
     @property
     def layers(self) -> tuple[str, ...]:

@@ -121,9 +121,9 @@ def assembly(mechanism: Mechanism) -> Assembly:
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat; as tables (-o FILE.csv) '
-            "`--part wheel` writes the slots on the sphere, and `--part slot` the flat development "
-            "of one",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat; `--part wheel`, `crank` and '
+            "`assembly` are laid flat as .dxf and .svg, solids as .step; as tables (-o FILE.csv) "
+            "`wheel` is the slots on the sphere, and `slot` one of them laid flat",
             ("wheel", "gearing"),
         )
     if not spec.drive.OUTLINED:

@@ -28,16 +28,22 @@ class Part(NamedTuple):
     cut: bool = False  # whether it is cut out of a plate
     sheet: str | None = None  # as a drawing sheet with dimensions
     alone: bool = False  # whether it is drawn without the outlines of wheel and crank
+    flat: str | None = None  # its drawing laid flat where the wheel is a sphere's
 
 
 PARTS = {
     "slot": Part("slot_sampling:profile_table", "drawings:slot"),
-    "wheel": Part(drawing="drawings:wheel", sphere="meridians:meridians_table", cut=True),
-    "crank": Part(drawing="drawings:crank", cut=True),
+    "wheel": Part(
+        drawing="drawings:wheel",
+        sphere="meridians:meridians_table",
+        cut=True,
+        flat="sphere.drawings:wheel",
+    ),
+    "crank": Part(drawing="drawings:crank", cut=True, flat="sphere.drawings:crank"),
     "arm": Part(drawing="drawings:arm", cut=True),
     "links": Part(drawing="link_drawings:links", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
-    "assembly": Part(drawing="drawings:assembly"),
+    "assembly": Part(drawing="drawings:assembly", flat="sphere.drawings:assembly"),
     "gears": Part("gear_curves:gears_table", "gear_drawings:gears", alone=True),
     "groove": Part("groove:groove_table", "drawings:groove"),
     "coupon": Part(drawing="coupon:coupon", cut=True),
@@ -82,9 +88,10 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     return made
 
 
-def is_alone(part: str) -> bool:
+def is_alone(mechanism: Mechanism, part: str) -> bool:
     """Whether a part is drawn without the outlines of wheel and crank."""
-    return part in PARTS and PARTS[part].alone
+    own = PARTS.get(part)
+    return own is not None and (own.alone or (own.flat is not None and not _in_plane(mechanism)))
 
 
 def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Drawing:
@@ -96,8 +103,10 @@ def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> D
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, and no drawing to cut")
     is_table(proof.mechanism, part, drawn=True)
-    of = proof if is_alone(part) else proof.found
-    made: Drawing = _made(PARTS[part].drawing)(of, tolerance_mm, curves)
+    own, in_plane = PARTS[part], _in_plane(proof.mechanism)
+    by = own.drawing if in_plane else own.flat or own.drawing
+    of = proof if is_alone(proof.mechanism, part) else proof.found
+    made: Drawing = _made(by)(of, tolerance_mm, curves)
     return made
 
 
@@ -123,7 +132,11 @@ def require_cut(part: str, option: str = "--kerf") -> None:
 
 def _table(mechanism: Mechanism, part: str) -> str | None:
     own = PARTS[part]
-    return own.table if mechanism.spec.wheel.FLAT else own.sphere or own.table
+    return own.table if _in_plane(mechanism) else own.sphere or own.table
+
+
+def _in_plane(mechanism: Mechanism) -> bool:
+    return mechanism.spec.wheel.FLAT
 
 
 def _require_known(part: str) -> None:

@@ -53,6 +53,8 @@ def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
     for plate in dict.fromkeys(plates(solid)):
         found |= freed(plate, 0.5 * cutter_mm, wall, works)
     shapes = tuple(found.get(shape, shape) for shape in drawing.shapes)
+    if drawing.shells:  # which have none, where they are laid flat
+        return drawing._replace(shapes=shapes, solid=None, shells=None)
     return drawing._replace(shapes=shapes, solid=_replaced(solid, found))
 
 
@@ -72,5 +74,7 @@ def _replaced(part: Part, by: dict[Shape, Contour]) -> Part:
             outline=by.get(part.outline, part.outline),
             holes=tuple(by.get(hole, hole) for hole in part.holes),
         )
+    if not isinstance(part, Group):
+        return part
     members = (one._replace(part=_replaced(one.part, by)) for one in part.members)
     return Group(part.name, tuple(members))

@@ -24,6 +24,7 @@ from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_plate
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sphere.listed import dimensions, shell_rows
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Table, rows_table
 
@@ -58,6 +59,8 @@ def parts_list(proof: Proof) -> Table:
     mechanism = proof.mechanism
     found: list[dict[str, object]] = []
     with suppress(GenevaError):  # the check of the parts says why there are none
+        if not mechanism.spec.wheel.FLAT:
+            found += shell_rows(proof)
         found += parts_rows(proof.found) if mechanism.spec.is_flat else link_rows(mechanism)
     found += [*_pivots(mechanism), *_dimensions(mechanism)]
     rows = [[row.get(name) for name in NAMES] for row in found]
@@ -132,6 +135,9 @@ def _dimensions(mechanism: Mechanism) -> Iterator[dict[str, object]]:
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
     found += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
+    if not spec.wheel.FLAT:
+        with suppress(GenevaError):
+            found += dimensions(mechanism)
     if mechanism.law is None and spec.drive.CRANKED:
         found += _straight(mechanism)
     elif spec.drive.CRANKED:

@@ -299,8 +299,10 @@ def test_sources_are_those_of_the_machine() -> None:
 
 def test_what_is_not_drawn_is_said_in_its_place() -> None:
     assert any(isinstance(block, Picture) for block in of("turret")[1].blocks)
-    said_ = "".join(markdown.chunks(of("spherical-z6")[1]))
-    assert "Not drawn: gearing" in said_
+    (flat,) = (b for b in of("spherical-z6")[1].blocks if isinstance(b, Picture))
+    assert flat.drawing.title == "Wheel and crank, laid flat"
+    said_ = "".join(markdown.chunks(of("gear-sector")[1]))
+    assert "Not drawn: kind" in said_
 
 
 def test_a_value_that_is_none_of_a_number_is_never_shown() -> None:

@@ -22,7 +22,8 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     Raises GenevaError for a drawing without solids, another unit than mm, or a coordinate that is
     not finite.
     """
-    if drawing.solid is None:
+    whole = drawing.shells or drawing.solid
+    if whole is None:
         raise GenevaError(
             "no solid to write as STEP: --part wheel, crank, arm and assembly are solids, in "
             "their own size; other drawings, and paths with --kerf, are .dxf or .svg"
@@ -30,7 +31,7 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     if units != "mm":
         raise GenevaError("--units: a STEP file is in mm, and says so to the program that reads it")
     file = Entities()
-    Products(file, drawing.solid)
+    Products(file, whole)
     yield (
         "ISO-10303-21;\nHEADER;\n"
         f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"

@@ -1,4 +1,4 @@
-"""Instances of a STEP file (ISO 10303-21): numbers, texts, points, directions and placements."""
+"""Instances of a STEP file (ISO 10303-21): numbers, texts, points, placements, edges and faces."""
 
 from __future__ import annotations
 
@@ -72,3 +72,32 @@ def words(text: str) -> str:
         else:
             out += f"\\X2\\{ord(c):04X}\\X0\\" if c < "\U00010000" else f"\\X4\\{ord(c):08X}\\X0\\"
     return f"'{out}'"
+
+
+def edge(file: Entities, start: str, end: str, curve: str, along: bool) -> str:
+    """An edge between two vertices, on a curve that is written once."""
+    return file.add(f"EDGE_CURVE('',{start},{end},{file.shared(curve)},{_flag(along)})")
+
+
+def loop(file: Entities, edges: list[tuple[str, bool]]) -> str:
+    """Edges end to end, each with whether it is run along as it was made."""
+    sides = [file.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
+    return file.add(f"EDGE_LOOP('',{listed(sides)})")
+
+
+def face(file: Entities, loops: list[str], surface: str, same: bool) -> str:
+    """A face on a surface, whose normal is the face's own where it is the ``same``."""
+    first, *inner = loops
+    bounds = [file.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
+    bounds += [file.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]
+    return file.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
+
+
+def _flag(value: bool) -> str:
+    return ".T." if value else ".F."
+
+
+def closed_solid(file: Entities, faces: list[str]) -> str:
+    """The solid within a closed shell of faces."""
+    shell = file.add(f"CLOSED_SHELL('',{listed(faces)})")
+    return file.add(f"MANIFOLD_SOLID_BREP('',{shell})")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Group, Member, Part, Plate, plates
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, solids
 from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.step.entities import Entities, listed, real, words
+from geneva_cli.output.step.shell import shell_solid
 from geneva_cli.output.step.solid import solid
 
 
@@ -23,7 +24,7 @@ class Products:
 
     def __init__(self, file: Entities, whole: Part) -> None:
         self.file = file
-        self.inks = inks(tuple(dict.fromkeys(plate.layer for plate in plates(whole))))
+        self.inks = inks(tuple(dict.fromkeys(one.layer for one in solids(whole))))
         self.known: dict[Part, Product] = {}
         self.styled: list[str] = []
         application = file.add("APPLICATION_CONTEXT('automotive design')")
@@ -45,15 +46,15 @@ class Products:
     def product(self, part: Part) -> Product:
         """The product of a part, made when it is first asked for."""
         if part not in self.known:
-            made = self._plate(part) if isinstance(part, Plate) else self._group(part)
+            made = self._group(part) if isinstance(part, Group) else self._solid(part)
             self.known[part] = made
         return self.known[part]
 
-    def _plate(self, plate: Plate) -> Product:
-        body = solid(self.file, plate)
-        self.styled.append(self._styled(body, self.inks[plate.layer]))
+    def _solid(self, one: Plate | Shell) -> Product:
+        body = solid(self.file, one) if isinstance(one, Plate) else shell_solid(self.file, one)
+        self.styled.append(self._styled(body, self.inks[one.layer]))
         return self._defined(
-            plate.name,
+            one.name,
             f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({self.file.origin},{body}),{self.space})",
         )
 

@@ -13,7 +13,16 @@ from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Plate, with_material_left
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.step.entities import SHARE, Entities, listed, real
+from geneva_cli.output.step.entities import (
+    SHARE,
+    Entities,
+    closed_solid,
+    edge,
+    face,
+    listed,
+    loop,
+    real,
+)
 from geneva_cli.output.step.splines import Piece, Spline, pieces
 
 
@@ -50,13 +59,12 @@ def solid(file: Entities, plate: Plate) -> str:
             else _walls(file, plate, with_material_left(shape, outside))
         )
         faces += [wall.face for wall in walls]
-        lower.append(_loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
-        upper.append(_loop(file, [(wall.high, wall.along) for wall in walls]))
+        lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
+        upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
-    faces.append(_face(file, lower, _level(file, plate.low), False))
-    faces.append(_face(file, upper, _level(file, plate.high), True))
-    shell = file.add(f"CLOSED_SHELL('',{listed(faces)})")
-    return file.add(f"MANIFOLD_SOLID_BREP('',{shell})")
+    faces.append(face(file, lower, _level(file, plate.low), False))
+    faces.append(face(file, upper, _level(file, plate.high), True))
+    return closed_solid(file, faces)
 
 
 def _cleaned(plate: Plate) -> tuple[Contour | Circle, ...]:
@@ -78,18 +86,18 @@ def _walls(file: Entities, plate: Plate, contour: Contour) -> list[Wall]:
 def _place(file: Entities, plate: Plate, at: Point) -> Place:
     points = [file.point(at, z) for z in (plate.low, plate.high)]
     low, high = (file.add(f"VERTEX_POINT('',{point})") for point in points)
-    return Place(low, high, _edge(file, low, high, f"LINE('',{points[0]},{file.rise})", True))
+    return Place(low, high, edge(file, low, high, f"LINE('',{points[0]},{file.rise})", True))
 
 
 def _wall(file: Entities, plate: Plate, piece: Piece, start: Place, end: Place) -> Wall:
     curves = [_curve(file, piece, z) for z in (plate.low, plate.high)]
     along = not isinstance(piece, Arc) or piece.bulge > 0.0
-    low = _edge(file, start.low, end.low, curves[0], along)
-    high = _edge(file, start.high, end.high, curves[1], along)
-    loop = _loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
+    low = edge(file, start.low, end.low, curves[0], along)
+    high = edge(file, start.high, end.high, curves[1], along)
+    sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal leads away from its axis, and that of the rest to the right
-    face = _face(file, [loop], _surface(file, piece, plate), along)
-    return Wall(face, low, high, True)
+    wall = face(file, [sides], _surface(file, piece, plate), along)
+    return Wall(wall, low, high, True)
 
 
 def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> Wall:
@@ -97,12 +105,12 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> Wall:
     (x, y), r = circle.centre, circle.radius
     seam = _place(file, plate, (x + r, y))
     low, high = (
-        _edge(file, vertex, vertex, _circle(file, circle.centre, r, z), True)
+        edge(file, vertex, vertex, _circle(file, circle.centre, r, z), True)
         for vertex, z in ((seam.low, plate.low), (seam.high, plate.high))
     )
     sides = [(low, outside), (seam.edge, True), (high, not outside), (seam.edge, False)]
     surface = _cylinder(file, circle.centre, r, plate.low)
-    return Wall(_face(file, [_loop(file, sides)], surface, outside), low, high, outside)
+    return Wall(face(file, [loop(file, sides)], surface, outside), low, high, outside)
 
 
 def _curve(file: Entities, piece: Piece, z: float) -> str:
@@ -161,24 +169,3 @@ def _circle(file: Entities, centre: Point, radius: float, z: float) -> str:
 
 def _cylinder(file: Entities, centre: Point, radius: float, z: float) -> str:
     return file.add(f"CYLINDRICAL_SURFACE('',{file.placement(centre, z)},{real(radius)})")
-
-
-def _edge(file: Entities, start: str, end: str, curve: str, along: bool) -> str:
-    return file.add(f"EDGE_CURVE('',{start},{end},{file.shared(curve)},{_flag(along)})")
-
-
-def _loop(file: Entities, edges: list[tuple[str, bool]]) -> str:
-    sides = [file.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
-    return file.add(f"EDGE_LOOP('',{listed(sides)})")
-
-
-def _face(file: Entities, loops: list[str], surface: str, same: bool) -> str:
-    """A face on a surface, whose normal is the face's own where it is the ``same``."""
-    first, *inner = loops
-    bounds = [file.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
-    bounds += [file.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]
-    return file.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
-
-
-def _flag(value: bool) -> str:
-    return ".T." if value else ".F."

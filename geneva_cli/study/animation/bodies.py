@@ -27,7 +27,8 @@ GEAR = 241  # points of a gear's pitch curve
 def bodies(design: Design, turn: Turn) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove, gears: those that the machine has."""
     L, wheel, crank = turn.L, turn.wheel(), turn.crank()
-    shapes = _hollow(_shapes(design, "wheel"))
+    # what is only laid flat does not turn so
+    shapes = _hollow(_shapes(design, "wheel")) if design.spec.wheel.FLAT else ()
     flat = bool(shapes)
     yield Body("wheel", (*(shapes or _slots(turn)), _mark(shapes, turn)), (0.0, 0.0), wheel)
     if flat:

@@ -14,11 +14,13 @@ TOLERANCE_MM = 0.01  # of a drawing that is looked at
 
 
 def drawn(design: Design) -> Iterator[Block]:
-    """The machine put together at mid-motion, or why it is not drawn."""
+    """The machine put together at mid-motion, or a sphere's parts; or why it is not drawn."""
     yield Heading("The machine")
     try:
         found = design.drawing("assembly", TOLERANCE_MM)
-        yield Picture(found._replace(title="Put together, at mid-motion"))
+        flat = design.spec.wheel.FLAT
+        title = "Put together, at mid-motion" if flat else "Wheel and crank, laid flat"
+        yield Picture(found._replace(title=title))
     except GenevaError as error:
         yield Prose(f"Not drawn: {_bare(design, str(error))}")
 

@@ -1,0 +1,166 @@
+"""Regions of a unit sphere that are bounded by arcs of its circles, great and small.
+
+Points are unit vectors (x, y, z). A region lies to the left of its boundary, seen from outside.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+Vector: TypeAlias = tuple[float, float, float]
+
+GAUSS = 24  # points on an arc: its integrands are of the second degree in sine and cosine
+
+
+class SphereArc(NamedTuple):
+    """An arc counterclockwise about an axis, ``angle`` from it, radians; what is left is nearer.
+
+    Clockwise about an axis is counterclockwise about its opposite. From a point to itself it is
+    the whole circle.
+    """
+
+    axis: Vector
+    angle: float
+    start: Vector
+    end: Vector
+
+    @property
+    def sweep(self) -> float:
+        """How far it turns about its axis, radians, above 0 and at most a whole turn."""
+        if self.start == self.end:
+            return math.tau
+        x, y = self._frame()
+        turn = math.atan2(dot(self.end, y), dot(self.end, x))
+        return turn % math.tau
+
+    def at(self, turn: Array) -> tuple[Array, Array]:
+        """Points and their derivatives, (n, 3), at angles about the axis from the start."""
+        x, y = (np.array(v) for v in self._frame())
+        c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
+        flat = math.sin(self.angle)
+        points = math.cos(self.angle) * np.array(self.axis) + flat * (c * x + s * y)
+        return points, flat * (c * y - s * x)
+
+    def way(self, point: Vector) -> Vector:
+        """The direction in which it passes one of its points."""
+        return unit(cross(self.axis, point))
+
+    def turned(self, turn: Turn) -> SphereArc:
+        """The same, moved with the sphere."""
+        return SphereArc(turn(self.axis), self.angle, turn(self.start), turn(self.end))
+
+    @property
+    def ahead(self) -> Vector:
+        """From the axis to the start, square to the axis."""
+        return self._frame()[0]
+
+    def _frame(self) -> tuple[Vector, Vector]:
+        """That, and a quarter of a turn on."""
+        y = unit(cross(self.axis, self.start))
+        return cross(y, self.axis), y
+
+
+class Turn(NamedTuple):
+    """A rotation of the sphere: where its x, y and z go."""
+
+    x: Vector
+    y: Vector
+    z: Vector
+
+    def __call__(self, v: Vector) -> Vector:
+        """Where a vector goes."""
+        a, b, c = v
+        return (
+            a * self.x[0] + b * self.y[0] + c * self.z[0],
+            a * self.x[1] + b * self.y[1] + c * self.z[1],
+            a * self.x[2] + b * self.y[2] + c * self.z[2],
+        )
+
+
+class Region(NamedTuple):
+    """What is left of one closed boundary, in one piece; ``middle`` is a point within a quarter of
+    the sphere from all of it."""
+
+    boundary: tuple[SphereArc, ...]
+    middle: Vector
+
+    @property
+    def area(self) -> float:
+        """Its solid angle, by Gauss and Bonnet: 2 pi less what its boundary turns.
+
+        >>> pole, rim = (0.0, 0.0, 1.0), place(0.5, 0.0)
+        >>> cap = Region((SphereArc(pole, 0.5, rim, rim),), pole)
+        >>> abs(cap.area - math.tau * (1.0 - math.cos(0.5))) < 1e-15
+        True
+        """
+        turned = math.fsum(math.cos(arc.angle) * arc.sweep for arc in self.boundary)
+        return math.tau - turned - math.fsum(self._corners())
+
+    @property
+    def moments(self) -> tuple[Array, Array]:
+        """The integrals of u and of u u' over it, (3,) and (3, 3), from its boundary alone.
+
+        Of u: half that of u x du. Of u u', whose parts but for a third of the area are harmonics
+        of degree 2: minus a sixth of what flows out of it.
+        """
+        nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+        first, second = np.zeros(3), np.eye(3) * self.area / 3.0
+        for arc in self.boundary:
+            half = 0.5 * arc.sweep
+            u, du = arc.at(half * (1.0 + nodes))
+            out = np.cross(du, u)  # to the right, as long as the step
+            weight = half * weights
+            first -= 0.5 * (weight[:, None] * out).sum(axis=0)
+            flow = np.einsum("n,ni,nj->ij", weight, out, u)
+            second -= (flow + flow.T) / 6.0
+        return first, second
+
+    def turned(self, turn: Turn) -> Region:
+        """The same, moved with the sphere."""
+        return Region(tuple(arc.turned(turn) for arc in self.boundary), turn(self.middle))
+
+    def _corners(self) -> Iterator[float]:
+        """How far the boundary turns to the left at each corner."""
+        for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
+            if arc.start == arc.end:
+                continue
+            back, on = arc.way(arc.end), after.way(after.start)
+            yield math.atan2(dot(cross(back, on), arc.end), dot(back, on))
+
+
+def place(polar: float, azimuth: float) -> Vector:
+    """A point by its angle from z and that about z from x, radians."""
+    s = math.sin(polar)
+    return s * math.cos(azimuth), s * math.sin(azimuth), math.cos(polar)
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """The scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """The vector product."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def unit(v: Vector) -> Vector:
+    """A vector's direction."""
+    length = math.hypot(*v)
+    return v[0] / length, v[1] / length, v[2] / length
+
+
+def opposite(v: Vector) -> Vector:
+    """The other way."""
+    return -v[0], -v[1], -v[2]

@@ -1,0 +1,121 @@
+"""A spherical crank as regions of its sphere: locking sectors and rollers.
+
+In the crank's frame: its axis z, the first roller on the azimuth 0, the others where they are.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.sphere import Region, SphereArc, Turn, Vector, cross, opposite, place
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+STEPS = 181  # positions of a motion
+POINTED = 0.2  # of the locking sector's angle: it is left out nearer to the axis
+THIN = 0.05  # of it: a ring as thin as this holds nothing
+SAME = 1e-9  # radians
+
+
+def sectors(found: Ball) -> list[Region]:
+    """Where the crank locks: outside of what the wheel sweeps in a motion.
+
+    Raises GenevaError where nothing is left of them.
+    """
+    if not found.lock:
+        return []
+    spare = min(0.25 * (found.recess - found.lock) + 0.1 * found.roller, 0.1 * found.lock)
+    low = max(swept(found) + spare, POINTED * found.lock)
+    if low > (1.0 - THIN) * found.lock:
+        raise GenevaError(
+            "the wheel sweeps over the whole locking sector: another lock_radius_mm, or a smaller "
+            "roller, may leave room for one; 0 leaves it out, where the wheel is held in another "
+            "way",
+            ("size", "lock_radius_mm"),
+        )
+    return [_sector(found.lock, low, a, b) for a, b in locked(found)]
+
+
+def locked(found: Ball) -> list[tuple[float, float]]:
+    """Where the crank locks: azimuths about its axis, from and to."""
+    if not found.lock:
+        return []
+    after = (*found.rollers[1:], found.rollers[0] + math.tau)
+    spans = [
+        (a + found.half_motion, b - found.half_motion)
+        for a, b in zip(found.rollers, after, strict=True)
+    ]
+    return [(a, b) for a, b in spans if b - a > SAME]
+
+
+def _sector(high: float, low: float, start: float, end: float) -> Region:
+    """From one azimuth to another, between two angles from the axis."""
+    far, near = ([place(polar, a) for a in (start, end)] for polar in (high, low))
+    sides = [(-math.sin(a), math.cos(a), 0.0) for a in (start, end)]
+    boundary = (
+        SphereArc(POLE, high, far[0], far[1]),
+        SphereArc(opposite(sides[1]), QUARTER, far[1], near[1]),
+        SphereArc(opposite(POLE), math.pi - low, near[1], near[0]),
+        SphereArc(sides[0], QUARTER, near[0], far[0]),
+    )
+    return Region(boundary, POLE)
+
+
+def cap(middle: Vector, angle: float) -> Region:
+    """What is within an angle of a point."""
+    aside = cross(middle, POLE)
+    x, y, z = (
+        math.cos(angle) * p + math.sin(angle) * q / math.hypot(*aside)
+        for p, q in zip(middle, aside, strict=True)
+    )
+    return Region((SphereArc(middle, angle, (x, y, z), (x, y, z)),), middle)
+
+
+def rollers(found: Ball) -> list[Region]:
+    """The rollers' cones."""
+    return [cap(place(found.arm, azimuth), found.roller) for azimuth in found.rollers]
+
+
+def at_mid_motion(found: Ball) -> Turn:
+    """The crank's frame in the wheel's, with the first roller at mid-motion."""
+    axis = found.crank_axis(0.0)
+    ahead = place(found.axes - QUARTER, 0.0)
+    return Turn(ahead, cross(axis, ahead), axis)
+
+
+def swept(found: Ball) -> float:
+    """How near to the locking sectors' edge the wheel comes in a motion, from the crank's axis.
+
+    Radians; 0 where it stays clear of the sectors. The crank turns clockwise about its axis where
+    the wheel turns counterclockwise.
+    """
+    frame = np.column_stack(at_mid_motion(found))
+    wheel, most = edge_points(found), 0.0
+    wheel = wheel[np.abs(np.arccos(wheel[:, 2]) - found.axes) < found.lock]
+    for turn in np.linspace(-found.half_motion, found.half_motion, STEPS):
+        polar, azimuth = _seen(wheel @ _index(found, frame, turn), frame)
+        off = np.abs(np.remainder(azimuth + turn + math.pi, math.tau) - math.pi)
+        inside = (polar < found.lock * (1.0 - SAME)) & (off > found.half_motion)
+        most = max(most, float(polar[inside].max(initial=0.0)))
+    return most
+
+
+def _index(found: Ball, frame: Array, turn: float) -> Array:
+    """The rotation of the wheel that brings its slot under the roller, for rows of points."""
+    s = math.sin(found.arm)
+    x, y, _ = frame @ (s * math.cos(turn), -s * math.sin(turn), math.cos(found.arm))
+    c, s = x / math.hypot(x, y), y / math.hypot(x, y)
+    return np.array(((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0)))
+
+
+def _seen(points: Array, frame: Array) -> tuple[Array, Array]:
+    """Points from the crank's axis and about it, where it does not turn with the crank."""
+    x, y, up = (points @ frame).T
+    return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x)

@@ -1,0 +1,142 @@
+"""Drawings of a spherical wheel and crank laid flat, and their solids.
+
+Layers: WHEEL and CRANK are cut; ROLLER is where a roller goes through; PITCH is where rollers run.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.measure import bounds, mapped
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
+from geneva_cli.curves.shapes import Contour, Drawing, Line, Point, Segment, Shape, closed, joined
+from geneva_cli.curves.sphere import Region, Turn
+from geneva_cli.parts.link_drawings import titled
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sphere.crank import at_mid_motion, locked, rollers, sectors
+from geneva_cli.parts.sphere.laid_flat import Cone
+from geneva_cli.parts.sphere.sizes import Ball, ball
+from geneva_cli.parts.sphere.wheel import edge, wheel_regions
+
+APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
+PITCH = "PITCH"
+CUT = ("WHEEL", "CRANK")  # layers of sheet
+
+
+def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
+    """The wheel's cone, cut open amid two slots; x along the first slot."""
+    found = ball(proof.mechanism)
+    cone = wheel_cone(found)
+    title = f"{titled(proof.mechanism)}: wheel, flat: {cone.said('wheel')}"
+    shapes = _wheel_flat(found, cone, tolerance, curves)
+    return _drawing(found, title, shapes, wheel_shell(found))
+
+
+def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
+    """The crank's cone: locking sectors, and the rollers where they pass through it."""
+    found = ball(proof.mechanism)
+    cone, locks = crank_cone(found), sectors(found)
+    title = f"{titled(proof.mechanism)}: crank, flat: {cone.said('crank')}"
+    shapes = _crank_flat(found, locks, cone, tolerance, curves)
+    return _drawing(found, title, shapes, _crank(crank_shells(found, locks)))
+
+
+def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
+    """Both laid flat, side by side; as a solid the machine at input angle 0."""
+    found = ball(proof.mechanism)
+    locks, title = sectors(found), titled(proof.mechanism)
+    left = _wheel_flat(found, wheel_cone(found), tolerance, curves)
+    right = _crank_flat(found, locks, crank_cone(found), tolerance, curves)
+    shift = APART * found.radius_mm + max(bounds(shape).x1 for shape in left)
+    shift -= min(bounds(shape).x0 for shape in right)
+    beside = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
+    carried = _crank(crank_shells(found, locks, at_mid_motion(found)))
+    whole = Group(title, (Member(wheel_shell(found)), Member(carried)))
+    return _drawing(found, title, [*left, *beside], whole)
+
+
+def _drawing(found: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
+    """What is laid flat as plates of sheet, and the shells that it becomes."""
+    plates = [
+        Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, found.thickness_mm))
+        for s in shapes
+        if s.layer in CUT
+    ]
+    return Drawing(title, tuple(shapes), solid=Group(title, tuple(plates)), shells=shells)
+
+
+def wheel_cone(found: Ball) -> Cone:
+    """It touches the sphere amid the slots' length."""
+    mouth = math.acos(math.cos(found.rim) / math.cos(found.half_width))
+    return Cone(found.radius_mm, 0.5 * (found.bottom + mouth))
+
+
+def crank_cone(found: Ball) -> Cone:
+    """It touches the sphere where the rollers are."""
+    return Cone(found.radius_mm, found.arm)
+
+
+def _wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
+    b = found.half_step
+    one: list[Segment] = []
+    for arc in edge(found):
+        one += cone.segments(arc, 0.0, tolerance, curves)
+    slot = Contour("WHEEL", joined(one), closed=False)
+    mouth = math.acos(math.cos(found.rim) / math.cos(found.half_width))
+    ends = [cone.point(polar, 0.0) for polar in (mouth, found.bottom)]
+    way = Contour(PITCH, (Line(*ends),), closed=False)
+    outer: list[Segment] = []
+    pitch: list[Shape] = []
+    for k in range(found.z):
+
+        def to(p: Point, k: int = k) -> Point:
+            return cone.turned(p, 2 * k * b)
+
+        outer += mapped(slot, to).segments
+        pitch.append(mapped(way, to))
+    inner = [cone.point(found.inner, (2 * k - 1) * b) for k in range(found.z + 1)][::-1]
+    back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
+    first, last = outer[0].start, outer[-1].end
+    rim = closed("WHEEL", [*outer, Line(last, inner[0]), *back, Line(inner[-1], first)])
+    return [rim, *pitch]
+
+
+def _crank_flat(
+    found: Ball, locks: list[Region], cone: Cone, tolerance: float, curves: str
+) -> list[Shape]:
+    shapes: list[Shape] = []
+    for region, (a, b) in zip(locks, locked(found), strict=True):
+        shapes.append(_contour("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))
+    for region, about in zip(rollers(found), found.rollers, strict=True):
+        shapes.append(_contour("ROLLER", region, cone, about, tolerance, curves))
+    ends = cone.point(found.arm, 0.0), cone.point(found.arm, math.tau)
+    shapes.append(Contour(PITCH, (cone.level(*ends, math.tau),), closed=False))
+    return shapes
+
+
+def _contour(
+    layer: str, region: Region, cone: Cone, about: float, tolerance: float, curves: str
+) -> Contour:
+    found: list[Segment] = []
+    for arc in region.boundary:
+        found += cone.segments(arc, about, tolerance, curves)
+    return closed(layer, found)
+
+
+def wheel_shell(found: Ball) -> Shell:
+    """The wheel, its axis z."""
+    return Shell("wheel", "WHEEL", tuple(wheel_regions(found)), *found.span_mm)
+
+
+def crank_shells(found: Ball, locks: list[Region], turn: Turn | None = None) -> list[Shell]:
+    """Locking sectors and rollers in the crank's frame, or turned out of it."""
+    parts = [("locking sector", "CRANK", region) for region in locks]
+    parts += [("roller", "ROLLER", region) for region in rollers(found)]
+    return [
+        Shell(name, layer, (region.turned(turn) if turn else region,), *found.span_mm)
+        for name, layer, region in parts
+    ]
+
+
+def _crank(shells: list[Shell]) -> Group:
+    return Group("crank", tuple(Member(one) for one in shells))

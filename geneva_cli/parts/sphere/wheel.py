@@ -1,0 +1,99 @@
+"""A spherical wheel as regions of its sphere, one about each slot, side by side.
+
+The wheel's axis is z, the first slot on the azimuth 0. The slot's walls are the circles that its
+roller's cone touches, a round at its end; the rim and the recesses are circles about the two axes.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.sphere import Region, SphereArc, Vector, opposite, place
+from geneva_cli.parts.sphere.sizes import Ball
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+QUARTER = 0.5 * math.pi
+POLE = (0.0, 0.0, 1.0)
+
+
+def wheel_regions(found: Ball) -> list[Region]:
+    """The wheel: a region a slot, which share the meridians between the slots."""
+    b = found.half_step
+    between = [place(_end(found), (2 * k - 1) * b) for k in range(found.z)]
+    inner = [place(found.inner, (2 * k - 1) * b) for k in range(found.z)]
+    return [
+        _region(found, 2 * k * b, (between[k], between[after]), (inner[k], inner[after]))
+        for k in range(found.z)
+        for after in ((k + 1) % found.z,)
+    ]
+
+
+def edge(found: Ball, at: float = 0.0) -> list[SphereArc]:
+    """The edge about the slot at an azimuth, from the meridian before it to the one after."""
+    b = found.half_step
+    return _edge(found, at, place(_end(found), at - b), place(_end(found), at + b))
+
+
+def edge_points(found: Ball, each: int = 200) -> Array:
+    """Points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
+    share = np.arange(each) / each
+    arcs = [arc for k in range(found.z) for arc in edge(found, 2 * k * found.half_step)]
+    return np.concatenate([arc.at(arc.sweep * share)[0] for arc in arcs])
+
+
+def _end(found: Ball) -> float:
+    """The polar angle of the edge on the meridian between two slots."""
+    return found.axes - found.recess if found.recess else found.rim
+
+
+def _region(
+    found: Ball, at: float, between: tuple[Vector, Vector], inner: tuple[Vector, Vector]
+) -> Region:
+    b = found.half_step
+    sides = [(-math.sin(a), math.cos(a), 0.0) for a in (at - b, at + b)]
+    up = SphereArc(sides[0], QUARTER, inner[0], between[0])
+    down = SphereArc(opposite(sides[1]), QUARTER, between[1], inner[1])
+    back = SphereArc(opposite(POLE), math.pi - found.inner, inner[1], inner[0])
+    middle = place(0.5 * (found.inner + found.rim), at)
+    return Region((*_edge(found, at, *between), down, back, up), middle)
+
+
+def _edge(found: Ball, at: float, start: Vector, end: Vector) -> list[SphereArc]:
+    """Recess, rim, wall, round, wall, rim and recess, counterclockwise about the wheel's axis."""
+    b, w, corner = found.half_step, found.half_width, found.corner()
+    out = []
+    low, high = start, end
+    if found.recess:
+        low = place(found.rim, at - b + found.opened())
+        high = place(found.rim, at + b - found.opened())
+        out.append(_recess(found, at - b, start, low))
+    mouths = [place(found.rim, at - corner), place(found.rim, at + corner)]
+    middle, aside = place(found.bottom, at), (-math.sin(at), math.cos(at), 0.0)
+    ends = [_beside(middle, aside, -w), _beside(middle, aside, w)]
+    wall = QUARTER - w
+    out += [
+        SphereArc(POLE, found.rim, low, mouths[0]),
+        SphereArc(opposite(aside), wall, mouths[0], ends[0]),
+        SphereArc(opposite(middle), math.pi - w, ends[0], ends[1]),
+        SphereArc(aside, wall, ends[1], mouths[1]),
+        SphereArc(POLE, found.rim, mouths[1], high),
+    ]
+    if found.recess:
+        out.append(_recess(found, at + b, high, end))
+    return out
+
+
+def _recess(found: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc:
+    return SphereArc(opposite(found.crank_axis(azimuth)), math.pi - found.recess, start, end)
+
+
+def _beside(at: Vector, aside: Vector, angle: float) -> Vector:
+    """A point on the great circle from one point to another, square to it."""
+    c, s = math.cos(angle), math.sin(angle)
+    x, y, z = (c * p + s * q for p, q in zip(at, aside, strict=True))
+    return x, y, z

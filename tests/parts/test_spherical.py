@@ -1,0 +1,303 @@
+"""Spherical wheels and cranks: in closed form, through a whole motion, laid flat, and as solids."""
+
+import math
+from collections import Counter
+
+import mpmath
+import numpy as np
+import pytest
+from drawing_witness import vertices
+from step_witness import File
+
+from geneva_cli import Crank, Design, Size, Spherical
+from geneva_cli.curves.measure import area, segment_length
+from geneva_cli.curves.plates import solids
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.step import chunks
+from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
+from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
+from geneva_cli.parts.sphere.sizes import ball
+from geneva_cli.parts.sphere.wheel import edge_points, wheel_regions
+
+CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
+MACHINES = {
+    "90": Design(Spherical(6), size=Size(80.0, 5.0)),
+    "60, two rollers": Design(Spherical(5, axes_deg=60), Crank(rollers=2), size=CLEAR),
+    "120": Design(Spherical(6, axes_deg=120), size=CLEAR),
+    "3 slots": Design(Spherical(3), size=CLEAR),
+    "no lock": Design(Spherical(8), size=Size(60.0, 3.0, lock_radius_mm=0.0)),
+}
+
+
+@pytest.fixture(params=MACHINES)
+def machine(request):
+    return MACHINES[request.param]
+
+
+def sizes(design):
+    return ball(design.mechanism)
+
+
+def geometry(found):
+    """theory.md 1.3, from z and the shafts' angle: arm, mouth, half the motion."""
+    b, S = math.pi / found.z, found.axes
+    arm = math.asin(math.sin(S) * math.sin(b))
+    mouth = math.atan2(math.sin(S) * math.cos(b), math.cos(S))
+    half = math.atan2(math.sqrt(math.sin(S) ** 2 - math.sin(arm) ** 2), math.tan(arm) * math.cos(S))
+    return arm, mouth, half
+
+
+def test_sizes_are_those_of_the_theory(machine):
+    found, S = sizes(machine), math.radians(machine.spec.wheel.axes_deg)
+    arm, mouth, _ = geometry(found)
+    # cos as = tan th / tan S, which has no limit in doubles at 90 degrees but this
+    half = math.acos(math.tan(arm) * math.cos(S) / math.sin(S))
+    assert found.axes == pytest.approx(S, abs=1e-15)
+    assert found.arm == pytest.approx(arm, abs=1e-15)
+    assert found.half_motion == pytest.approx(half, abs=1e-14)
+    assert math.cos(found.rim) == pytest.approx(math.cos(mouth) * math.cos(found.half_width))
+
+
+def in_wheel(found, u):
+    """How far directions (n, 3) are within the wheel, radians, by its definition; inside above 0.
+
+    Nearer than the rim, in no slot and no recess.
+    """
+    depth = found.rim - np.arctan2(np.hypot(u[:, 0], u[:, 1]), u[:, 2])
+    depth = np.minimum(depth, np.arctan2(np.hypot(u[:, 0], u[:, 1]), u[:, 2]) - found.inner)
+    for k in range(found.z):
+        for azimuth, centre in ((2 * k, None), (2 * k + 1, found.axes)):
+            a = azimuth * math.pi / found.z
+            if centre is None:
+                depth = np.minimum(depth, beyond_slot(found, u, a))
+            elif found.recess:
+                c = u @ polar(centre, a)
+                depth = np.minimum(depth, np.arccos(np.clip(c, -1.0, 1.0)) - found.recess)
+    return depth
+
+
+def beyond_slot(found, u, a):
+    """The angle from a slot's middle line, less half its width."""
+    end, aside = polar(found.bottom, a), np.array((-math.sin(a), math.cos(a), 0.0))
+    on = polar(found.bottom + math.pi / 2.0, a)
+    along = (u @ on > 0.0) & (u @ polar(math.pi / 2.0, a) > 0.0)  # and not across the wheel
+    off = np.where(along, np.abs(np.arcsin(u @ aside)), np.arccos(np.clip(u @ end, -1.0, 1.0)))
+    return off - found.half_width
+
+
+def polar(angle, azimuth):
+    s = math.sin(angle)
+    return np.array((s * math.cos(azimuth), s * math.sin(azimuth), math.cos(angle)))
+
+
+def points(regions, each=200):
+    share = np.linspace(0.0, 1.0, each)
+    return np.concatenate(
+        [arc.at(arc.sweep * share)[0] for region in regions for arc in region.boundary]
+    )
+
+
+def test_the_boundary_is_that_of_the_definition(machine):
+    found = sizes(machine)
+    assert np.abs(in_wheel(found, edge_points(found, 40))).max() < 1e-14
+    for region in wheel_regions(found):
+        ends = zip(region.boundary, (*region.boundary[1:], region.boundary[0]), strict=True)
+        assert all(arc.end == after.start for arc, after in ends)
+
+
+@pytest.mark.parametrize("name", ["90", "60, two rollers", "no lock"])
+def test_the_solid_angle_is_that_of_an_integral(name):
+    """Over azimuths, of what the definition leaves of each meridian; mpmath, to 1e-12."""
+    found = sizes(MACHINES[name])
+    b, S, w = math.pi / found.z, found.axes, found.half_width
+
+    def circle(centre, angle, azimuth):
+        """Polar angles at which a meridian enters and leaves a circle about a point on 0."""
+        A, B = mpmath.cos(centre), mpmath.sin(centre) * mpmath.cos(azimuth)
+        reach = mpmath.cos(angle) / mpmath.hypot(A, B)
+        if reach >= 1:
+            return None
+        middle = mpmath.atan2(B, A)
+        return middle - mpmath.acos(reach), middle + mpmath.acos(reach)
+
+    def left(azimuth):
+        high = found.rim
+        recess = circle(S, found.recess, azimuth - b) if found.recess else None
+        if recess:
+            high = min(high, recess[0])
+        kept = mpmath.cos(found.inner) - mpmath.cos(high)
+        slot = circle(found.bottom, w, azimuth)
+        if slot:
+            out = mpmath.sin(w) / mpmath.sin(azimuth) if azimuth else 2
+            # the wall leaves the meridian where it passes the rim, or on its way there
+            top = found.rim if out >= mpmath.sin(found.rim) else mpmath.asin(out)
+            foot = mpmath.atan(mpmath.tan(found.bottom) / mpmath.cos(azimuth))
+            top = slot[1] if top < foot else top
+            kept -= mpmath.cos(slot[0]) - mpmath.cos(top)
+        return kept
+
+    corner, foot = found.corner(), math.atan2(math.tan(w), math.sin(found.bottom))
+    widest = math.asin(math.sin(w) / math.sin(found.bottom))
+    breaks = sorted({0.0, corner, foot, widest, b - found.opened(), b})
+    whole = 2 * mpmath.quad(left, breaks)
+    for region in wheel_regions(found):
+        assert region.area == pytest.approx(float(whole), rel=1e-12)
+
+
+def turned(u, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    return np.column_stack((u[:, 0] * c - u[:, 1] * s, u[:, 0] * s + u[:, 1] * c, u[:, 2]))
+
+
+@pytest.mark.parametrize("at", range(len(MACHINES)))
+def test_nothing_meets_in_a_motion(at):
+    """The crank's edge, turned by theory's formula, is never in the wheel; the wheel's edge is
+    never in a sector; the roller leaves the slot's clearance on both sides."""
+    found = sizes([*MACHINES.values()][at])
+    frame = np.column_stack(at_mid_motion(found))
+    locking, rolling = sectors(found), points(rollers(found)[:1])
+    clearance = found.half_width - found.roller
+    _, _, half = geometry(found)
+    wheel = edge_points(found, 100)
+    for a in np.linspace(-half, half, 61):
+        n = math.tan(found.arm) * math.sin(a)
+        m = math.sin(found.axes) - math.tan(found.arm) * math.cos(found.axes) * math.cos(a)
+        psi = math.atan2(n, m)
+
+        def seen(crank, a=a, psi=psi):
+            return turned(turned(crank, -a) @ frame.T, -psi)
+
+        assert in_wheel(found, seen(rolling)).max() < 1e-12 - 0.99 * clearance
+        if not locking:
+            continue
+        assert in_wheel(found, seen(points(locking, 60))).max() < 1e-9
+        # the wheel's edge in the crank's frame: between two azimuths, and nearer than the lock
+        x, y, up = turned(turned(wheel, psi) @ frame, a).T
+        angle, azimuth = np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) % math.tau
+        low = min(math.acos(min(1.0, arc.start[2])) for r in locking for arc in r.boundary)
+        behind = (azimuth[:, None] - np.array(found.rollers)) % math.tau
+        between = (behind > half + 1e-9).all(axis=1) & (math.tau - behind > half + 1e-9).all(axis=1)
+        inside = between & (angle > low + 1e-9) & (angle < found.lock - 1e-9)
+        assert not inside.any()
+
+
+def test_it_is_held_in_the_dwell():
+    """The sectors lie in the recess, its clearance away, on both sides of the line of centres."""
+    found = sizes(MACHINES["60, two rollers"])
+    held = points(sectors(found), 400)
+    rest = turned(held, math.pi / 2.0) @ np.column_stack(at_mid_motion(found)).T
+    gap, aside = in_wheel(found, turned(rest, math.pi / found.z)), rest[:, 1] > 0.0
+    for side in (aside, ~aside):
+        assert gap[side].max() == pytest.approx(-0.04 / 80.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("curves", ["arcs", "spline"])
+def test_laid_flat(machine, curves):
+    """Rolled up again, every point of the outline is on the wheel's edge, seen from the centre."""
+    found, L = sizes(machine), machine.mechanism.center_distance_mm
+    drawing = machine.drawing("wheel", 0.01, curves)
+    (outline,) = (s for s in drawing.shapes if s.layer == "WHEEL")
+    flat = np.array(vertices(outline, 1e-3))
+    cone = wheel_cone(found)
+    m, share = cone.polar, math.cos(cone.polar)
+    if abs(share) > 1e-6:
+        apex = np.array((-L * math.tan(m), 0.0))
+        way = flat - apex
+        side = math.copysign(1.0, share)
+        turn = np.unwrap(np.arctan2(side * way[:, 1], side * way[:, 0])) / share
+        angle = m + np.arctan(np.hypot(*way.T) * side / L - math.tan(m))
+        u = np.column_stack(
+            (np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle))
+        )
+        depth = in_wheel(found, u)
+        # of the seam, amid two slots, points are inside
+        seam = np.abs(np.remainder(turn + math.pi / found.z + 0.1, math.tau) - 0.1) < 1e-6
+        # 0.01 mm and the chords' 0.001, on a cone that is at most twice as far as the sphere
+        assert np.abs(depth[~seam]).max() < 0.011 / L
+        assert (~seam).sum() > 500
+
+
+def test_a_cylinder_and_a_cone_that_opens_the_other_way():
+    """Amid the slots at 90 degrees from the axis, and past them: nothing is special there."""
+    for axes in (110.0, 112.7, 130.0):
+        found = sizes(Design(Spherical(6, axes_deg=axes), size=CLEAR))
+        cone = wheel_cone(found)
+        near = [cone.point(cone.polar + d, 0.2) for d in (-0.01, 0.01)]
+        # along a meridian nothing is stretched where the cone touches
+        assert math.dist(*near) == pytest.approx(2.0 * 80.0 * math.tan(0.01), rel=1e-12)
+        across = math.dist(cone.point(cone.polar, 0.0), cone.point(cone.polar, 1e-4))
+        assert across == pytest.approx(80.0 * math.sin(cone.polar) * 1e-4, rel=1e-7)
+
+
+def test_the_crank_laid_flat():
+    """Its lock is an arc about the apex; the roller's outline is as wide as its cone."""
+    design = MACHINES["90"]
+    found = sizes(design)
+    drawing, cone = design.drawing("crank", 0.001), crank_cone(found)
+    sector, roller = (s for s in drawing.shapes if s.layer in ("CRANK", "ROLLER"))
+    assert isinstance(sector, Contour)
+    apex = -cone.apex_mm
+    far = cone.apex_mm + 80.0 * math.tan(found.lock - found.arm)
+    assert sector.segments[0].centre == pytest.approx((apex, 0.0), abs=1e-9)
+    assert sector.segments[0].radius == pytest.approx(far, rel=1e-12)
+    x, _ = np.array(vertices(roller, 1e-4)).T
+    wide = 80.0 * math.tan(5.0 / 80.0)  # its cone's, where its axis meets the sphere
+    assert (x.min(), x.max()) == pytest.approx((-wide, wide), abs=2e-3)
+    assert "sphere 30 deg from the crank's axis, 46.188 mm from its apex" in drawing.title
+
+
+def test_a_kerf_is_beside_the_sheet():
+    """Half of it outside of the wheel laid flat: the area grows by its length."""
+    design = MACHINES["90"]
+    (outline,), (path,) = (
+        [s for s in design.drawing("wheel", kerf_mm=kerf).shapes if s.layer == "WHEEL"]
+        for kerf in (None, 0.02)
+    )
+    length = sum(map(segment_length, outline.segments))
+    # a corner adds the kerf's square, some 20 corners of 1e-4 mm²
+    assert abs(area(path)) - abs(area(outline)) == pytest.approx(0.01 * length, abs=2e-3)
+    with pytest.raises(GenevaError, match="no solid"):
+        list(chunks(design.drawing("wheel", kerf_mm=0.2), "mm"))
+
+
+def test_solids_are_closed(machine):
+    """Each edge bounds two faces, once either way; circles pass through their ends."""
+    drawing = machine.drawing("assembly")
+    file = File("".join(chunks(drawing, "mm")))
+    bodies, shells = file.all("MANIFOLD_SOLID_BREP"), solids(drawing.shells)
+    assert len(bodies) == len({(s.name, s.regions) for s in shells})
+    used = Counter()
+    for face in file.all("ADVANCED_FACE"):
+        bounds = file.values(face)[1]
+        for bound in bounds:
+            for side in file.values(file.values(bound)[1])[1]:
+                _, _, _, edge, along = file.values(side, "ORIENTED_EDGE")
+                used[edge, along] += 1
+    edges = file.all("EDGE_CURVE")
+    assert used == Counter({(edge, way): 1 for edge in edges for way in (".T.", ".F.")})
+    for number in edges:
+        _, start, end, curve, _ = file.values(number)
+        if file.of[curve][0] != "CIRCLE":
+            continue
+        _, frame, radius = file.values(curve)
+        centre, axis, _ = (np.array(v) for v in file.frame(frame))
+        for vertex in (start, end):
+            arm = np.array(file.vertex(vertex)) - centre
+            assert math.hypot(*arm) == pytest.approx(radius, abs=1e-10)
+            assert abs(arm @ axis) < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("size", "z", "said"),
+    [
+        (Size(80.0, 20.0, lock_clearance_mm=2.0), 12, "no room for a locking sector"),
+        (Size(80.0, 20.6, lock_radius_mm=0.0), 12, "the slots meet"),
+        (Size(80.0, 5.0, lock_radius_mm=39.0), 6, "lock_radius_mm = 39: it must be above"),
+        (Size(80.0, 5.0, wheel_bore_mm=140.0), 6, "wheel_bore_mm must be above 0 and below"),
+        (Size(80.0, 5.0, wheel_thickness_mm=90.0), 6, "it must be below 80"),
+    ],
+)
+def test_refused(size, z, said):
+    with pytest.raises(GenevaError, match=said):
+        Design(Spherical(z), size=size).drawing("wheel")
