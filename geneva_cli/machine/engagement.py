@@ -122,8 +122,6 @@ class Motion(ABC):
 
     # the motion law, where the motion is given by one
     law: Law | None = None
-    # the pin at entry, about which its path is written where the slot follows it
-    entry: Anchor | None = None
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative
@@ -133,6 +131,11 @@ class Motion(ABC):
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives by the input angle in radians."""
+
+    @property
+    def entry(self) -> Anchor | None:
+        """The pin at entry, about which its path is written where the slot follows it."""
+        return None
 
     @property
     def symmetric(self) -> bool:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import cached_property
-from itertools import pairwise
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
+from geneva_cli.machine.anchors import anchors_of
 from geneva_cli.machine.engagement import (
     Anchor,
     Axis,
@@ -21,15 +20,12 @@ from geneva_cli.machine.engagement import (
 )
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import are_alike, are_designs, chosen, library, parameter, picked
-from geneva_cli.numerics.jet import Jet, Number, atan2, piecewise, sin_cos, sqrt
+from geneva_cli.numerics.arrays import library, parameter
+from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-NEAR_END = (
-    0.75  # share of the span from the last inner anchor to an end; beyond it, the end's is used
-)
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
 
@@ -42,21 +38,12 @@ class AnchoredPath:
     """
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
-        self.anchors, self.ahead = anchors, ahead
-        self.middle = anchors[len(anchors) // 2]
-        # Angles change over half-way between anchors; entry and exit are used only near the ends,
-        # where the motion goes to zero.
-        first, *inner, last = [a.input_deg for a in anchors]
-        self.cuts = [
-            inner[0] + NEAR_END * (first - inner[0]),
-            *[0.5 * (a + b) for a, b in pairwise(inner)],
-            inner[-1] + NEAR_END * (last - inner[-1]),
-        ]
+        self.anchors, self.ahead = anchors_of(anchors), ahead
 
-    @cached_property
-    def alike(self) -> bool:
-        """Whether the anchors differ in numbers alone, so that one call can serve them all."""
-        return are_alike(self.anchors)
+    @property
+    def middle(self) -> Anchor:
+        """The anchor of mid-motion."""
+        return self.anchors[len(self.anchors) // 2]
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
@@ -131,7 +118,11 @@ class Followed(Motion):
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
         super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
         self.path, self.mirrored = path, mirrored
-        self.entry = path.anchors[0]
+
+    @property
+    def entry(self) -> Anchor:
+        """The anchor of the entry."""
+        return self.path.anchors[0]
 
     def closed_peak(self, quantity: str) -> PeakValue | None:
         """The peak of a quantity from ``closed_peaks``, if there is one."""
@@ -145,26 +136,11 @@ class Followed(Motion):
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """The wheel's angle: the pin's direction, from the nearest anchor; at rest at both ends."""
 
-        def about(anchor: Anchor) -> Callable[[Number], Jet]:
-            def solve(x: Number) -> Jet:
-                along, across = anchor.place(x, order)
-                return atan2(across, along) + anchor.wheel
+        def solve(anchor: Anchor, x: Number) -> Jet:
+            along, across = anchor.place(x, order)
+            return atan2(across, along) + anchor.wheel
 
-            return solve
-
-        anchors, cuts = self.path.anchors, self.path.cuts
-        # anchors of one design need not differ in numbers alone, as of gears given by points
-        many = not (isinstance(cuts[0], float) and isinstance(cuts[-1], float))
-        if are_designs(input_deg, cuts[0], cuts[-1]) and (many or self.path.alike):
-            return about(chosen(input_deg, cuts, anchors))(input_deg)
-        if not isinstance(input_deg, float) and input_deg.size and self.path.alike:
-            import numpy as np
-
-            # one call for all anchors, and for those alone that serve an angle
-            index = np.searchsorted(cuts, input_deg)
-            low, high = int(index.min()), int(index.max())
-            return about(picked(index - low, anchors[low : high + 1]))(input_deg)
-        return piecewise(input_deg, cuts, [about(a) for a in anchors])
+        return self.path.anchors.solved(input_deg, solve)
 
 
 class Classic(Followed):

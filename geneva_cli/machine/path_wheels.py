@@ -28,6 +28,7 @@ CLOSER = 8  # parts into which an interval is cut that is looked at more closely
 LOOKS = 4  # times that it is
 PLACES = 16  # intervals in which a peak is looked for
 NEARER = 12  # times that the look is narrowed, to the three about the greatest
+HIGHER = 0.5  # of the bend at the greatest place: a parabola rises above it by an eighth at most
 BLOCK = 256  # wheels at a time: they stay in the processor's cache
 TIE = 1e-8  # share by which two wheels' peak velocities may differ and be the same
 
@@ -223,29 +224,39 @@ def chosen(path: Path, found: Wheels, wanted: Number | None = None) -> Whole:
 
 
 def _peaks(path: Path, found: Wheels) -> Array:
-    """The peak velocities of several wheels a design, where they may be the least of its own.
+    """The peak velocities of several wheels a design, as near as it takes to know the least.
 
-    Each is looked at at a few places. What the wheel turns between two of them, over the crank's
-    turn, is no more than the peak, and tells of peaks that are narrower than that. The least is
-    then looked at nearer, until it still is.
+    Each is looked at at a few places, which bound its peak. Wheels whose bounds leave open which
+    of a design's is the least are looked at nearer.
     """
-    low = _velocities(path, found)
-    out = low.peak.copy()
-    sure = np.zeros(len(out), dtype=bool)
-    every = np.arange(len(out))
-    while True:
-        least = np.full(int(found.which.max()) + 1, np.inf)
-        np.minimum.at(least, found.which, out)
-        open_ = every[~sure & (out <= least[found.which] * (1.0 + TIE))]
+    known = _velocities(path, found)
+    open_ = _open_peaks(found.which, known)
+    for _ in range(NEARER):
         if not len(open_):
-            return out
-        some, near = found.taken(open_), low.taken(open_)
-        for _ in range(NEARER):
-            before = near.peak
-            near = _velocities(path, some, near.beside)
-            if (np.abs(near.peak - before) <= 1e-3 * TIE * before).all():
-                break
-        out[open_], sure[open_] = near.peak, True
+            break
+        near = _velocities(path, found.taken(open_), known.beside[open_])
+        near = near._replace(most=np.minimum(near.most, known.most[open_]))
+        for all_, some in zip(known, near, strict=True):
+            all_[open_] = some
+        open_ = _open_peaks(found.which, known)
+    return known.least
+
+
+def _open_peaks(which: Whole, known: _Velocities) -> Whole:
+    """The wheels that may be the least of their design's, where another may be so too."""
+    bar = np.full(int(which.max()) + 1, np.inf)
+    np.minimum.at(bar, which, known.most)
+    may = known.least <= bar[which] * (1.0 + TIE)
+    rivals = np.bincount(which[may], minlength=len(bar))[which] > 1
+    return np.flatnonzero(may & rivals & (known.most - known.least > 1e-3 * TIE * known.least))
+
+
+class _Velocities(NamedTuple):
+    """Bounds of peak velocities, and the crank's angles between which the peaks are."""
+
+    least: Array
+    most: Array
+    beside: Array
 
 
 def _velocities(path: Path, found: Wheels, between: Array | None = None) -> _Velocities:
@@ -260,16 +271,6 @@ def _velocities(path: Path, found: Wheels, between: Array | None = None) -> _Vel
     return looked
 
 
-class _Velocities(NamedTuple):
-    """A lower bound of peak velocities, and the crank's angles between which the peaks are."""
-
-    peak: Array
-    beside: Array
-
-    def taken(self, where: Which) -> _Velocities:
-        return _Velocities(self.peak[where], self.beside[where])
-
-
 def _looked(path: Path, phi: Array, between: Array) -> _Velocities:
     """Peak velocities of a block of wheels, each with its path."""
     ends = points(path, phi)
@@ -281,8 +282,14 @@ def _looked(path: Path, phi: Array, between: Array) -> _Velocities:
     x, y = path.at(phi, 1)
     ray = x.c[0] + 1j * y.c[0] - centre
     velocity = np.abs(((x.c[1] + 1j * y.c[1]) / ray).imag)
+    # what the wheel turns between two places, over the crank's turn, is no more than the peak
     mean = np.abs(np.angle(ray[:, 1:] * ray[:, :-1].conj())) / np.diff(phi, axis=1)
-    most = np.maximum(mean, np.maximum(velocity[:, :-1], velocity[:, 1:]))
-    i = most.argmax(axis=1)[:, None]
+    steepest = np.maximum(mean, np.maximum(velocity[:, :-1], velocity[:, 1:]))
+    i = steepest.argmax(axis=1)[:, None]
     sides = np.hstack((np.maximum(i - 1, 0), np.minimum(i + 2, PLACES)))
-    return _Velocities(most.max(axis=1), np.take_along_axis(phi, sides, axis=1))
+    j = velocity.argmax(axis=1)[:, None]
+    beside = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, PLACES)))
+    top, least = velocity.max(axis=1), steepest.max(axis=1)
+    bend = 2.0 * top - np.take_along_axis(velocity, beside, axis=1).sum(axis=1)
+    most = np.where(least > top, np.inf, top + HIGHER * bend)
+    return _Velocities(least, most, np.take_along_axis(phi, sides, axis=1))

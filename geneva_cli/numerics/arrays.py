@@ -82,7 +82,7 @@ def choose_record(condition: Truth, yes: Record, no: Record) -> Record:
     if isinstance(condition, bool):
         return yes if condition else no
     parts = [_chosen(condition, a, b) for a, b in zip(yes, no, strict=True)]
-    return _record(yes, parts)
+    return record_of(yes, parts)
 
 
 def _chosen(condition: Mask, yes: object, no: object) -> object:
@@ -123,7 +123,7 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
     first = records[0]
     if all(one is first for one in records):
         return first
-    return _record(first, [_picked(index, members) for members in zip(*records, strict=True)])
+    return record_of(first, [_picked(index, members) for members in zip(*records, strict=True)])
 
 
 def _picked(index: Whole, members: Sequence[object]) -> object:
@@ -138,7 +138,7 @@ def _picked(index: Whole, members: Sequence[object]) -> object:
     return numpy.array(members)[index]
 
 
-def _record(like: Record, parts: Sequence[object]) -> Record:
+def record_of(like: Record, parts: Sequence[object]) -> Record:
     """A record of the kind of another."""
     make: Callable[..., object] = type(like)
     return cast("Record", tuple(parts) if make is tuple else make(*parts))

@@ -40,7 +40,7 @@ class OffsetFollowed(Followed):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """The wheel's angle: the slot's direction, from the nearest anchor; at rest at the ends."""
-        (entry, mid, exit_), cuts = self.path.anchors, self.path.cuts
+        (entry, mid, exit_), cuts = self.path.anchors, self.path.anchors.cuts
         first, last = (self._from_end(end, order) for end in (entry, exit_))
         if are_designs(input_deg, *cuts):  # one formula serves both ends
 

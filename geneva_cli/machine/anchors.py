@@ -1,0 +1,130 @@
+"""The anchors of a pin's path, each of which serves the input angles that are nearest to it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeAlias
+
+from geneva_cli.machine.engagement import Anchor
+from geneva_cli.numerics.arrays import are_alike, are_designs, array, chosen, picked
+from geneva_cli.numerics.jet import Jet, Number, piecewise
+from geneva_cli.numerics.stacks import Stack, can_stack
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
+
+Solve: TypeAlias = "Callable[[Anchor, Number], Jet]"
+
+# share of the span from the last inner anchor to an end; beyond it, the end's is used
+NEAR_END = 0.75
+
+
+class Anchors(ABC):
+    """Anchors from entry to exit, mid-motion in the middle.
+
+    Those of the ends serve only where the motion goes to zero. At the input angles ``cuts`` one
+    hands over to the next.
+    """
+
+    cuts: Sequence[float]
+
+    @abstractmethod
+    def __len__(self) -> int:
+        """How many."""
+
+    @abstractmethod
+    def __getitem__(self, i: int) -> Anchor:
+        """One of them."""
+
+    @abstractmethod
+    def solved(self, input_deg: Number, solve: Solve) -> Jet:
+        """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
+
+    def __iter__(self) -> Iterator[Anchor]:
+        return (self[i] for i in range(len(self)))
+
+
+class EachAnchor(Anchors):
+    """Anchors one by one."""
+
+    def __init__(self, each: tuple[Anchor, ...]) -> None:
+        self.each = each
+        self.cuts = cuts([a.input_deg for a in each])
+
+    def __len__(self) -> int:
+        return len(self.each)
+
+    def __getitem__(self, i: int) -> Anchor:
+        return self.each[i]
+
+    @cached_property
+    def alike(self) -> bool:
+        """Whether they differ in numbers alone, so that one call can serve them all."""
+        return are_alike(self.each)
+
+    def solved(self, input_deg: Number, solve: Solve) -> Jet:
+        """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
+        many = not (isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float))
+        # anchors of one design need not differ in numbers alone, as of gears given by points
+        if are_designs(input_deg, self.cuts[0], self.cuts[-1]) and (many or self.alike):
+            return solve(chosen(input_deg, self.cuts, self.each), input_deg)
+        if not isinstance(input_deg, float) and input_deg.size and self.alike:
+            import numpy as np
+
+            # one call for all anchors, and for those alone that serve an angle
+            index = np.searchsorted(self.cuts, input_deg)
+            low, high = int(index.min()), int(index.max())
+            return solve(picked(index - low, self.each[low : high + 1]), input_deg)
+
+        def by(anchor: Anchor) -> Callable[[Number], Jet]:
+            return lambda x: solve(anchor, x)
+
+        return piecewise(input_deg, self.cuts, [by(a) for a in self.each])
+
+
+class StackedAnchors(Anchors):
+    """Anchors that differ in numbers alone; ``rows`` are the numbers of the designs, (n, 1).
+
+    Who takes some of the designs takes some of the rows, and leaves the stack as it is.
+    """
+
+    def __init__(self, each: tuple[Anchor, ...]) -> None:
+        self.stack: Stack[Anchor] = Stack(each)
+        self.rows = self.stack.rows
+        self.cuts = cuts([anchor.input_deg for anchor in each])
+
+    def __len__(self) -> int:
+        return len(self.stack)
+
+    def __getitem__(self, i: int) -> Anchor:
+        return self.stack.one(i, self.rows)
+
+    def solved(self, input_deg: Number, solve: Solve) -> Jet:
+        """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
+        import numpy as np
+
+        x = array(input_deg)
+        index: Whole = np.add.reduce([x > cut for cut in self.cuts], dtype=int)
+        low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
+        # of no angles any will do
+        anchor = self[high] if low >= high else self.stack.picked(index, self.rows)
+        return solve(anchor, x)
+
+
+def anchors_of(each: tuple[Anchor, ...]) -> Anchors:
+    """The anchors of one design, or of many."""
+    one = all(isinstance(anchor.input_deg, float) for anchor in each)
+    return EachAnchor(each) if one or not can_stack(each) else StackedAnchors(each)
+
+
+def cuts(degrees: Sequence[float]) -> list[float]:
+    """Half-way between two anchors, and nearer to the ends."""
+    first, *inner, last = degrees
+    return [
+        inner[0] + NEAR_END * (first - inner[0]),
+        *[0.5 * (a + b) for a, b in pairwise(inner)],
+        inner[-1] + NEAR_END * (last - inner[-1]),
+    ]

@@ -1,0 +1,106 @@
+"""Records of many designs that differ in numbers alone, held so that some are picked at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Generic, cast
+
+from geneva_cli.numerics.arrays import Record, record_of
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Whole
+
+
+def can_stack(records: Sequence[object]) -> bool:
+    """Whether records differ in numbers alone, some of which are arrays (n, 1)."""
+    return _differ_in_numbers(records) and any(True for _ in _columns(tuple(records)))
+
+
+def _differ_in_numbers(records: Sequence[object]) -> bool:
+    first = records[0]
+    if all(one is first for one in records):
+        return True
+    if isinstance(first, tuple):
+        return all(map(_differ_in_numbers, zip(*records, strict=True)))
+    return all(isinstance(one, float) or _is_column(one) for one in records)
+
+
+def _columns(record: object) -> Iterator[Array]:
+    """The arrays (n, 1) in a record."""
+    if isinstance(record, tuple):
+        for part in record:
+            yield from _columns(part)
+    elif _is_column(record):
+        yield cast("Array", record)
+
+
+def _is_column(number: object) -> bool:
+    import numpy as np
+
+    return isinstance(number, np.ndarray) and number.shape[1:] == (1,)
+
+
+class Stack(Generic[Record]):
+    """k records of floats and arrays (n, 1), which ``can_stack``.
+
+    What asks for them says of which designs: ``rows`` are their numbers (m, 1).
+
+    >>> import numpy as np
+    >>> one, other = (1.0, np.array([[5.0], [7.0]])), (1.0, np.array([[6.0], [8.0]]))
+    >>> stack = Stack((one, other))
+    >>> stack.one(-1, stack.rows)
+    (1.0, array([[6.],
+           [8.]]))
+    >>> stack.picked(np.array([[0, 1]]), stack.rows[1:])
+    (1.0, array([[7., 8.]]))
+    """
+
+    def __init__(self, records: Sequence[Record]) -> None:
+        import numpy as np
+
+        self.record, self.count = _stacked(records), len(records)
+        shapes = (x.shape for x in _columns(tuple(records)))
+        self.rows: Whole = np.arange(next(shapes)[0])[:, None]
+
+    def __len__(self) -> int:
+        return self.count
+
+    def one(self, i: int, rows: Whole) -> Record:
+        """The i-th record; from the end where i is negative."""
+        return self._at(rows * self.count + i % self.count, i)
+
+    def picked(self, index: Whole, rows: Whole) -> Record:
+        """The record of each index (m, j): numbers that differ are (m, j) too."""
+        return self._at(rows * self.count + index, index)
+
+    def _at(self, flat: Whole, index: Whole | int) -> Record:
+        import numpy as np
+
+        flat = np.ascontiguousarray(flat.T)  # designs lie side by side in memory
+
+        def taken(number: object) -> object:
+            if isinstance(number, tuple):
+                return record_of(number, [taken(one) for one in number])
+            if not isinstance(number, np.ndarray):
+                return number
+            return number[index] if number.ndim == 1 else number.reshape(-1).take(flat).T
+
+        return cast("Record", taken(self.record))
+
+
+def _stacked(records: Sequence[Record]) -> Record:
+    """As one record: numbers that are alike in all, or arrays (n, k), or (k,) for all designs."""
+    return record_of(records[0], [_members(one) for one in zip(*records, strict=True)])
+
+
+def _members(members: Sequence[object]) -> object:
+    import numpy as np
+
+    first = members[0]
+    if isinstance(first, tuple):
+        return _stacked(cast("Sequence[tuple[object, ...]]", members))
+    if all(one is first for one in members) and not _is_column(first):
+        return first
+    if all(isinstance(one, float) for one in members):
+        return first if all(one == first for one in members) else np.array(members)
+    return np.hstack(np.broadcast_arrays(*cast("Sequence[Array]", members)))
