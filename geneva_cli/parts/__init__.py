@@ -1,1 +1,1 @@
-"""What is cut: sizes, walls, outlines, and the proof that they turn."""
+"""The parts: sizes, walls, outlines, drawings, and the proof that they turn."""

@@ -1,9 +1,10 @@
 """The crank arm: the plate below the wheel's plane that carries the rollers' pins.
 
-In the crank's frame, as the locking disc that lies on it. Its outline is the belt round a hub
-about the crank's shaft and an eye about each pin and each bolt of the disc: one arm of two eyes
-for one roller, a plate that joins all for several. The shaft of an internal wheel's crank ends in
-it, below the wheel: the crank is overhung, and its hub is a disc that carries the locking sectors.
+Its frame is the crank's, as that of the locking disc, which lies on it. Its outline is the belt
+round a hub about the crank's shaft and an eye about each pin and each bolt of the disc: one arm of
+two eyes for one roller, a plate that joins all for several. The shaft of an internal wheel's crank
+ends in it, below the wheel: the crank is overhung, and its hub is a disc that carries the locking
+sectors.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ class CrankArm(NamedTuple):
 
 
 def has_arm(found: Outlines) -> bool:
-    """Whether the rollers stand on a crank, by pins."""
+    """Whether there is an arm: rollers on pins in a crank."""
     return found.assembly.given.spec.drive.CRANKED and found.sizes.pin > 0.0
 
 
@@ -119,7 +120,7 @@ def bolts(found: Outlines) -> list[Circle]:
 
 
 def _widest(found: Outlines, at: list[float]) -> float:
-    """The radius at which the disc leaves the most about bolts in some directions."""
+    """The radius at which bolts in some directions leave the widest walls in the disc."""
     radii = np.linspace(0.0, found.sizes.lock, RADII)
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
@@ -130,7 +131,7 @@ def _widest(found: Outlines, at: list[float]) -> float:
 
 
 def shaft_bore(found: Outlines) -> float:
-    """The bore's radius: of the shaft through the disc, or of one that ends below the wheel."""
+    """The radius of the shaft's bore, through the disc or ending below the wheel."""
     spec = found.assembly.given.spec
     if spec.size.arm_bore_mm is not None:
         return 0.5 * spec.size.arm_bore_mm

@@ -106,7 +106,7 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
 
 
 def _turns(found: Outlines) -> Iterator[Arc]:
-    """Which way the wheel turns, and a crank, as arcs outside of them."""
+    """The senses of rotation of wheel and crank, as arcs outside of them."""
     assembly, sizes = found.assembly, found.sizes
     reach = max(math.hypot(*s.start) for s in found.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
@@ -152,7 +152,7 @@ def _wheel(found: Outlines, tolerance: float, curves: str) -> tuple[Contour, *tu
 
 
 def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
-    """The wheel's outline: the one that was turned, unless other curves or finer ones are asked."""
+    """The wheel's outline: that of the full turn, unless other curves, or finer, are asked for."""
     if curves == "arcs" and tolerance == found.fine:
         return found.wheel
     walls = {s: slot_walls(found.assembly, found.sizes, s, tolerance, curves) for s in found.slots}
@@ -164,7 +164,7 @@ def _crank(found: Outlines) -> list[Shape]:
 
 
 def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
-    """What is seen of the crank arm: its outline, and its bore where the disc has none."""
+    """The visible part of the crank arm: its outline, and its bore where the disc has none."""
     if made is None:
         return []
     through = found.sizes.crank_bore > 0.0
@@ -172,7 +172,7 @@ def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
 
 
 def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
-    """The line of centres, and where the rollers run: on their circles and in their slots."""
+    """The line of centres, and the rollers' paths: on their circles and in their slots."""
     assembly = found.assembly
     shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
     arms = set()

@@ -78,7 +78,7 @@ def _distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> list[Arr
 
 
 def _back(groove: SolvedPath, input_deg: Array) -> list[Array]:
-    """As ``_distances``, at input angles in the dwell after the motion."""
+    """``_distances`` at input angles in the dwell after the motion."""
     span = math.radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = min(math.radians(EASED_DEG), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)

@@ -29,14 +29,14 @@ def least_wall(holes: Sequence[Shape], outline: Shape | None = None) -> float:
 
 
 def beyond(outline: Polyarc, hole: Shape) -> float:
-    """How far a hole's edge reaches past an outline, negative inside."""
+    """How far a hole's edge reaches past an outline, mm; negative inside."""
     if isinstance(hole, Circle):
         return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
     return float(outline.signed(_points(hole)).max())
 
 
 def apart(one: Shape, two: Shape) -> float:
-    """Between two holes."""
+    """The wall between two holes, mm; negative where they overlap."""
     if isinstance(one, Circle) and isinstance(two, Circle):
         return math.dist(one.centre, two.centre) - one.radius - two.radius
     if isinstance(one, Circle):

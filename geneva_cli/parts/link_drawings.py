@@ -1,4 +1,4 @@
-"""Links as drawings: all that are cut side by side, and where they stand in the machine."""
+"""Drawings of the links: all that are cut side by side, and their positions in the machine."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
 
 
 def titled(mechanism: Mechanism) -> str:
-    """What a machine is called."""
+    """The title of a machine's drawings."""
     spec = mechanism.spec
     return spec.title or f"Geneva wheel of {spec.wheel.z} slots"
 
@@ -55,7 +55,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
 
 
 def shapes(members: Iterable[Member]) -> Iterator[Shape]:
-    """Outlines and holes of plates where they are."""
+    """The outlines and holes of plates at their positions."""
     for one in members:
         assert isinstance(one.part, Plate)
         for shape in (one.part.outline, *one.part.holes):
@@ -68,7 +68,7 @@ def placed(shape: S, at: Point, turn: float) -> S:
 
 
 def together(made: Links) -> Iterator[Shape]:
-    """What is seen of the links in the machine: outlines, bores, and the gears' pitch circles."""
+    """The links in the machine: outlines, bores, and the gears' pitch circles."""
     found = [shape._replace(layer=LAYER) for shape in shapes(made.cut)]
     found += [Circle(PITCH, gear.at, gear.radius) for gear in made.gears]
     yield from found
@@ -76,7 +76,7 @@ def together(made: Links) -> Iterator[Shape]:
 
 
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
-    """Shapes without the circles of a layer that lie one below the other."""
+    """Shapes, with circles of one layer that coincide only once."""
     seen = set()
     for shape in shapes:
         if isinstance(shape, Circle):

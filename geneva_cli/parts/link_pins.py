@@ -1,6 +1,6 @@
-"""What joins links: pins from plane to plane, the washers and spacers on them, and rollers.
+"""The pins, washers, spacers and rollers between links.
 
-Pins that stand in the frame are the frame's, as shafts are.
+Pins that stand in the frame belong to it, as shafts do, and are left out.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LAYER, ROLLER = "LINK", "ROLLER"
 
 
 class Joined(NamedTuple):
-    """Links that share a joint at all input angles: its way, their names and planes."""
+    """Links that share a joint at all input angles: the joint's path, their names and planes."""
 
     way: Array  # complex
     names: tuple[str, ...]
@@ -30,7 +30,7 @@ class Joined(NamedTuple):
 
 
 def joined(links: Iterable[Link], near: float) -> list[Joined]:
-    """The joints that several links share by a pin, nearer than ``near`` mm at all angles."""
+    """The pin joints of several links: those nearer than ``near`` mm at all input angles."""
     every = [
         (link, at)
         for link in links
@@ -48,7 +48,7 @@ def joined(links: Iterable[Link], near: float) -> list[Joined]:
 
 
 def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
-    """Each pin that joins links, and what keeps their planes apart on it."""
+    """Each pin that joins links, with the washers and spacers on it."""
     for one in joined(links, near):
         z = complex(one.way[len(one.way) // 2])  # at input angle 0
         where = z.real, z.imag
@@ -65,7 +65,7 @@ def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Membe
 
 
 def rollers(links: Iterable[Link], sizes: LinkSizes, roller: float, pin: float) -> Iterator[Member]:
-    """Rollers that run below the wheel's plane: of a first wheel, with its pin; in a groove."""
+    """Rollers below the wheel's plane: a first wheel's, with its pin, and those in a groove."""
     if not pin:
         return
     hole, whole = (Circle(ROLLER, (0.0, 0.0), radius) for radius in (pin, roller))

@@ -48,21 +48,21 @@ class LinkSizes(NamedTuple):
 
     @property
     def ring(self) -> float:
-        """Of washers and spacers on a pin."""
+        """The radius of washers and spacers on a pin."""
         return 0.5 * (self.pin + self.eye)
 
     def hole(self, kind: Joint) -> float:
-        """The hole of a pin; of a shaft see ``bore``."""
+        """The radius of a pin's hole; ``bore`` has a shaft's."""
         own = kind in (Joint.ROLLER, Joint.CARRIED)
         return self.roller_pin if own and self.roller_pin else self.pin
 
     def block(self, hole: float) -> tuple[float, float]:
-        """Half the width of a sliding block, and how far its round ends' centres are from it."""
+        """Half a sliding block's width, and the distance of its round ends' centres from its own."""
         half = max(BLOCK * hole, hole + self.wall)
         return half, LONG * half
 
     def bore(self, room: float, L: float, on_crank: bool) -> float:
-        """A bore for a shaft, beside which ``room`` is left; 0 where it is one piece with it."""
+        """The bore of a shaft with ``room`` mm to the nearest hole; 0 for a shaft in one piece."""
         if self.shaft is not None:
             return self.shaft
         crank = self.crank_shaft if on_crank else None
@@ -72,11 +72,11 @@ class LinkSizes(NamedTuple):
         return found if found >= THIN * L else 0.0
 
     def hub(self, bore: float) -> float:
-        """How wide a link is round its bore."""
+        """The radius of a link's plate round a bore."""
         return max(even(HUB * bore), bore + self.wall) if bore else self.eye
 
     def span(self, plane: int) -> tuple[float, float]:
-        """From where to where along the axis what is in a plane below the wheel's lies."""
+        """The lower and upper end, along the axis, of the links in a plane below the wheel's."""
         high = -self.gap
         if plane > 1:
             high -= self.arm + self.washer + (plane - 2) * (self.thickness + self.washer)
@@ -129,7 +129,7 @@ def link_sizes(
 
 
 def _crank_shaft(mechanism: Mechanism, found: Outlines | None) -> float | None:
-    """The radius of the crank's shaft: as in arm or locking disc, or as it is given."""
+    """The radius of the crank's shaft: that of arm or locking disc, or the given one."""
     if found and has_arm(found):
         return shaft_bore(found)
     if found and found.sizes.crank_bore:
@@ -139,20 +139,20 @@ def _crank_shaft(mechanism: Mechanism, found: Outlines | None) -> float | None:
 
 
 def places(link: Link) -> list[Array]:
-    """The joints of a link as complex numbers, at each input angle."""
+    """The joints of a link as complex numbers x + iy (n,), by the input angle."""
     still = 0.0 * link.joints[0][0]
     return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
 
 
 def _ways(link: Link) -> Iterator[float]:
-    """Least distances of each pin in a link from its other joints."""
+    """The least distance of each pin of a link from its other joints."""
     for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
         if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
             yield float(np.abs(p - q).min())
 
 
 def _beside_hub(mechanism: Mechanism, links: Iterable[Link]) -> float:
-    """How far a link may reach past the roller's pin: to the wheel's hub, where it is nearest."""
+    """The room of a link beyond the roller's pin: to the wheel's hub, where that is nearest."""
     size = mechanism.spec.size
     near = [
         float(np.abs(at).min())

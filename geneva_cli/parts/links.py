@@ -2,7 +2,7 @@
 
 A link's own frame has its first joint as origin, and x through its second. Its outline is the belt
 round an eye about each hole; a pin that slides along a link has a block, and the link a slot as
-long as its way. Gears are no plates: their pitch circles are drawn, and not their teeth.
+long as its path. Gears are not cut: only their pitch circles are drawn.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SAME = 1e-9  # of the centre distance: joints nearer to each other are one
 
 
 class Links(NamedTuple):
-    """The links of a machine, where they are at input angle 0.
+    """The links of a machine at input angle 0.
 
     ``cut`` are the links and blocks as plates, ``joined`` the pins, washers and rollers between
     them; ``gears`` have pitch circles, about a place and with a bore.
@@ -42,11 +42,11 @@ class Links(NamedTuple):
     cut: tuple[Member, ...]
     joined: tuple[Member, ...]
     gears: tuple[Gear, ...]
-    pin_low: float | None = None  # down to where the pin of the wheel's roller goes on a link
+    pin_low: float | None = None  # lower end of the pin, on a link, that carries the wheel's roller
 
     @property
     def plates(self) -> list[Plate]:
-        """What is cut, each in its own frame."""
+        """The plates to cut, each in its own frame."""
         return [one.part for one in self.cut if isinstance(one.part, Plate)]
 
 
@@ -60,7 +60,7 @@ class Gear(NamedTuple):
 
 
 def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
-    """The links of a machine; ``found`` are its outlines, where it has some.
+    """The links of a machine as plates; ``found`` are its outlines, if it has any.
 
     Raises GenevaError, naming the key, for sizes that leave no plate round a hole.
     """
@@ -160,13 +160,13 @@ def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
 
 
 def _room(at: complex, holes: Iterable[Shape], shafts: Iterable[complex]) -> float:
-    """From a shaft to the nearest hole, or half-way to another shaft."""
+    """The distance from a shaft to the nearest hole, or half-way to another shaft."""
     away = [apart(_circle(HOLES, at, 0.0), hole) for hole in holes]
     return max(0.0, min([*away, *(0.5 * abs(z - at) for z in shafts if z != at)]))
 
 
 def _refuse(plate: Plate) -> None:
-    """Raise GenevaError where no plate is left between two holes, or round one."""
+    """Raise GenevaError where holes leave no plate between or round them."""
     wall = link_wall(plate)
     if wall <= 0.0:
         raise GenevaError(

@@ -35,7 +35,7 @@ SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief m
 
 
 class Outlines(NamedTuple):
-    """Wheel and crank, ready to be drawn and to be turned against each other.
+    """The outlines of wheel and crank, for drawings and for the full turn.
 
     ``slots`` has the walls of each kind of slot; ``close`` is the overlap in mm that is rounding,
     or the walls' tolerance.
@@ -53,7 +53,7 @@ class Outlines(NamedTuple):
 
     @property
     def contact(self) -> float:
-        """The overlap, mm, that is contact and no jam."""
+        """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
     @property
@@ -135,7 +135,7 @@ def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], 
 
 
 def _overlap(gaps: Gaps) -> float:
-    """By how much the crank and the wheel overlap at most in all motions."""
+    """The greatest overlap of crank and wheel in all motions, mm."""
     least = 0.0
     for engagement, behind in gaps.assembly.rollers:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)

@@ -1,4 +1,4 @@
-"""Wheel and crank as solids: their outlines drawn out along the axis.
+"""Wheel and crank as solids: their outlines extruded along the axis.
 
 The wheel stands on the plane z = 0; the arm is below it, and carries the locking disc and the pins.
 """
@@ -14,7 +14,7 @@ from geneva_cli.parts.wheel import wheel_circles
 
 
 def wheel_plate(found: Outlines, contour: Contour) -> Plate:
-    """The wheel with its contour as it is drawn; inside, that is the opening in its disc."""
+    """The wheel as a plate; an internal wheel's contour is the opening in its disc."""
     circles = wheel_circles(found.assembly, found.sizes)
     bores = [circle for circle in circles if circle.layer == "BORE"]
     outside = [circle for circle in circles if circle.layer != "BORE"]

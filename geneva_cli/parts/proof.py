@@ -1,4 +1,4 @@
-"""The parts of a machine and a whole turn of them: each made once, when it is asked for."""
+"""The parts of a machine and their full turn, each worked out once, when it is first used."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geneva_cli.parts.turn.gaps import NotProved
 
 
 class Proof:
-    """Outlines and full turn of one machine, which every question about its parts shares."""
+    """The outlines and the full turn of one machine, shared by all that needs them."""
 
     def __init__(self, mechanism: Mechanism, made: Outlines | None = None) -> None:
         self.mechanism = mechanism
@@ -24,7 +24,7 @@ class Proof:
 
     @property
     def turn(self) -> FullTurn:
-        """What a whole turn shows; raises NotProved where that takes too long."""
+        """The full turn; raises NotProved where that takes too long."""
         if isinstance(self._turned, NotProved):
             raise self._turned
         return self._turned

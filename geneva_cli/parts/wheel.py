@@ -73,7 +73,7 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
 
 def _between(assembly: Assembly, start: float, end: float) -> float:
-    """The rest between two neighbouring slots, as an angle above the first one's."""
+    """The direction of the recess between two neighbouring slots, from the first one's."""
     span = (end - start) % math.tau
     return next(
         start + off
@@ -141,7 +141,7 @@ def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
 
 
 def _refuse(sizes: Sizes, beside: float) -> NoReturn:
-    """Raise GenevaError: no horn is left beside a slot that begins so far from the axis."""
+    """Raise GenevaError: no horn is left beside a slot whose mouth is so far from the axis."""
     most = sizes.lock + beside - sizes.recess
     raise GenevaError(
         f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be below "

@@ -1,4 +1,4 @@
-"""Where two outlines of lines and arcs may touch: the few points that need to be looked at.
+"""The points at which two outlines of lines and arcs may touch.
 
 Two boundaries are nearest to each other at a corner of one of them, or where their normals fall
 together: on an arc in the direction of the other's centre, or of the other's normal; on a line at

@@ -1,4 +1,4 @@
-"""Gaps between the parts at given positions: rollers against the wheel, the crank against it."""
+"""The gaps between wheel, crank and rollers at given positions."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ LONGEST = 0.02  # of the centre distance, between samples of a line
 
 
 class NotProved(GenevaError):
-    """A full turn that would take too long."""
+    """Raised where a full turn would take too long."""
 
 
 class Pose(NamedTuple):
-    """Where a machine's parts stand at n input angles."""
+    """The positions of a machine's parts at n input angles."""
 
     wheel: Array  # (n,) radians
     crank: Array  # (n,) radians
@@ -59,7 +59,7 @@ class Gaps:
         self.wheel_points = self.wheel.samples(sagitta, longest)
 
     def begin(self) -> None:
-        """From here on no more than WORK is done: NotProved is raised in its place."""
+        """Count work from here on; more than WORK raises NotProved."""
         self.left = WORK
 
     def _work(self, count: int) -> None:
@@ -73,7 +73,7 @@ class Gaps:
             )
 
     def _sector(self) -> None:
-        """Where the outline repeats itself, one slot and its neighbours stand for the wheel."""
+        """Let one slot and its neighbours stand for a wheel that is alike from slot to slot."""
         self.pitch = math.tau / len(self.assembly.slots) if self._repeats() else 0.0
         middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
         reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
@@ -110,14 +110,14 @@ class Gaps:
         return out
 
     def pose(self, input_deg: Array) -> Pose:
-        """Where everything stands at input angles."""
+        """The positions at input angles (n,), degrees."""
         pins = [self.assembly.pin(i, input_deg) for i in range(len(self.assembly.rollers))]
         return Pose(
             self.assembly.wheel(input_deg), self.assembly.crank(input_deg), np.stack(pins, axis=1)
         )
 
     def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """The smallest gap of all, (n,), with the wheel turned on by ``lead``; see ``rollers``."""
+        """The smallest gap, mm (n,), with the wheel turned by ``lead``, radians; see ``rollers``."""
         out: Array = np.minimum(
             self.locking(pose, lead, near), self.rollers(pose, lead, near).min(axis=1)
         )

@@ -1,4 +1,4 @@
-"""Do links meet what passes through their plane, in a whole turn: a hub, a shaft, a pin?
+"""The gaps, in a whole turn, between links and what passes through their planes.
 
 Each plane below the wheel's has one link, and the arm has its own check. What passes through is
 round: the wheel's hub and shaft in the first plane, the spacer on a pin that joins links of planes
@@ -32,7 +32,7 @@ LOOKS = 1440  # input angles in a turn: between two of them a gap changes by its
 
 
 class Meeting(NamedTuple):
-    """Where a link is nearest to something that passes through its plane."""
+    """The least gap between a link and something that passes through its plane."""
 
     gap: float  # mm, negative where they overlap
     input_deg: float
@@ -41,7 +41,7 @@ class Meeting(NamedTuple):
 
 
 class Round(NamedTuple):
-    """What passes through a plane."""
+    """Something round that passes through a plane."""
 
     name: str
     plane: int
@@ -50,7 +50,7 @@ class Round(NamedTuple):
 
 
 class Planes(NamedTuple):
-    """What a whole turn shows: the least gap, and the least of the crank's shaft on its way out."""
+    """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
 
     nearest: Meeting | None
     way_out: Meeting | None  # None where it is free
@@ -127,14 +127,14 @@ class _Shaft:
         return Round("the crank's shaft", plane, self.way, self.radius)
 
     def between(self) -> Iterator[Round]:
-        """Where it must pass."""
+        """The planes that the shaft must cross."""
         if self.carries:
             for plane in range(min(self.carries) + 1, max(self.carries)):
                 if plane not in self.carries:
                     yield self._in(plane)
 
     def way_out(self, turn: Array) -> Meeting | None:
-        """The better way to its bearings: its nearest meeting there; None where nothing is met."""
+        """The shaft's least gap on the better way to its bearings; None if it meets nothing."""
         if not self.carries or self.through:
             return None
         deepest = max(self.carries)

@@ -1,8 +1,8 @@
-"""Which pieces of walls bound a curved slot: the outer boundary of all that its roller passes over.
+"""The boundary of a curved slot: the outer one of all that its roller passes over.
 
 The roller comes along its circle, while the wheel still rests; it runs through the slot and out
-again, and leaves along its circle. Each of these ways has a wall on either side; where the roller
-turns back, its own outline is a wall too. Of all these only what no other place of the roller
+again, and leaves along its circle. Each of these paths has a wall on either side; where the roller
+turns back, its own outline is a wall too. Of all walls only what no other position of the roller
 passes over is left, and of that only the chain from one corner of the mouth round the bottom to
 the other: an island between the way in and the way out falls out of the wheel.
 """
@@ -74,7 +74,7 @@ def _lost() -> GenevaError:
 
 
 class _Rim:
-    """Which side of the wheel's rim a point is on; what lies on it counts as the wheel's."""
+    """The wheel's rim, which tells on which side points are; those on it count as inside."""
 
     def __init__(self, assembly: Assembly, sizes: Sizes) -> None:
         self.sign, self.radius, self.close = assembly.sign, sizes.rim, 1e-9 * assembly.L
@@ -110,7 +110,7 @@ class _Rim:
 
 
 def _run(rim: _Rim, place: Place) -> tuple[Place, float | None]:
-    """Along a wall to its last free sample; the parameter at the rim where it leaves the wheel."""
+    """A wall's last free sample from a place on; at the rim, the parameter where it leaves."""
     wall, i, way = place
     depth = rim.depth(wall.points)
     while True:
@@ -126,7 +126,7 @@ def _run(rim: _Rim, place: Place) -> tuple[Place, float | None]:
 
 
 def _next(around: list[Wall], last: Place) -> Place:
-    """The wall that goes on where one ends: free, nearest, and not the one just run along."""
+    """The wall that continues where one ends: the nearest free one other than itself."""
     here = last.wall.points[last.i]
     travel = last.way * last.wall.curve(last.wall.t[last.i : last.i + 1])[1][0]
     best: tuple[float, int] | None = None

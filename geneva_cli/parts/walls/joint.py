@@ -1,4 +1,4 @@
-"""Where one wall of a slot ends and the next begins: their crossing, or where they run together."""
+"""The joint of two walls of a slot: their crossing, or the point where they merge."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MET = 1e-7  # of a point's distance: nearer points are one
 
 
 class Place(NamedTuple):
-    """A sample on a wall and the direction of travel, in which its index rises or falls."""
+    """A sample on a wall, and the direction of travel: 1 with rising index, or -1."""
 
     wall: Wall
     i: int
@@ -53,7 +53,7 @@ def _free_run(place: Place) -> tuple[float, float]:
 
 
 def _crossing(last: Place, following: Place) -> tuple[float, float] | None:
-    """The parameters of the point where two walls cross near these samples, if they do."""
+    """The parameters on both walls of their crossing near these samples; None if none."""
     start = _polylines_cross(last, following)
     if start is None:
         return None

@@ -52,7 +52,7 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
 
 
 def _axis(assembly: Assembly, engagement: Engagement) -> tuple[float, float]:
-    """The direction of the slot's axis in the wheel, and by how much it misses the centre, mm."""
+    """The direction of the slot's axis in the wheel, and its distance from the centre, mm."""
     x, y = engagement.slot(engagement.entry_deg, 0)
     u, v = engagement.slot(0.0, 0)
     px, py = assembly.L * x.c[0], assembly.L * y.c[0]
@@ -62,7 +62,7 @@ def _axis(assembly: Assembly, engagement: Engagement) -> tuple[float, float]:
 
 
 def _deepest(assembly: Assembly, engagement: Engagement, angle: float) -> float:
-    """The farthest place along the slot's axis that the roller's centre comes to."""
+    """The deepest position of the roller's centre along the slot's axis, mm."""
     x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, LOOKS), 0)
     along = array(assembly.L * (x.c[0] * math.cos(angle) + y.c[0] * math.sin(angle)))
     return float(along.min() if assembly.sign > 0.0 else along.max())
