@@ -57,7 +57,7 @@ class LinkSizes(NamedTuple):
         return self.roller_pin if own and self.roller_pin else self.pin
 
     def block(self, hole: float) -> tuple[float, float]:
-        """Half a sliding block's width, and the distance of its round ends' centres from its own."""
+        """Half a sliding block's width, and distance of its round ends' centres from its own."""
         half = max(BLOCK * hole, hole + self.wall)
         return half, LONG * half
 

@@ -117,7 +117,7 @@ class Gaps:
         )
 
     def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """The smallest gap, mm (n,), with the wheel turned by ``lead``, radians; see ``rollers``."""
+        """The smallest gap, mm (n,), the wheel turned by ``lead``, radians; see ``rollers``."""
         out: Array = np.minimum(
             self.locking(pose, lead, near), self.rollers(pose, lead, near).min(axis=1)
         )
