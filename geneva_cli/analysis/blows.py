@@ -9,7 +9,8 @@ import numpy as np
 
 from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.analysis.loads.contact import contact as touching
-from geneva_cli.analysis.shock import first_contacts
+from geneva_cli.analysis.mouth import mouth_contacts
+from geneva_cli.analysis.shock import FirstContacts, first_contacts
 from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
@@ -52,7 +53,8 @@ class Blows(NamedTuple):
 def entry_blow(mechanism: Mechanism, share: float = 1.0) -> Blow | None:
     """Where the crank is as wrong as its tolerances allow, times ``share``; None without any.
 
-    The jump is negative where the wheel is struck back.
+    On the slot's axis, or on the mouth's corner where the slot is too narrow to let a short arm's
+    roller in beside it. The jump is negative where the wheel is struck back.
     """
     return entry_blows(mechanism, share).first
 
@@ -61,8 +63,8 @@ def entry_blows(mechanism: Mechanism, share: float = 1.0) -> Blows:
     """The same of m designs."""
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
-        for crank, center in _errors(mechanism, engagement, share):
-            found = first_contacts(engagement, crank, center)
+        every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, share)]
+        for found in (*every, *_on_mouth(mechanism, engagement, share)):
             if found is not None:
                 best = _harder(best, _shown(mechanism, engagement, *found))
     return _with_cost(mechanism, best)
@@ -88,6 +90,29 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
         return mechanism.ratio * L
     x, y = (z.c[0] for z in engagement.path(0.0, 0))
     return parameter(L * library(x, y).hypot(x - engagement.hub, y))
+
+
+def _on_mouth(
+    mechanism: Mechanism, engagement: Engagement, share: float
+) -> list[FirstContacts | None]:
+    """The first contacts on the mouth's corner, the largest roller in the narrowest slot."""
+    given, L = mechanism.spec.tolerance, mechanism.center_distance_mm
+    clear = mechanism.spec.size.allowances.slot_clearance_mm
+    lost = 0.5 * share * (given.roller_diameter_mm + given.slot_width_mm)
+    room = parameter(np.maximum(clear - lost, 0.0)) / L
+    roller = mechanism.roller_radius_mm / L
+    errors = _errors(mechanism, engagement, share)
+    return [mouth_contacts(engagement, *error, roller, room) for error in errors]
+
+
+def mouth_jumps(mechanism: Mechanism, engagement: Engagement) -> Array | None:
+    """Jumps on the mouth's corner at the ends of the tolerances; NaN where the roller has room.
+
+    None where it is not known how the roller meets the mouth.
+    """
+    found = _on_mouth(mechanism, engagement, 1.0)
+    jumps = [one.jump for one in found if one is not None]
+    return np.concatenate((*jumps, [np.nan])) if len(jumps) == len(found) else None
 
 
 def clearance_mm(mechanism: Mechanism) -> float:

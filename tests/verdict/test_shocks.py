@@ -9,6 +9,7 @@ import pytest
 from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
 from geneva_cli.analysis import change_of_sides, shock
 from geneva_cli.analysis.blows import entry_blow, reversal_blow
+from geneva_cli.analysis.mouth import mouth_contacts
 from geneva_cli.analysis.shock_force import force_N
 from geneva_cli.verdict.checks import single_check
 
@@ -37,11 +38,18 @@ def test_no_tolerance_no_row():
 def test_values_are_those_of_the_worst_machine():
     of = design(1e6)
     [engagement] = of.mechanism.engagements
+    # on the slot's axis, where the slot has room for an arm too short by 0.02 + 0.03 sin(30 deg)
+    roomy = design(1e6, size=Size(face_width_mm=18.0, slot_clearance_mm=0.046))
     contact = shock.first_contact(engagement, 0.02 / 50.0, -0.03 / 100.0)
-    check = row(of, "entry_shock_N")
-    assert check.value == force_N(of.mechanism, contact.jump)
+    check = row(roomy, "entry_shock_N")
+    assert check.value == force_N(roomy.mechanism, contact.jump)
     assert check.at_deg == contact.at_deg
     assert check.passes
+    # and on its mouth's corner where it has but 0.02 - 0.02/2
+    harder = mouth_contacts(engagement, -0.02 / 50.0, 0.03 / 100.0, 0.05, 1e-4)
+    check = row(of, "entry_shock_N")
+    assert check.value == force_N(of.mechanism, harder.jump[0])
+    assert check.at_deg == harder.at_deg[0]
     drag = change_of_sides.drag_over(of.mechanism)
     [start] = change_of_sides.changes(engagement, np.array([[drag]])).x
     x, y = (z.c[0] for z in engagement.path(start, 0))

@@ -15,6 +15,7 @@ NAMES = (
     ),
     "entry_jump.mean",
     "entry_jump.worst",
+    "entry_jump.mouth_worst",
     "clearances.slot_needed_mm",
     "clearances.lock_needed_mm",
     "clearances.turns",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.blows import mouth_jumps
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import (
     Deviations,
@@ -37,7 +38,8 @@ class Entry(NamedTuple):
     worst: float
     mean: float
     std: float
-    missed: float  # share of the machines whose roller misses the slot's axis and meets the mouth
+    missed: float  # share of the machines whose roller misses the slot's axis
+    mouth: float | None  # the worst on the mouth's corner; 0 where all have room, None: not known
 
 
 class Study(NamedTuple):
@@ -100,7 +102,17 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         jump = drawn.jump
         worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        entry = Entry(float(worst_jump[0]), float(jump.mean()), float(jump.std()), drawn.missed)
+        mouth = _mouth(mechanism)
+        if mouth is None and drawn.missed:
+            warnings.append(
+                Caution(
+                    "not-known",
+                    "entry_jump.mouth_worst is not known: how a roller meets the mouth is worked "
+                    "out on flat wheels and crank arms",
+                )
+            )
+        mean, deviation = float(jump.mean()), float(jump.std())
+        entry = Entry(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
         warnings.append(
             Caution(
@@ -113,6 +125,17 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
         warnings.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
+
+
+def _mouth(mechanism: Mechanism) -> float | None:
+    """The worst jump of a roller that meets its mouth's corner; None where that is not known."""
+    worst = 0.0
+    for engagement in mechanism.engagements:
+        found = mouth_jumps(mechanism, engagement)
+        if found is None:
+            return None
+        worst = max(worst, *np.nan_to_num(found).tolist())
+    return worst
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:

@@ -38,6 +38,7 @@ def tolerance_table(
         "entry_jump.std": entry.std if entry else None,
         "entry_jump.worst": entry.worst if entry else None,
         "entry_jump.missed_share": entry.missed if entry else None,
+        "entry_jump.mouth_worst": entry.mouth if entry else None,
         "clearances.slot_mm": given.allowances.slot_clearance_mm,
         "clearances.slot_needed_mm": found.clearances.slot_mm,
         "clearances.lock_mm": given.allowances.lock_clearance_mm if locked else None,

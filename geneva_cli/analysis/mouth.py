@@ -1,0 +1,65 @@
+"""The shock at the mouth: a roller whose arm is too short for its slot.
+
+It comes nearer to the crank's axis than the slot does. Where the slot's clearance leaves it no room
+for that, it meets the corner in which the slot's wall ends on the side of the crank's axis, drawn
+at the foot of the perpendicular from there, and strikes the wheel forwards. On a sharp corner that
+is about
+
+    jump / omega = tan b sqrt(2 eps) sqrt((R - r)/r),
+
+eps being the share of R that is missing once the clearance is used up, r the roller's radius:
+three times what a crank too long by as much costs on the slot's axis (``shock``) where r is R/10. A
+corner rounded by c counts as a roller of r + c.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.shock import FirstContacts, SlotAxis
+from geneva_cli.numerics.angles import DEGREE
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
+    from geneva_cli.numerics.arrays import N
+
+
+def mouth_contacts(
+    engagement: Engagement, crank: N, center: N, roller: N, clearance: N
+) -> FirstContacts | None:
+    """The first contacts with the mouth's sharp corner; NaN where the roller has room.
+
+    ``crank`` and ``center`` are relative errors as of ``shock.first_contacts``, ``roller`` the
+    roller's radius and ``clearance`` that of the slot per side, both over L: floats, or (m, 1) of
+    m designs. None for a roller that is on no crank's arm, and for slots that are solved for. The
+    arm turns evenly during the little that it is early.
+
+        >>> from geneva_cli import Design, External
+        >>> [engagement] = Design(External(6)).mechanism.engagements
+        >>> found = mouth_contacts(engagement, -1e-4, 0.0, roller=0.05, clearance=0.0)
+        >>> round(float(found.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
+        0.024448
+    """
+    if engagement.motion.entry is None or engagement.crank_sense or engagement.hub != 1.0:
+        return None
+    axis = SlotAxis.of(engagement)
+    true = abs(np.atleast_2d(axis.beside + engagement.slot.offset))
+    R = true * (1.0 + crank)
+    apart = R + (1.0 + crank) * axis.aside(crank, center) * -np.sign(axis.beside)
+    far = abs(axis.along) * (1.0 + center)
+    rate = abs(engagement.carrier(engagement.entry_deg).c[0])
+    wide = roller + clearance
+    corner = apart - wide  # from the crank's axis
+    near = R - corner  # of the roller's centre, at the foot
+    with np.errstate(all="ignore"):
+        # on the circle of R the corner is a roller away: R² + corner² - 2 R corner cos = r²
+        rise = (roller - near) * (roller + near) / (2.0 * R * corner)  # 1 - cos
+        early = np.where(
+            (near < roller) & (corner > 0.0), 2.0 * np.arcsin(np.sqrt(rise / 2)), np.nan
+        )
+        sine, across = R * np.sin(early), R * np.cos(early) - corner
+        # speeds of roller and corner along the line between them are one
+        jump = rate * corner * sine / (far * across + wide * sine)
+    return FirstContacts(np.ravel(engagement.entry_deg - early / rate / DEGREE), np.ravel(jump))
