@@ -22,7 +22,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.manual.explained import GROUPS, Entry, entries
-from geneva_cli.parts import gear_curves, groove, parts_list, slot_profile
+from geneva_cli.parts import gear_curves, groove, parts_list, slot_sampling
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import batch, survey
@@ -105,7 +105,7 @@ def quantities() -> set[str]:
         *CamFactors._fields,
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.NAMES, *SYNTH, ERROR, *batch.NAMES}
-    out |= {*slot_profile.NAMES, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
+    out |= {*slot_sampling.NAMES, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
     out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}
 
