@@ -42,6 +42,7 @@ PARTS = {
     "crank": Part(drawing="drawings:crank", cut=True, flat="sphere.drawings:crank"),
     "arm": Part(drawing="drawings:arm", cut=True),
     "links": Part(drawing="link_drawings:links", cut=True, alone=True),
+    "frame": Part(drawing="frame:frame", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
     "assembly": Part(drawing="drawings:assembly", flat="sphere.drawings:assembly"),
     "gears": Part("gear_curves:gears_table", "gear_drawings:gears", alone=True),

@@ -13,11 +13,11 @@ import numpy as np
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.measure import mapped
-from geneva_cli.curves.shapes import Circle, Contour, Drawing, Line, Shape, closed
+from geneva_cli.curves.shapes import Circle, Contour, Drawing, Line, Point, Shape, closed
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.centre_marks import centre_marks
-from geneva_cli.parts.gear_curves import ratio_and_turn, required_gears
+from geneva_cli.parts.gear_curves import SAMPLES, ratio_and_turn, required_gears
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_sizes import link_sizes
 from geneva_cli.parts.proof import Proof
@@ -42,23 +42,38 @@ def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     C = pair.distance_mm
     fine = min(tolerance, FINE[curves] * C)
-    sizes = link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
-    shapes: list[Shape] = []
-    bores = []
-    # the crank runs against the wheel outside, and with it inside
-    for curve, x, on_crank in (
-        (driven_curve(pair, -mechanism.spec.wheel.SIGN), 0.0, True),
-        (driver_curve(pair, -mechanism.spec.wheel.SIGN), C, False),
-    ):
-        pieces = fit.KINDS[curves](curve, -np.pi, np.pi, fine)
-        pitch = closed(PITCH, pieces)
-        shapes.append(mapped(pitch, lambda p, x=x: (p[0] + x, p[1])))  # type: ignore[misc]
-        least = min(float(np.hypot(*piece.start)) for piece in pieces)
-        bore = sizes.bore(least, L, on_crank)
-        bores += [Circle(BORE, (x, 0.0), bore)] if bore else []
+    sense = -mechanism.spec.wheel.SIGN  # the crank runs against the wheel outside, with it inside
+    driven, driver = (
+        closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, fine))
+        for curve in (driven_curve(pair, sense), driver_curve(pair, sense))
+    )
+    bores = [Circle(BORE, (x - L, y), r) for (x, y), r in gear_bores(proof) if r]
     line = Contour(PITCH, (Line((0.0, 0.0), (C, 0.0)),), closed=False)
-    shapes += [*bores, line, *centre_marks(bores)]
-    return Drawing(f"{titled(mechanism)}: pitch curves of the gears", tuple(shapes))
+    shapes: tuple[Shape, ...] = (
+        driven,
+        mapped(driver, lambda p: (p[0] + C, p[1])),
+        *bores,
+        line,
+        *centre_marks(bores),
+    )
+    return Drawing(f"{titled(mechanism)}: pitch curves of the gears", shapes)
+
+
+def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
+    """Place in the machine and radius of the bores of driven gear and driver; 0 for none.
+
+    Raises GenevaError as ``gears`` does.
+    """
+    mechanism = proof.mechanism
+    pair, L = required_gears(mechanism), mechanism.center_distance_mm
+    sizes = link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
+    ratio = array(ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0].c[0])
+    C = pair.distance_mm
+    driven, driver = float((C / (1.0 + ratio)).min()), float((C * ratio / (1.0 + ratio)).min())
+    return [
+        ((L, 0.0), sizes.bore(driven, L, on_crank=True)),
+        ((L + C, 0.0), sizes.bore(driver, L, on_crank=False)),
+    ]
 
 
 def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, Array]]:

@@ -43,6 +43,7 @@ class Links(NamedTuple):
     joined: tuple[Member, ...]
     gears: tuple[Gear, ...]
     pin_low: float | None = None  # lower end of the pin, on a link, that carries the wheel's roller
+    standing: frozenset[str] = frozenset()  # names of those that are fixed to the frame
 
     @property
     def plates(self) -> list[Plate]:
@@ -83,7 +84,8 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
         pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
-    return Links(sizes, tuple(cut), tuple(between), tuple(gears), pin_low)
+    standing = frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE)
+    return Links(sizes, tuple(cut), tuple(between), tuple(gears), pin_low, standing)
 
 
 def _gear(link: Link, sizes: LinkSizes, L: float) -> Gear:

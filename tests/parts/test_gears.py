@@ -103,7 +103,7 @@ def test_drawn_gears_mesh_as_the_crank_turns(gearing):
     wheel = External(6) if gearing == "external" else Internal(6)
     where, C = assembly(Design(wheel, drive).mechanism), drive.gear_distance_mm
     sense = math.copysign(1.0, float(np.diff(where.crank(np.array([0.0, 1.0])))[0]))
-    every = np.linspace(-np.pi, np.pi, 20000, endpoint=False)  # chords are off by 1e-6 mm
+    every = np.linspace(-np.pi, np.pi, 4000, endpoint=False)  # chords are off by 2e-5 mm
     driven, driver = (
         Polygon(curve(drive.gears, sense)(every)[0]) for curve in (driven_curve, driver_curve)
     )
@@ -112,8 +112,8 @@ def test_drawn_gears_mesh_as_the_crank_turns(gearing):
         turn = x + 0.2 * (1.0 - math.cos(x)) + 0.05 * math.sin(2.0 * x)  # of the ratio above
         one = rotate(driven, sense * turn, (0, 0), use_radians=True)
         other = translate(rotate(driver, -sense * x, (0, 0), use_radians=True), C)
-        assert one.distance(other) < 1e-5
-        assert one.intersection(other).area < 1e-5
+        assert one.distance(other) < 5e-5
+        assert one.intersection(other).area < 1e-4
 
 
 def test_gears_have_bores_at_their_axes_and_marks():

@@ -236,9 +236,10 @@ def test_masses_are_those_of_the_drawings():
     path = next(p for p in DESIGNS if p.stem == "limits")
     design = load(str(path))
     parts, _, _ = printed(path)
-    assert list(parts) == ["wheel", "locking disc", "arm", "roller", "pin"]
-    for name, part in (("wheel", "wheel"), ("locking disc", "crank"), ("arm", "arm")):
-        shapes = [s for s in design.drawing(part).shapes if s.layer != "ROLLER"]
+    assert list(parts) == ["wheel", "locking disc", "arm", "roller", "pin", "frame"]
+    plates = {"wheel": "wheel", "locking disc": "crank", "arm": "arm", "frame": "frame"}
+    for name, part in plates.items():
+        shapes = [s for s in design.drawing(part).shapes if s.layer not in ("ROLLER", "CENTER")]
         whole, *holes = (moments(s) for s in shapes)
         row = parts[name]
         per = 7850.0 * 12e-3
@@ -260,6 +261,7 @@ def test_every_part_has_its_count_and_mass():
         "arm": "1",
         "roller": "3",
         "pin": "3",
+        "frame": "1",
     }
     for row in parts.values():
         assert float(row["mass_kg"]) > 0.0 and float(row["inertia_kgm2"]) > 0.0

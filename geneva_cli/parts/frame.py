@@ -1,0 +1,133 @@
+"""The frame: one plate with a hole for every shaft that stands, and four to mount it by.
+
+It lies below all that moves; a plate above the wheel is drilled alike. In the machine's frame, the
+wheel's axis the origin and the crank's on the x axis. Holes have the size of their shafts: what a
+bush or a bearing needs is for who chooses it.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterator
+
+import numpy as np
+
+from geneva_cli.curves.belt import belt
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle, Drawing, Point
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.layout import Joint
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.centre_marks import centre_marks
+from geneva_cli.parts.gear_drawings import gear_bores
+from geneva_cli.parts.link_drawings import titled
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sizes import even, thicknesses, wall_min
+
+LAYER, HOLES = "FRAME", "BORE"
+SAME = 1e-9  # of the centre distance: places nearer to each other are one
+ANGLES = 720  # input angles at which it is seen which joints stand
+
+
+def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
+    """The frame as it is drilled, with centre marks."""
+    plate = frame_plate(proof)
+    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    shapes = (plate.outline, *holes, *centre_marks(holes))
+    return Drawing(f"{titled(proof.mechanism)}: frame", shapes, solid=plate)
+
+
+def frame_plate(proof: Proof) -> Plate:
+    """The frame. Raises GenevaError where wheel and crank stand in no one plane."""
+    mechanism = proof.mechanism
+    if not mechanism.spec.wheel.FLAT:
+        raise GenevaError(
+            f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" cross, and stand '
+            "in no one plate"
+        )
+    found = proof.found if mechanism.spec.is_flat else None
+    bars = drawn_links(mechanism, found)
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    known = list(_bores(proof, found, bars))
+    holes = [
+        Circle(HOLES, at, max((r for c, r in known if _same(c, at, L)), default=even(L / 20.0)))
+        for at in standing(mechanism)
+    ]
+    holes += _fixed(bars)
+    wall = wall_min(size, L)
+    eye = max(L / 20.0, 3.0 * wall)
+    low, high = (
+        [pick(c.centre[k] + way * c.radius for c in holes) + 3.0 * way * eye for k in (0, 1)]
+        for way, pick in ((-1.0, min), (1.0, max))
+    )
+    corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
+    outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
+    holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
+    top = _lowest(mechanism, found, bars) - size.washer_mm
+    return Plate("frame", LAYER, outline, tuple(holes), top - thicknesses(size, L).arm, top)
+
+
+def standing(mechanism: Mechanism) -> Iterator[Point]:
+    """Where shafts stand in the frame: the wheel's, the crank's, and those of what drives it."""
+    L, turns = mechanism.center_distance_mm, mechanism.spec.drive.turns
+    yield from ((0.0, 0.0), (L, 0.0))
+    if mechanism.spec.drive.gears:
+        yield L + mechanism.spec.drive.gears.distance_mm, 0.0
+    for link in links_at(mechanism, np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)):
+        for joint, kind in zip(places(link), link.kinds, strict=True):
+            middle = complex(joint[len(joint) // 2])  # input angle 0
+            stands = bool(np.abs(joint - middle).max() < SAME * L)
+            if stands and kind in (Joint.SHAFT, Joint.PIN) and abs(middle - L) > SAME * L:
+                yield middle.real, middle.imag
+
+
+def _bores(proof: Proof, found: Outlines | None, bars: Links) -> Iterator[tuple[Point, float]]:
+    """Places and radii of the shafts' bores in what they carry."""
+    mechanism = proof.mechanism
+    shaft, L = mechanism.spec.shaft, mechanism.center_distance_mm
+    if found and found.sizes.wheel_bore:
+        yield (0.0, 0.0), found.sizes.wheel_bore
+    if found and (has_arm(found) or found.sizes.crank_bore):
+        yield (L, 0.0), shaft_bore(found) if has_arm(found) else found.sizes.crank_bore
+    for x, given in ((0.0, shaft.wheel_diameter_mm), (L, shaft.crank_diameter_mm)):
+        if given is not None:
+            yield (x, 0.0), 0.5 * given
+    for member in bars.cut:
+        yield from ((hole.centre, hole.radius) for hole in _placed_holes(member))
+    yield from ((gear.at, gear.bore) for gear in bars.gears if gear.bore)
+    if mechanism.spec.drive.gears:
+        yield from ((at, r) for at, r in gear_bores(proof) if r)
+
+
+def _fixed(bars: Links) -> Iterator[Circle]:
+    """The holes by which links that stand, as a guide, are screwed to the frame."""
+    for member in bars.cut:
+        if isinstance(member.part, Plate) and member.part.name in bars.standing:
+            yield from _placed_holes(member)
+
+
+def _placed_holes(member: Member) -> Iterator[Circle]:
+    """The round holes of a plate, where they are at input angle 0."""
+    assert isinstance(member.part, Plate)
+    turn, (x, y) = cmath.rect(1.0, member.turn), member.at
+    for hole in member.part.holes:
+        if isinstance(hole, Circle):
+            z = complex(*hole.centre) * turn + complex(x, y)
+            yield Circle(HOLES, (z.real, z.imag), hole.radius)
+
+
+def _lowest(mechanism: Mechanism, found: Outlines | None, bars: Links) -> float:
+    """The lowest place of what moves, along the axis."""
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
+    arm = thicknesses(size, L).arm if found and has_arm(found) else 0.0
+    return min([*under, -size.pin_gap_mm - arm])
+
+
+def _same(p: Point, q: Point, L: float) -> bool:
+    return abs(complex(*p) - complex(*q)) < SAME * L
