@@ -18,14 +18,16 @@ INKS = {
     "CRANK": Ink(94, "#007f00"),
     "ARM": Ink(23, "#a56752"),
     "LINK": Ink(134, "#007f7f"),
+    "FRAME": Ink(153, "#527ca5"),
     "ROLLER": Ink(200, "#bf00ff"),
     "BORE": Ink(1, "#ff0000"),
     "COUPON": Ink(124, "#007f5f"),
     "ENGRAVE": Ink(233, "#a5527c"),
     "PITCH": Ink(8, "#808080"),
+    "CENTER": Ink(203, "#9152a5"),
     "GROOVE": Ink(54, "#7f7f00"),
 }
-OTHERS = (Ink(153, "#527ca5"), Ink(240, "#ff003f"), Ink(84, "#1f7f00"))
+OTHERS = (Ink(240, "#ff003f"), Ink(84, "#1f7f00"))
 CENTRE_LINES = {"PITCH"}  # layers of lines that are not cut
 DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
 
