@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 LOOKS = 361  # input angles at which a motion is sampled
 TAIL = 3.0  # plus or minuses: nine standard deviations
+FINER = 41  # and about the greatest of them
 CLOSER = 12  # samplings, each about the greatest of the last and a tenth as wide
 
 
@@ -85,14 +86,14 @@ class MotionError(NamedTuple):
         best: Worst | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
-            for _ in range(CLOSER):
-                at = np.linspace(low, high, LOOKS, axis=-1)
+            for looks in (LOOKS, *[FINER] * (CLOSER - 1)):
+                at = np.linspace(low, high, looks, axis=-1)
                 off = (array(self(each, at, side).c[0]) * side).max(axis=0)
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
                 i = np.argmax(off, axis=1)
                 here = Worst(off[every, i], at[every, i], np.full(len(off), side))
                 best = here if best is None else here.beyond(best)
-                step = (at[:, 1] - at[:, 0]) * LOOKS / 20.0
+                step = (at[:, 1] - at[:, 0]) * looks / 20.0
                 low = np.maximum(entry, here.at_deg - step)
                 high = np.minimum(exit_, here.at_deg + step)
         assert best is not None

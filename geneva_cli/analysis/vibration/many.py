@@ -14,6 +14,7 @@ The speeds to avoid are a list as long as a design has lobes, and so of one desi
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -37,7 +38,7 @@ from geneva_cli.numerics.angles import DEGREE
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
 
-GROUP = 256  # designs at a time: the panels of each are some 20 kB
+GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
 
 
 class Vibrations(NamedTuple):
@@ -80,8 +81,14 @@ class Index:
         return greatest_accelerations(self.panels, motion, swing)
 
 
-def vibrations_of_many(mechanism: Mechanism) -> Vibrations | None:
-    """The answers of m designs; None where they have no ``stiffness_Nm_rad``."""
+def vibrations_of_many(
+    mechanism: Mechanism, asked: Collection[str] = Vibrations._fields
+) -> Vibrations | None:
+    """The answers of m designs; None where they have no ``stiffness_Nm_rad``.
+
+    What takes its time and is not ``asked`` for is NaN: the worst residual, and what happens during
+    the motion.
+    """
     stiffness = mechanism.spec.shaft.stiffness_Nm_rad
     if stiffness is None:
         return None
@@ -95,11 +102,11 @@ def vibrations_of_many(mechanism: Mechanism) -> Vibrations | None:
     out = np.full((len(Vibrations._fields), len(ratio)), np.nan)
     for i in range(0, len(known), GROUP):
         part = known[i : i + GROUP]
-        out[:, part] = _of(taken(mechanism, part), Swing(ratio[part], zeta[part]))
+        out[:, part] = _of(taken(mechanism, part), Swing(ratio[part], zeta[part]), asked)
     return Vibrations(*out)
 
 
-def _of(mechanism: Mechanism, swing: Swing) -> list[Array]:
+def _of(mechanism: Mechanism, swing: Swing, asked: Collection[str]) -> list[Array]:
     """The answers of designs whose oscillators are known."""
     m, every = len(swing.ratio), np.arange(len(swing.ratio))
     indices = [Index(engagement, m) for engagement in mechanism.engagements]
@@ -109,14 +116,14 @@ def _of(mechanism: Mechanism, swing: Swing) -> list[Array]:
     own = [swing._replace(ratio=swing.ratio * scale) for scale in scales]
     left_ = [index.left(every, some) for index, some in zip(indices, own, strict=True)]
     residual = [np.abs(one) for one in left_]
-    windup, swung = [], []
+    windup, swung, none = [], [], np.full(m, np.nan)
     for index, some, step in zip(indices, own, steps, strict=True):
         whole = np.ravel(index.engagement.motion_deg * DEGREE)
         motion = index.engagement.motion
         wheel = peaks_of_many(motion, ["acceleration"])["acceleration"].max * whole * whole / step
         bent = np.degrees(step) / (2.0 * np.pi * some.ratio) ** 2
         windup.append(wheel * bent)
-        swung.append(index.greatest(some) * bent)
+        swung.append(index.greatest(some) * bent if "dynamic_factor" in asked else none)
     natural = swing.ratio / np.ravel(timings(mechanism)[0].motion_s)
     turned = [np.degrees(share * step) for share, step in zip(residual, steps, strict=True)]
     most = np.max(windup, axis=0)
@@ -126,7 +133,7 @@ def _of(mechanism: Mechanism, swing: Swing) -> list[Array]:
         natural,
         np.max(residual, axis=0),
         np.max(turned, axis=0),
-        _worst(indices, scales, swing),
+        _worst(indices, scales, swing) if "residual_share_worst" in asked else none,
         _steady(mechanism, left_, steps, swing),
         np.max(swung, axis=0) / most,
         most,

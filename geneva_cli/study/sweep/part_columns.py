@@ -134,7 +134,7 @@ def _life(machine: Mechanism, asked: Collection[str]) -> Columns:
 
 
 def _vibration(machine: Mechanism, asked: Collection[str]) -> Columns:
-    found = vibrations_of_many(machine)
+    found = vibrations_of_many(machine, asked)
     if found is None:
         return {}
     # without damping there is no steady state; without a period ratio the design says why
