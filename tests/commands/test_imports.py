@@ -2,8 +2,10 @@
 
 import os
 import pty
+import select
 import subprocess
 import sys
+from contextlib import ExitStack
 from typing import NamedTuple
 
 import pytest
@@ -26,6 +28,20 @@ sys.argv[0] = "geneva"
 from geneva_cli.app import main
 main()
 """
+# The same, a run a line of standard input: each in a fork of a process that has imported what every
+# run does, the program's own entry.
+FORKS = (
+    PROBE.removesuffix("main()\n")
+    + """
+for line in sys.stdin:
+    child = os.fork()
+    if not child:
+        sys.argv = ["geneva", *line.rstrip("\\n").split("\\t")]
+        main()
+    os.waitpid(child, 0)
+    print("done", file=sys.stderr, flush=True)
+"""
+)
 
 
 class Row(NamedTuple):
@@ -130,6 +146,37 @@ def loaded(words, **settings):
     return set(found.stderr.split())
 
 
+@pytest.fixture(scope="module")
+def forks():
+    """A process that runs lines; and one that had imported NumPy before, for runs that may."""
+    with ExitStack() as stack:
+        yield [
+            stack.enter_context(
+                subprocess.Popen(
+                    [sys.executable, "-c", before + FORKS],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.PIPE,
+                )
+            )
+            for before in ("", "import numpy\n")
+        ]
+
+
+def loaded_in(process, words):
+    process.stdin.write("\t".join(words).encode() + b"\n")
+    process.stdin.flush()
+    said = b""
+    while not said.endswith(b"\ndone\n"):
+        assert select.select([process.stderr], [], [], 60)[0], said
+        more = os.read(process.stderr.fileno(), 1 << 16)
+        assert more, said
+        said += more
+    *found, _ = said.decode().split()
+    assert "geneva_cli.app" in found, found
+    return set(found)
+
+
 def own(modules):
     return {name.removeprefix("geneva_cli.") for name in modules if name.startswith("geneva_cli.")}
 
@@ -139,8 +186,17 @@ def test_every_command_has_a_row():
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
-def test_heavy_modules(row):
-    assert loaded(row.words) & HEAVY <= set(row.may.split())
+def test_heavy_modules(forks, row):
+    may = set(row.may.split())
+    assert loaded_in(forks["numpy" in may], row.words) & HEAVY <= may
+
+
+def test_a_fork_has_imported_what_a_process_has(forks):
+    """In each of both; and the probe sees what was there before the run, as NumPy in one."""
+    words = ["peaks", os.path.join(DESIGNS, "press-curved.toml")]
+    assert loaded_in(forks[0], words) == loaded_in(forks[1], words) == loaded(words)
+    assert "numpy" not in loaded_in(forks[0], ["--version"])
+    assert loaded_in(forks[1], ["--version"]) & HEAVY == {"numpy"}
 
 
 @pytest.mark.parametrize("line", OWN)

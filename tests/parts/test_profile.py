@@ -109,16 +109,18 @@ def test_few_rows(law: str, gearing: str) -> None:
 
 def dense_error(mechanism: Mechanism, x: np.ndarray) -> float:
     """The greatest distance of 31 points a chord from it, by another formula than the program's."""
-    worst = 0.0
-    inner = np.linspace(0.0, 1.0, 33)[1:-1]
-    points = slot(mechanism, (x[:-1, None] + np.diff(x)[:, None] * inner).ravel())
-    ends = slot(mechanism, x)
+    return float(dense_errors(mechanism, x[:-1], x[1:]).max())
+
+
+def dense_errors(mechanism: Mechanism, first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """The same of each of some chords."""
+    at = np.linspace(0.0, 1.0, 33)
+    points = slot(mechanism, (first[:, None] + (last - first)[:, None] * at).ravel())
+    worst = np.zeros(len(first))
     for name in ("centre", "left", "right"):
-        p = getattr(points, name) @ [1, 1j]
-        q = getattr(ends, name) @ [1, 1j]
-        chord = np.diff(q)
-        turned = (p.reshape(len(x) - 1, -1) - q[:-1, None]) * np.exp(-1j * np.angle(chord))[:, None]
-        worst = max(worst, float(np.abs(turned.imag).max()))
+        p = (getattr(points, name) @ [1, 1j]).reshape(-1, 33)
+        turned = (p - p[:, :1]) * np.exp(-1j * np.angle(p[:, -1:] - p[:, :1]))
+        worst = np.maximum(worst, np.abs(turned.imag).max(axis=1))
     return worst
 
 
@@ -130,15 +132,16 @@ def greedy(mechanism: Mechanism, tolerance: float) -> int:
     engagement = mechanism.engagements[0]
     count, a = 0, engagement.entry_deg
     while a < 0.0:
-        far = 0.0
-        low, high = a, far
-        if dense_error(mechanism, np.array([a, far])) > tolerance:
-            for _ in range(17):
-                middle = 0.5 * (low + high)
-                good = dense_error(mechanism, np.array([a, middle])) <= tolerance
-                low, high = (middle, high) if good else (low, middle)
-            far = low
-        a, count = far, count + 1
+        low, high = a, 0.0
+        for _ in range(5):  # 16 parts of the rest of the way, five times over
+            ends = np.linspace(low, high, 17)[1:]
+            good = dense_errors(mechanism, np.full(16, a), ends) <= tolerance
+            if good.all():
+                low = high
+                break
+            i = int(np.argmin(good))
+            low, high = (low, ends[0]) if i == 0 else (ends[i - 1], ends[i])
+        a, count = low, count + 1
     return count
 
 
