@@ -398,10 +398,12 @@ class Design:
         [30.0, 60.0, 120.0]
         """
         from geneva_cli.analysis.vibration.answers import spectrum
-        from geneva_cli.analysis.vibration.oscillator import needed
+        from geneva_cli.analysis.vibration.oscillator import required_oscillator
 
         return self._located(
-            lambda: spectrum(self.mechanism, needed(self.mechanism, period_ratio, damping), samples)
+            lambda: spectrum(
+                self.mechanism, required_oscillator(self.mechanism, period_ratio, damping), samples
+            )
         )
 
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:

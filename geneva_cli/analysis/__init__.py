@@ -1,1 +1,1 @@
-"""What a machine does: timing, motion, peaks, loads."""
+"""The analysis of a machine: timing, motion, peaks, loads, strength, vibration, tolerances."""

@@ -1,4 +1,4 @@
-"""A cycle's curves piece by piece: motions cut where a curve breaks, and the dwells between."""
+"""The smooth pieces of a cycle's curves: motions, cut where a curve breaks, and dwells."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ TINY = 1e-9  # of a period: rounding of input angles
 class Stage(NamedTuple):
     """Input angles from ``start`` to ``end`` in which all curves are smooth.
 
-    ``of`` gives a row a curve; ``flat``: all stay as they are, in a dwell.
+    ``of`` gives the curves at input angles, a row each; ``flat``: all are constant, as in a dwell.
     """
 
     start: float
@@ -75,12 +75,12 @@ def load_stages(
 
 
 def _inside(engagement: Engagement, start: float) -> float:
-    """Where a piece begins: a break belongs to the piece before it, and entry to the motion."""
+    """The first angle of a piece: a break belongs to the piece before it, entry to the motion."""
     return start if start == engagement.entry_deg else math.nextafter(start, math.inf)
 
 
 def _beside_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
-    """The stretch from inside; at a curved slot's cusp as near to it as values are no rounding."""
+    """The stretch without its ends; next to a cusp it ends before values are rounding."""
     start, end = _inside(engagement, stretch.start), stretch.end
     if not is_straight(engagement):
         before, after = NEAR * engagement.entry_deg, NEAR * engagement.exit_deg

@@ -20,7 +20,7 @@ from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.spread import spread
 from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.many import vibrations_of_many
-from geneva_cli.analysis.vibration.oscillator import needed
+from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.machine.many import many
 from geneva_cli.spec.tables import Load, RollerMaterial, Shaft, Tolerance, WheelMaterial
 
@@ -182,7 +182,7 @@ def test_vibration(name):
     machine, each = designs(name)
     found = vibrations_of_many(machine)
     for i, one in each:
-        told = values(one, needed(one))
+        told = values(one, required_oscillator(one))
         for field, value in found._asdict().items():
             step = (
                 1.0 if field.endswith("deg") else math.degrees(2.0 * one.engagements[0].half_step)

@@ -14,7 +14,7 @@ from geneva_cli.analysis.vibration.during import greatest_acceleration
 from geneva_cli.analysis.vibration.lobes import highest_ratio, lobes, shares
 from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.shape import law_shape, shape
-from geneva_cli.analysis.vibration.swing import Swing, left
+from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.analysis.vibration.vibration import (
     speeds_to_avoid,
     stations,
@@ -56,7 +56,9 @@ def test_every_machine(path):
     """Stretches this short leave Gauss's rule with its rounding alone."""
     for engagement in load(path).engagements:
         for ratio, damping in ((0.4, 0.0), (3.3, 0.05), (11.0, 0.0)):
-            found = left(shape(engagement), Swing(np.array([ratio]), np.array([damping])))[0]
+            found = residual_swing(
+                shape(engagement), Swing(np.array([ratio]), np.array([damping]))
+            )[0]
             assert found == pytest.approx(by_gauss(engagement, ratio, damping), abs=1e-13)
 
 
@@ -129,7 +131,7 @@ def test_gears_by_points(tmp_path):
     path.write_text("\n".join(rows) + "\n")
     ratio = points(path, NoncircularGears, "ratio")
     engagement = build(Spec(External(6), NoncircularGears(ratio=ratio))).engagements[0]
-    found = left(shape(engagement), Swing(np.array([3.3]), np.array([0.02])))[0]
+    found = residual_swing(shape(engagement), Swing(np.array([3.3]), np.array([0.02])))[0]
     assert found == pytest.approx(by_gauss(engagement, 3.3, 0.02, 360), abs=1e-10)
 
 

@@ -1,1 +1,1 @@
-"""Forces, torque, stress and power: what the motion costs."""
+"""The loads of a machine: forces, torque, contact stress and power."""

@@ -1,7 +1,8 @@
 """The whole cycle under load: its states at any input angle, its extremes, and its integrals.
 
-A period of the machine, from the first entry: every engagement, and the dwells between. In a dwell
-nothing moves: the lock holds the wheel, what resists motion does not resist rest, and all is 0.
+It is a period of the machine, from the first entry: every engagement, and the dwells between. In a
+dwell all loads are 0: nothing moves, the lock holds the wheel, and resistance to motion does not
+act at rest.
 """
 
 from __future__ import annotations
@@ -34,21 +35,21 @@ if TYPE_CHECKING:
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
-# Of a cubic's integral over the step before them: Adams and Bashforth, for the way to a cusp.
+# The integral of a cubic from 0 to 1 by its values at AHEAD (Adams and Bashforth), next to a cusp.
 AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
 
 
 class Quantity(Protocol):
-    """What is looked for at an instant, of jets or of their values."""
+    """A quantity as a function of an instant, of jets or of their values."""
 
     def __call__(self, i: Instant[V], /) -> Row[V]:
         """The quantity, and what bounds it."""
 
 
 class Extremes(NamedTuple):
-    """Greatest and least value over the motions, infinite where nothing bounds it, and where.
+    """The greatest and least value over the motions, and their input angles as they are shown.
 
-    Input angles are the machine's, as they are shown.
+    A value is infinite where nothing bounds it.
     """
 
     max: float
@@ -60,8 +61,8 @@ class Extremes(NamedTuple):
 class Cycle:
     """A machine under its load, over one period.
 
-    ``given`` is what the loads depend on besides the motion. All answers are exact to some units
-    in the last place of a quantity's peak: none is taken from samples.
+    ``given`` is what the loads depend on besides the motion. All values are exact to some units in
+    the last place of a quantity's peak; none is taken from samples.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
@@ -73,7 +74,7 @@ class Cycle:
 
     @property
     def is_loaded(self) -> bool:
-        """Whether anything is known that the wheel moves against."""
+        """Whether an inertia or a resisting torque is known."""
         return not all_true((self.given.inertia_Nm == 0.0) & (self.given.resists_Nm == 0.0))
 
     @property
@@ -85,7 +86,7 @@ class Cycle:
         """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
 
         Infinite where nothing bounds a force: where friction alone holds the wheel, and at
-        mid-motion of a slot across the way.
+        mid-motion of a curved slot that lies across the roller's path.
         """
         out: list[Array | None] = [np.zeros(len(input_deg)) for _ in Instant._fields]
         for span in spans(self.mechanism, input_deg):
@@ -101,7 +102,7 @@ class Cycle:
         return Instant._make(out)
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
-        """Arrays at input angles of an engagement, from its own mid-motion."""
+        """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
         given, at = self.given, contacts(engagement, input_deg)
         torque = at.acceleration * given.inertia_Nm + given.resists_Nm
         drives = np.copysign(1.0, torque)
@@ -111,16 +112,16 @@ class Cycle:
             return bounded(instant(given, at, drives, slides, pays))
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
-        """Arrays at input angles of a stretch of an engagement, from its own mid-motion.
+        """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
 
-        With the stretch's signs: at its ends the values are those from inside.
+        The signs are the stretch's, so that its ends have the limits from inside.
         """
         with np.errstate(all="ignore"):
             at = contacts(engagement, input_deg)
             return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.pays))
 
     def look(self, quantities: Mapping[str, Quantity]) -> None:
-        """Find greatest and least value of each quantity over each motion; dwells left out."""
+        """Search the extremes of each quantity over each motion, without the dwells."""
         every: list[list[Extremes]] = [[] for _ in quantities]
         scans = []
         for engagement in self.mechanism.engagements:
@@ -140,7 +141,7 @@ class Cycle:
     def _both_ways(
         self, quantities: Sequence[Quantity]
     ) -> Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]:
-        """Rows whose maxima are the greatest value of each quantity, and minus its least."""
+        """Two rows a quantity: it and its negative, whose maxima are its two extremes."""
 
         def rows(at: Contact[Jet], drives: Number, slides: Number, pays: Number) -> list[Row[Jet]]:
             found = instant(self.given, at, drives, slides, pays)
@@ -189,5 +190,5 @@ class Cycle:
 
 @lru_cache(maxsize=16)
 def cycle_of(mechanism: Mechanism) -> Cycle:
-    """The cycle of a machine, kept while its loads, strength and cautions are asked for."""
+    """The cycle of a machine, cached for its loads, strength and cautions."""
     return Cycle(mechanism)

@@ -1,4 +1,4 @@
-"""Forces at the contact of roller and slot: formulas, for jets of one angle or of many.
+"""The forces between roller and slot, as formulas for jets of one angle or of many.
 
 With the unit tangent t of the slot (away from the wheel's axis) and the normal n = d i t towards
 the wall that bears, d = 1 where the torque T drives the wheel and -1 where it holds it back, the
@@ -26,11 +26,11 @@ from geneva_cli.numerics.jet import Jet, Number, V
 
 
 class Setting(NamedTuple):
-    """What the loads depend on besides the motion."""
+    """The data on which the loads depend besides the motion."""
 
     speed_rad_s: float  # of the input
     inertia_Nm: float  # inertia times the square of the input speed
-    resists_Nm: float
+    resists_Nm: float  # torque at the wheel that resists its motion
     L: float  # metres
     radius: float  # of the roller, over L
     friction: float  # along the wall, over the force on it
@@ -39,12 +39,12 @@ class Setting(NamedTuple):
 
     @property
     def rubs(self) -> bool:
-        """Whether the roller, of any design, is held back along the wall."""
+        """Whether there is friction along the wall, in any of the designs."""
         return not all_true(self.friction == 0.0)
 
 
 def setting(mechanism: Mechanism) -> Setting:
-    """The setting that a spec asks for."""
+    """The setting of a machine's spec."""
     spec = mechanism.spec
     load, size = spec.load, spec.size
     w = omega(spec.drive.n_rpm)
@@ -100,16 +100,16 @@ def contact_modulus_GPa(spec: Spec) -> float:
 
 
 class Greatest(NamedTuple):
-    """A greatest load (infinite where nothing bounds it), and its input angle."""
+    """A greatest load, infinite where nothing bounds it, and its input angle in degrees."""
 
     max: float
     at_deg: float
 
 
 class Row(NamedTuple, Generic[V]):
-    """A quantity that is looked for, and what must be positive for it to have a bound.
+    """A quantity, and ``room``, which must be positive for it to have a bound.
 
-    ``way`` is the sign towards which it goes where it has none.
+    ``way`` is the sign of the infinity to which it goes where ``room`` is not positive.
     """
 
     value: V
@@ -118,9 +118,9 @@ class Row(NamedTuple, Generic[V]):
 
 
 class Forces(NamedTuple, Generic[V]):
-    """Jets, or their values; a force has none where ``grip``, and a stress where ``edge``, is <= 0.
+    """Jets, or their values. Forces have no bound where ``grip`` <= 0, stresses where ``edge`` is.
 
-    There the friction alone holds the wheel, or the bearing wall is sharper than the roller.
+    There friction alone holds the wheel, or the wall is more sharply curved than the roller.
     """
 
     torque: V  # that the wheel needs
@@ -132,7 +132,7 @@ class Forces(NamedTuple, Generic[V]):
 
 
 def value(quantity: V) -> Number:
-    """The value of a jet, or what is a value already."""
+    """A jet's value; a value as it is."""
     return quantity.c[0] if isinstance(quantity, Jet) else quantity
 
 
@@ -141,13 +141,13 @@ def sliding(at: Contact[V], drives: Number, radius: float) -> V:
     return at.along - at.spin * (drives * radius)
 
 
-def needed(given: Setting, at: Contact[V]) -> V:
-    """Torque that the wheel needs: it drives the wheel on where it is positive."""
+def wheel_torque(given: Setting, at: Contact[V]) -> V:
+    """The torque that the wheel needs, N m: inertia and resistance; positive drives it on."""
     return at.acceleration * given.inertia_Nm + given.resists_Nm
 
 
 def gain(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
-    """Torque on the input shaft over the wheel's, times the grip: it has a value everywhere."""
+    """The torque on the input shaft over the wheel's, times ``grip``, which is always finite."""
     lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
     return at.velocity * _grip(given, at, drives, slides) + lost
 
@@ -161,7 +161,7 @@ def _grip(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
 
 def forces(given: Setting, at: Contact[V], drives: Number, slides: Number) -> Forces[V]:
     """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
-    torque = needed(given, at)
+    torque = wheel_torque(given, at)
     grip, shaft = _grip(given, at, drives, slides), torque * at.velocity
     force = torque * drives / (grip * given.L)
     if given.rubs:

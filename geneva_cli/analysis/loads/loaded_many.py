@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, mirrored
 from geneva_cli.analysis.loads.cycle import Quantity
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, needed, sliding, value
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant, instant
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
 from geneva_cli.analysis.loads.stretches import ZERO
@@ -189,7 +189,7 @@ def look(kinds: Sequence[str], given: Setting, at: Contact[Jet], forced: Array |
             jets.append(jet)
         return here
 
-    drives = sign("drives", needed(given, at))
+    drives = sign("drives", wheel_torque(given, at))
     slides: Number = 1.0
     if "slides" in kinds:
         slides = sign("slides", sliding(at, drives, given.radius))
@@ -229,7 +229,7 @@ def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
     out = []
     with np.errstate(all="ignore"):
         at = contact(engagement, np.zeros((n, 1)))
-        torque = value(needed(given, at))
+        torque = value(wheel_torque(given, at))
         common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
         loaded = np.abs(torque) > ZERO * (common + given.resists_Nm)
         limits = [_towards(load, np.broadcast_to(x, (n, 1))) for x in (near, -near)]

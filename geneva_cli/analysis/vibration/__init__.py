@@ -1,1 +1,1 @@
-"""The load on an elastic shaft: what is left swinging when the wheel has come to rest."""
+"""The vibration of a load on an elastic shaft, during a motion and after it."""

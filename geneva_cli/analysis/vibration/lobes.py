@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.vibration.shape import Shape
-from geneva_cli.analysis.vibration.swing import Swing, left
+from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class LobesOfMany(NamedTuple):
 
 def shares(shape: Shape, ratio: Array, damping: float) -> Array:
     """The residual amplitude over the step at period ratios."""
-    return np.abs(left(shape, Swing(ratio, np.full(ratio.shape, damping))))
+    return np.abs(residual_swing(shape, Swing(ratio, np.full(ratio.shape, damping))))
 
 
 def lobes(shape: Shape, low: float, high: float, damping: float) -> Lobes:

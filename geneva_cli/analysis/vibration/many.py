@@ -27,8 +27,8 @@ from geneva_cli.analysis.vibration.lobes import lobes_of_many
 from geneva_cli.analysis.vibration.oscillator import RATIO, period_ratio_of
 from geneva_cli.analysis.vibration.panels import Panels
 from geneva_cli.analysis.vibration.shape import Shape, law_shape, motion_panels
-from geneva_cli.analysis.vibration.swing import Swing, left
-from geneva_cli.analysis.vibration.swing_many import left_of_many
+from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.analysis.vibration.swing_many import residual_swing_of_many
 from geneva_cli.analysis.vibration.vibration import SOFTER, STIFFER
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
@@ -69,11 +69,11 @@ class Index:
         """The numbers of designs' motions among the panels'."""
         return 0 * which if self.shape else which
 
-    def left(self, which: Whole, swing: Swing) -> Complex:
+    def residual_swing(self, which: Whole, swing: Swing) -> Complex:
         """What the motions of designs leave of their oscillators' swing."""
         if self.shape:
-            return left(self.shape, swing)
-        return left_of_many(self.panels, which, swing)
+            return residual_swing(self.shape, swing)
+        return residual_swing_of_many(self.panels, which, swing)
 
     def greatest(self, swing: Swing) -> Array:
         """The greatest accelerations of the loads, over the step, by the share of the time."""
@@ -114,8 +114,10 @@ def _of(mechanism: Mechanism, swing: Swing, asked: Collection[str]) -> list[Arra
     first = indices[0].engagement.motion_deg
     scales = [np.ravel(index.engagement.motion_deg / first) for index in indices]
     own = [swing._replace(ratio=swing.ratio * scale) for scale in scales]
-    left_ = [index.left(every, some) for index, some in zip(indices, own, strict=True)]
-    residual = [np.abs(one) for one in left_]
+    residuals = [
+        index.residual_swing(every, some) for index, some in zip(indices, own, strict=True)
+    ]
+    residual = [np.abs(one) for one in residuals]
     windup, swung, none = [], [], np.full(m, np.nan)
     for index, some, step in zip(indices, own, steps, strict=True):
         whole = np.ravel(index.engagement.motion_deg * DEGREE)
@@ -134,7 +136,7 @@ def _of(mechanism: Mechanism, swing: Swing, asked: Collection[str]) -> list[Arra
         np.max(residual, axis=0),
         np.max(turned, axis=0),
         _worst(indices, scales, swing) if "residual_share_worst" in asked else none,
-        _steady(mechanism, left_, steps, swing),
+        _steady(mechanism, residuals, steps, swing),
         np.max(swung, axis=0) / most,
         most,
     ]
@@ -147,7 +149,7 @@ def _worst(indices: list[Index], scales: list[Array], swing: Swing) -> Array:
         own = swing.ratio * scale
 
         def share_at(which: Whole, ratio: Array, index: Index = index) -> Array:
-            return np.abs(index.left(which, Swing(ratio, swing.damping[which])))
+            return np.abs(index.residual_swing(which, Swing(ratio, swing.damping[which])))
 
         every = np.arange(len(own))
         for factor in (SOFTER, 1.0, STIFFER):
@@ -159,13 +161,15 @@ def _worst(indices: list[Index], scales: list[Array], swing: Swing) -> Array:
     return worst
 
 
-def _steady(mechanism: Mechanism, left_: list[Complex], steps: list[Array], swing: Swing) -> Array:
+def _steady(
+    mechanism: Mechanism, residuals: list[Complex], steps: list[Array], swing: Swing
+) -> Array:
     """The residual share once the cycle repeats itself, as of ``vibration.steady``."""
     engagements = mechanism.engagements
     period = np.ravel(mechanism.period_deg)
     rate = swing.p / np.ravel(engagements[0].motion_deg)  # by degrees of the input
     exits = [np.ravel(e.mid_deg + e.exit_deg) for e in engagements]
-    added = [one * step for one, step in zip(left_, steps, strict=True)]
+    added = [one * step for one, step in zip(residuals, steps, strict=True)]
     out = []
     with np.errstate(all="ignore"):
         sum_ = -np.expm1(rate * period)

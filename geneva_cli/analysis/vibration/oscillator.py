@@ -70,7 +70,7 @@ def period_ratio_of(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2:
     return timings(mechanism)[0].motion_s * natural_hz
 
 
-def needed(
+def required_oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
 ) -> Oscillator:
     """The same where nothing can be said without an inertia: raises GenevaError."""

@@ -74,7 +74,7 @@ class Swing(NamedTuple):
         return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
-def left(shape: Shape, swing: Swing) -> Complex:
+def residual_swing(shape: Shape, swing: Swing) -> Complex:
     """What a motion leaves: a complex number for each oscillator, its size over the step.
 
     It is (r' - p* r) / Im p at the end of the motion, r being the load's angle less the wheel's

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 MOST = 1 << 14  # pairs at a time, so that they stay in the cache
 
 
-def left_of_many(panels: Panels, motion: Whole, swing: Swing) -> Complex:
-    """What each motion leaves of its oscillator's swing, as of ``swing.left``: (n,).
+def residual_swing_of_many(panels: Panels, motion: Whole, swing: Swing) -> Complex:
+    """What each motion leaves of its oscillator's swing, as of ``swing.residual_swing``: (n,).
 
     ``motion`` (n,) are the motions of the oscillators, by their numbers among the panels'.
     """

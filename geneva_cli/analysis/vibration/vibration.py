@@ -20,7 +20,7 @@ from geneva_cli.analysis.vibration.during import greatest_acceleration
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes, shares
 from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.shape import shape
-from geneva_cli.analysis.vibration.swing import Swing, left
+from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 
@@ -98,7 +98,7 @@ def steady(mechanism: Mechanism, ratio: Array, damping: float) -> list[Array]:
     zeta = np.full(ratio.shape, damping)
     rate = Swing(ratio, zeta).p / engagements[0].motion_deg  # by degrees of the input
     added = [
-        left(shape(e), Swing(ratio * scale, zeta)) * e.half_step
+        residual_swing(shape(e), Swing(ratio * scale, zeta)) * e.half_step
         for e, scale in zip(engagements, _scales(mechanism), strict=True)
     ]
     exits = [e.mid_deg + e.exit_deg for e in engagements]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geneva_cli.analysis.vibration.shape import law_shape
-from geneva_cli.analysis.vibration.swing import Swing, left
+from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits
 from geneva_cli.machine import registry
@@ -159,7 +159,9 @@ def _task(damping: float, quick: bool) -> Task:
         for name, method, sizes in others
         for size in sizes
     ]
-    methods.append(Method("ours", None, lambda: np.abs(left(ours, Swing(ratio, zeta))), True))
+    methods.append(
+        Method("ours", None, lambda: np.abs(residual_swing(ours, Swing(ratio, zeta))), True)
+    )
     return Task(
         f"{count} period ratios, damping {damping:g}",
         f"one np.sin + np.cos over {count} numbers",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.analysis.vibration.answers import NUMBERS, values
-from geneva_cli.analysis.vibration.oscillator import needed
+from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
@@ -19,7 +19,7 @@ def vibration(proof: Proof) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return out
     try:
-        found = values(mechanism, needed(mechanism))
+        found = values(mechanism, required_oscillator(mechanism))
     except GenevaError as error:
         return out | {"vibration.none": str(error)}
     return out | {f"vibration.{name}": found[name] for name in NUMBERS}
