@@ -473,16 +473,17 @@ class Design:
         >>> Design(External(6)).drawn(0.01).found.relief
         'arc'
         """
-        from geneva_cli.parts.catalogue import is_alone
+        from geneva_cli.parts.catalogue import is_alone, machine_of
         from geneva_cli.parts.outlines import outlines
         from geneva_cli.parts.proof import Proof
 
         if not tolerance_mm > 0.0:
             raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
-        if not self.spec.is_flat and is_alone(self.mechanism, part):
-            return Proof(self.mechanism)
-        made = self._located(lambda: outlines(self.mechanism, tolerance_mm))
-        return Proof(self.mechanism, made)
+        mechanism = self._located(lambda: machine_of(self.mechanism, part))
+        if not mechanism.spec.is_flat and is_alone(mechanism, part):
+            return Proof(mechanism)
+        made = self._located(lambda: outlines(mechanism, tolerance_mm))
+        return Proof(mechanism, made)
 
     def drawing(
         self,

@@ -28,6 +28,7 @@ class Part(NamedTuple):
     cut: bool = False  # whether it is cut out of a plate
     sheet: str | None = None  # as a drawing sheet with dimensions
     alone: bool = False  # whether it is drawn without the outlines of wheel and crank
+    in_front: bool = False  # whether it is of a first wheel, in front of the crank
     flat: str | None = None  # its drawing laid flat where the wheel is a sphere's
 
 
@@ -42,6 +43,8 @@ PARTS = {
     "crank": Part(drawing="drawings:crank", cut=True, flat="sphere.drawings:crank"),
     "arm": Part(drawing="drawings:arm", cut=True),
     "links": Part(drawing="link_drawings:links", cut=True, alone=True),
+    "first-wheel": Part(drawing="drawings:wheel", cut=True, in_front=True),
+    "first-crank": Part(drawing="drawings:crank", cut=True, in_front=True),
     "frame": Part(drawing="frame:frame", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
     "assembly": Part(drawing="drawings:assembly", flat="sphere.drawings:assembly"),
@@ -93,6 +96,17 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     """Whether a part is drawn without the outlines of wheel and crank."""
     own = PARTS.get(part)
     return own is not None and (own.alone or (own.flat is not None and not _in_plane(mechanism)))
+
+
+def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
+    """The machine that a part is of: itself, or the first of two wheels in series.
+
+    Raises GenevaError for a part of a first wheel where there is none.
+    """
+    if part not in PARTS or not PARTS[part].in_front:
+        return mechanism
+    made: Mechanism = _made("first_pair:first_pair")(mechanism)
+    return made
 
 
 def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Drawing:

@@ -20,6 +20,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.arm import crank_arm, has_arm
+from geneva_cli.parts.first_pair import first_members
 from geneva_cli.parts.frame import frame_plate
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
@@ -63,6 +64,8 @@ def parts_list(proof: Proof) -> Table:
         if not mechanism.spec.wheel.FLAT:
             found += shell_rows(proof)
         found += parts_rows(proof.found) if mechanism.spec.is_flat else link_rows(mechanism)
+        if mechanism.spec.is_flat:
+            found += _rows(mechanism.spec, first_members(mechanism, proof.found))
         if mechanism.spec.wheel.FLAT:
             found += _rows(mechanism.spec, [Member(frame_plate(proof))])
     found += [*_pivots(mechanism), *_dimensions(mechanism)]

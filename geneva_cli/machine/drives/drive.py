@@ -47,6 +47,13 @@ class Gears(NamedTuple):
     advance: Displacement
 
 
+class FirstWheel(NamedTuple):
+    """A wheel in front of the crank: its slots, and the distance of its axis from its own crank."""
+
+    z: int
+    distance_mm: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class Drive(Table):
     """A kind of drive; its fields are the keys of ``[drive]``."""
@@ -74,6 +81,8 @@ class Drive(Table):
     CRANKED: ClassVar[bool] = False
     # whether it is a pair of noncircular gears, which have pitch curves
     GEARED: ClassVar[bool] = False
+    # whether its crank is turned by a Geneva wheel of its own
+    IN_SERIES: ClassVar[bool] = False
     # the key of [drive] that the reactions of its links need; empty where they need none
     LENGTH: ClassVar[str] = ""
     # whether its wheel is a flat outline that can be cut
@@ -92,6 +101,10 @@ class Drive(Table):
     @property
     def gears(self) -> Gears | None:
         """The noncircular gears between input and crank; None for a drive that has none."""
+        return None
+
+    def first_wheel(self, L: float) -> FirstWheel | None:
+        """The external wheel that turns the crank, L the second's centre distance; None: none."""
         return None
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.machine.drives.drive import FirstWheel, Plan
 from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import Path, Reactions, Vector
@@ -48,6 +48,7 @@ class GenevaPair(Transmission):
         },
     )
     ONE_ROLLER: ClassVar[bool] = True
+    IN_SERIES: ClassVar[bool] = True
     LENGTH: ClassVar[str] = "first_distance_mm"
     first_z: Annotated[int, Range(3, Z_MAX), "slots of the first wheel, external"]
     first_distance_mm: Annotated[
@@ -89,6 +90,10 @@ class GenevaPair(Transmission):
             Link("first wheel", ((still + L, still),), (shaft,), 2, first * step.sin_cos[1]),
         )
 
+    def first_wheel(self, L: float) -> FirstWheel:
+        """The first of the pair."""
+        return FirstWheel(self.first_z, self._distance_mm(L))
+
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm
 
@@ -107,7 +112,7 @@ class GenevaPair(Transmission):
         running = _running(middle, _crank_at(self.first_z, inside))
         ends = choose_record(crank_deg < 0.0, entry, exit_)
         pose = choose_record(abs(crank_deg) == reach, ends, running)
-        return About(pose.crank_deg, FirstWheel(pose))
+        return About(pose.crank_deg, FirstTurning(pose))
 
 
 class FirstRoller(Pushed):
@@ -126,7 +131,7 @@ class FirstRoller(Pushed):
         return (x, y), (y * -1.0, x)
 
 
-class FirstWheel(NamedTuple):
+class FirstTurning(NamedTuple):
     """The first wheel, which carries the second crank, about a pose of its own roller."""
 
     pose: poses.Pose

@@ -1,0 +1,85 @@
+"""The first of two wheels in series, with its crank: a machine of its own in front of the second.
+
+The first wheel is fast on the second's crank shaft, in the plane below the crank arm. Its locking
+disc lies there on the first crank, which is a link. What is not said of it is as in the second.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine import registry
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.parts.link_drawings import titled
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.outlines import Outlines, outlines
+from geneva_cli.parts.plates import crank_group, wheel_plate
+from geneva_cli.parts.sizes import thicknesses, wall_min
+from geneva_cli.spec.tables import Size
+
+PLANE = 2  # below the wheel's, in which the first wheel lies
+
+
+def first_pair(mechanism: Mechanism, found: Outlines | None = None) -> Mechanism:
+    """The first wheel and its crank as a machine; ``found`` are the second's outlines, if known.
+
+    Raises GenevaError for a machine without a first wheel.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    first = spec.drive.first_wheel(L)
+    if first is None:
+        having = [k for k in registry.DRIVES if registry.drive(k).IN_SERIES]
+        raise GenevaError(
+            f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
+            f"{' or '.join(having)} has two"
+        )
+    if found is None and spec.is_flat:
+        found = outlines(mechanism)
+    bars = drawn_links(mechanism, found)
+    shafts = [hole.radius for hole in _bores(bars.plates)]
+    on_shaft = bars.sizes.crank_shaft if bars.sizes else None
+    given = spec.size
+    size = Size(
+        center_distance_mm=first.distance_mm,
+        roller_radius_mm=mechanism.roller_radius_mm,
+        process=given.process,
+        slot_clearance_mm=given.slot_clearance_mm,
+        lock_clearance_mm=given.lock_clearance_mm,
+        press_fit_mm=given.press_fit_mm,
+        pin_mm=given.pin_mm,
+        wall_min_mm=wall_min(given, L),
+        wheel_thickness_mm=thicknesses(given, L).link,
+        crank_bore_mm=2.0 * shafts[0] if shafts else None,
+        wheel_bore_mm=2.0 * on_shaft if on_shaft else None,
+    )
+    title = f"{titled(mechanism)}, first pair"
+    drive = Crank(n_rpm=spec.drive.n_rpm)
+    return build(Spec(External(first.z), drive, size=size, title=title))
+
+
+def first_members(mechanism: Mechanism, found: Outlines) -> Iterator[Member]:
+    """The first wheel and its locking disc as plates, named and at their height; none without."""
+    if mechanism.spec.drive.first_wheel(mechanism.center_distance_mm) is None:
+        return
+    made = outlines(first_pair(mechanism, found))
+    bars = drawn_links(mechanism, found)
+    assert bars.sizes is not None  # the first crank is a link
+    low, high = bars.sizes.span(PLANE)
+    disc = [one.part for one in crank_group(made).members if isinstance(one.part, Plate)]
+    for plate in [wheel_plate(made, made.wheel), *disc[: len(made.crank)]]:
+        yield Member(plate._replace(name=f"first {plate.name}", low=low, high=high))
+
+
+def _bores(plates: list[Plate]) -> Iterator[Circle]:
+    """Bores for shafts: the holes at the links' own origins."""
+    for plate in plates:
+        for hole in plate.holes:
+            if isinstance(hole, Circle) and math.hypot(*hole.centre) == 0.0:
+                yield hole
