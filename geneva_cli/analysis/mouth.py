@@ -20,6 +20,7 @@ import numpy as np
 
 from geneva_cli.analysis.shock import FirstContacts, SlotAxis
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import all_true
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
@@ -42,7 +43,8 @@ def mouth_contacts(
         >>> round(float(found.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
         0.024448
     """
-    if engagement.motion.entry is None or engagement.crank_sense or engagement.hub != 1.0:
+    on_arm = all_true(engagement.crank_sense == 0.0) and all_true(engagement.hub == 1.0)
+    if engagement.motion.entry is None or not on_arm:
         return None
     axis = SlotAxis.of(engagement)
     true = abs(np.atleast_2d(axis.beside + engagement.slot.offset))
