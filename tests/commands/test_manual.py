@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
 
+pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
 README = ROOT / "README.md"
 MANUAL = ROOT / "geneva_cli" / "manual"
