@@ -283,7 +283,7 @@ class Design:
         _ = self.loads  # all quantities together, of which life needs some
         life = self.life.values  # what it needs is known once it has been looked for
         # without a load all need one, and that is said already
-        needed = self.life.missing(LIFE[:7]) if self.cycle.is_loaded else []
+        needed = self.life.missing(LIFE) if self.cycle.is_loaded else []
         said = (*self.warnings, *self.load_warnings, *self.life.cautions(), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         return loads_table(self.cycle, life, own, said, for_people)

@@ -29,12 +29,12 @@ LIFE = (
     "pv_max_W_m2",
     "pin_stress_MPa",
     "horn_stress_MPa",
-    # and where the spec has what they rest on
     "roller_life_turns",
     "roller_life_motions",
     "roller_life_h",
     "slot_wear_mm_per_million",
 )
+ROLLER = ("roller_life_min_h", "roller_life_turns", "roller_life_motions", "roller_life_h")
 
 
 class Life:
@@ -143,10 +143,13 @@ class Life:
         """The most loaded roller as a bearing."""
         rated = self.spec.material_roller.dynamic_capacity_N is not None
         rating = (rated, "dynamic_capacity_N in [material.roller]")
-        self._lacks("roller_life_min_h", rating, self._loaded)
+        for name in ROLLER:
+            self._lacks(name, rating, self._loaded)
         if self._lacks("equivalent_force_N", self._loaded):
             return None
-        if not (self._bounded("equivalent_force_N") and self._bounded("roller_life_min_h")):
+        for name in ("equivalent_force_N", *ROLLER):
+            self._bounded(name)
+        if self.force_N is None:
             return None
         return roller.life(self.mechanism)
 

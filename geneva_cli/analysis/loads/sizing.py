@@ -61,9 +61,9 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     if out["friction_torque_Nm"] is None:
         needs.append("friction_torque_Nm: needs friction and radius_mm in [support]")
     if spec.motor.speed_variation is None:
-        needs.append("flywheel_kgm2: needs speed_variation in [motor]")
+        needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
-        needs.append("inertia_ratio: needs inertia_kgm2 in [motor]")
+        needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
     return out, needs
 
 

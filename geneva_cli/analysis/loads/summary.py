@@ -26,6 +26,7 @@ from geneva_cli.errors import Caution
 from geneva_cli.table import Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.jet import Array
 
 PLACES = ("time_s", "input_deg", "wheel_deg")
@@ -196,12 +197,21 @@ def loads_table(
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
     bought, needed = sizing(cycle)
     bought["wheel_inertia_kgm2"] = wheel_inertia_kgm2
-    if cycle.is_loaded and spec.is_flat and spec.size.face_width_mm is None:
-        needed = [*needed, "wheel_inertia_kgm2: needs face_width_mm in [size]"]
+    if cycle.is_loaded and wheel_inertia_kgm2 is None:
+        needed = [*needed, f"wheel_inertia_kgm2: {_unweighed(spec)}"]
     for group, answers in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
     return record_table(values)
+
+
+def _unweighed(spec: Spec) -> str:
+    """Why the wheel's own inertia is not known."""
+    if not spec.is_flat:
+        return "worked out of wheels that are drawn as flat outlines"
+    if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
+        return "needs face_width_mm in [size]"
+    return "no wheel can be cut, as `geneva profile` says"
 
 
 def missing(cycle: Cycle) -> list[Caution]:

@@ -53,7 +53,7 @@ def said(design: Design, left: Left) -> Iterator[Block]:
     told = dict.fromkeys([*left.one("warnings"), *design.warnings, *design.load_warnings])
     of_loads = design.loads_page.to_dict()["warnings"]
     unknown = dict.fromkeys(missing(design.cycle))
-    known = {*told, *design.life.missing(LIFE[:7])}  # these, and more, are the report's own
+    known = {*told, *design.life.missing(LIFE)}  # these, and more, are the report's own
     unknown |= dict.fromkeys(text for text in of_loads if text not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))
     rest = list(left.rest())
