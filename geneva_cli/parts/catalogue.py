@@ -50,6 +50,7 @@ PARTS = {
     "assembly": Part(drawing="drawings:assembly", flat="sphere.drawings:assembly"),
     "gears": Part("gear_curves:gears_table", "gear_drawings:gears", alone=True),
     "groove": Part("groove:groove_table", "drawings:groove"),
+    "groove-plate": Part(drawing="groove_plate:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
     "sheet": Part(sheet="sheet.sheet:sheet"),
 }

@@ -21,6 +21,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_drawings import gear_bores
+from geneva_cli.parts.groove_plate import groove_members
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
@@ -42,8 +43,11 @@ def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
     return Drawing(f"{titled(proof.mechanism)}: frame", shapes, solid=plate)
 
 
-def frame_plate(proof: Proof) -> Plate:
-    """The frame. Raises GenevaError where wheel and crank stand in no one plane."""
+def frame_plate(proof: Proof, fixed: list[Member] | None = None) -> Plate:
+    """The frame; ``fixed`` are the plates with a groove that it carries, where they are known.
+
+    Raises GenevaError where wheel and crank stand in no one plane.
+    """
     mechanism = proof.mechanism
     if not mechanism.spec.wheel.FLAT:
         raise GenevaError(
@@ -58,7 +62,9 @@ def frame_plate(proof: Proof) -> Plate:
         Circle(HOLES, at, max((r for c, r in known if _same(c, at, L)), default=even(L / 20.0)))
         for at in standing(mechanism)
     ]
-    holes += _fixed(bars)
+    if fixed is None:
+        fixed = groove_members(found) if found else []
+    holes += [*_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
     low, high = (
@@ -68,7 +74,8 @@ def frame_plate(proof: Proof) -> Plate:
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
-    top = _lowest(mechanism, found, bars) - size.washer_mm
+    lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
+    top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
     return Plate("frame", LAYER, outline, tuple(holes), top - thicknesses(size, L).arm, top)
 
 
@@ -109,6 +116,12 @@ def _fixed(bars: Links) -> Iterator[Circle]:
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             yield from _placed_holes(member)
+
+
+def _mounted(members: list[Member], L: float) -> Iterator[Circle]:
+    """The holes that mount plates about the crank's axis, once."""
+    holes = dict.fromkeys(hole for one in members for hole in _placed_holes(one))
+    yield from (hole for hole in holes if not _same(hole.centre, (L, 0.0), L))
 
 
 def _placed_holes(member: Member) -> Iterator[Circle]:

@@ -22,6 +22,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
 from geneva_cli.parts.frame import frame_plate
+from geneva_cli.parts.groove_plate import groove_members
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_plate
@@ -64,10 +65,12 @@ def parts_list(proof: Proof) -> Table:
         if not mechanism.spec.wheel.FLAT:
             found += shell_rows(proof)
         found += parts_rows(proof.found) if mechanism.spec.is_flat else link_rows(mechanism)
+        fixed = []
         if mechanism.spec.is_flat:
             found += _rows(mechanism.spec, first_members(mechanism, proof.found))
+            fixed = groove_members(proof.found)
         if mechanism.spec.wheel.FLAT:
-            found += _rows(mechanism.spec, [Member(frame_plate(proof))])
+            found += _rows(mechanism.spec, [*fixed, Member(frame_plate(proof, fixed))])
     found += [*_pivots(mechanism), *_dimensions(mechanism)]
     rows = [[row.get(name) for name in NAMES] for row in found]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)

@@ -1,0 +1,109 @@
+"""The plate with a cam-Geneva's groove, as three that are laid on each other.
+
+A base, and on it a ring and an island with the groove between them, as deep as the roller in it is
+thick; a shop that mills it out of one piece takes the same outlines. The crank's axis is the
+origin. The bore is that of the crank's shaft, and four holes mount it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Group, Member, Plate, plates
+from geneva_cli.curves.shapes import Circle, Contour, Drawing
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.centre_marks import centre_marks
+from geneva_cli.parts.drawings import groove
+from geneva_cli.parts.link_drawings import titled
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sizes import even
+
+HOLES, RIM = "BORE", 1.5  # of the roller's radius: round the groove, where there is room
+MOUNTS = 4
+TOLERANCE = 1e-3  # mm, of the flanks where nobody asks for another: that of a drawing
+
+
+def groove_plate(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The outline, both flanks, the bore and the holes, with centre marks.
+
+    Raises GenevaError for a machine without a groove, and where the plate meets the wheel's shaft.
+    """
+    title = f"{titled(found.assembly.mechanism)}: groove plate"
+    flanks = groove(found, tolerance, curves)
+    outer, inner, pitch = (shape for shape in flanks.shapes if isinstance(shape, Contour))
+    made = _plates(found, outer, inner)
+    base, ring, _ = made
+    holes = [hole for hole in base.holes if isinstance(hole, Circle)]
+    shapes = (base.outline, *ring.holes[:1], inner, *holes, pitch, *centre_marks(holes))
+    return Drawing(title, shapes, solid=Group(title, tuple(map(Member, made))))
+
+
+def groove_members(found: Outlines) -> list[Member]:
+    """The plates where they are in the machine; none without a groove."""
+    if found.assembly.rollers[0][0].groove is None:
+        return []
+    solid = groove_plate(found, TOLERANCE, "arcs").solid
+    assert solid is not None
+    return [Member(plate, (found.assembly.L, 0.0)) for plate in plates(solid)]
+
+
+def _plates(found: Outlines, one: Contour, other: Contour) -> tuple[Plate, Plate, Plate]:
+    """Base, ring and island of the two flanks."""
+    L, sizes = found.assembly.L, found.sizes
+    inner, outer = sorted((one, other), key=_reach)
+    bars = drawn_links(found.assembly.mechanism, found)
+    follower = next(
+        m.part for m in bars.joined if isinstance(m.part, Plate) and m.part.name.endswith("groove")
+    )
+    far, wall = _reach(outer), sizes.wall_min
+    room = L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
+    rim = min(max(RIM * sizes.roller, 4.0 * wall), room)
+    if rim < 4.0 * wall:
+        raise GenevaError(
+            f"--part groove-plate: the groove reaches {far:.4g} mm from the crank's axis, and "
+            f"{room:.4g} mm are left beside the wheel's hub, less than four times wall_min_mm; a "
+            "smaller roller, wheel_hub_mm or wheel_bore_mm leaves more",
+            ("size", "wheel_hub_mm"),
+        )
+    mount, at = even(0.25 * rim), far + 0.5 * rim
+    mounts = [
+        Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
+        for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
+    ]
+    shaft = _shaft(bars.cut, L)
+    bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
+    edge = Circle("FRAME", (0.0, 0.0), far + rim)
+    low, high = follower.low, follower.high
+    floor = low - found.sizes.arm_thickness
+    return (
+        Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), floor, low),
+        Plate("groove plate's ring", "FRAME", edge, (outer, *mounts), low, high),
+        Plate("groove plate's island", "FRAME", inner, tuple(bore), low, high),
+    )
+
+
+def _reach(flank: Contour) -> float:
+    """The farthest place of a flank from the crank's axis: at the ends of its pieces, nearly.
+
+    Arcs bulge beyond their ends by less than what the box about the flank does.
+    """
+    box = bounds(flank)
+    ends = np.array([piece.start for piece in flank.segments])
+    return max(float(np.hypot(*ends.T).max()), *map(abs, box))
+
+
+def _shaft(links: Iterable[Member], L: float) -> float:
+    """The bore of the crank, the link that turns about the plate's centre."""
+    holes = (
+        hole
+        for one in links
+        if isinstance(one.part, Plate) and one.at == (L, 0.0)
+        for hole in one.part.holes
+    )
+    at_axis = (h.radius for h in holes if isinstance(h, Circle) and h.centre == (0.0, 0.0))
+    return next(at_axis, 0.0)

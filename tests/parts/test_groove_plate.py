@@ -1,0 +1,66 @@
+"""The plate with a cam's groove: against the roller that runs in it, by shapely."""
+
+import pytest
+import repo
+from drawing_witness import vertices
+from shapely.geometry import LineString, Polygon
+
+from geneva_cli import Design, External, load
+from geneva_cli.curves.plates import mass_properties, plates
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.groove_plate import groove_plate
+from geneva_cli.parts.parts_list import parts_list
+
+SAGITTA = 1e-3  # mm, of the chords that shapely is given
+OFF = 5e-3  # mm: those, the walls' own tolerance of 0.001, and shapely's arcs
+
+
+@pytest.fixture(scope="module")
+def cam():
+    design = load(str(repo.DESIGNS / "cam-geneva.toml"))
+    proof = design.drawn(0.001)
+    return design, proof, design.drawing("groove-plate", of=proof)
+
+
+def test_the_roller_fills_the_groove_all_round(cam):
+    _, proof, drawing = cam
+    pitch = next(shape for shape in drawing.shapes if shape.layer == "PITCH")
+    base, ring, island = plates(drawing.solid)
+    (outer,) = (hole for hole in ring.holes if not isinstance(hole, Circle))
+    groove = Polygon(vertices(outer, SAGITTA)).difference(
+        Polygon(vertices(island.outline, SAGITTA))
+    )
+    swept = LineString(vertices(pitch, SAGITTA)).buffer(proof.found.sizes.half_width, 64)
+    assert groove.buffer(OFF).contains(swept)
+    assert swept.buffer(OFF).contains(groove)
+    assert base.outline == ring.outline
+
+
+def test_it_lies_about_its_roller_and_below_the_crank(cam):
+    design, proof, drawing = cam
+    rows = {row["name"]: row for row in parts_list(proof).to_rows()}
+    roller, frame = rows["roller in the groove"], rows["frame"]
+    base, ring, island = plates(drawing.solid)
+    for plate in (ring, island):
+        assert (plate.low, plate.high) == (roller["z_low_mm"], roller["z_high_mm"])
+        assert plate.high <= rows["crank"]["z_low_mm"]
+    assert frame["z_high_mm"] <= base.low < base.high == ring.low
+    for plate in (base, ring, island):
+        row = rows[plate.name]
+        assert row["mass_kg"] == mass_properties(plate, 7850.0).mass_kg
+    # the frame has its four holes, where they are in the machine
+    L = design.mechanism.center_distance_mm
+    held = design.drawing("frame", of=proof).shapes
+    for hole in ring.holes[1:]:
+        at = hole.centre[0] + L, hole.centre[1]
+        assert any(isinstance(s, Circle) and s.centre == pytest.approx(at) for s in held)
+
+
+def test_machines_without_such_a_plate(cam):
+    _, proof, _ = cam
+    wide = proof.found.sizes._replace(wheel_hub=200.0)
+    with pytest.raises(GenevaError, match="beside the wheel's hub, less than four times wall_min"):
+        groove_plate(proof.found._replace(sizes=wide), 0.01, "arcs")
+    with pytest.raises(GenevaError, match='kind = "crank" has none; kind = "cam" has'):
+        Design(External(6)).drawing("groove-plate")
