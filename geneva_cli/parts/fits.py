@@ -1,4 +1,8 @@
-"""ISO 286: limits of the fits that the drawings name, H7 for holes, g6 and h6 for shafts."""
+"""ISO 286: limits of the fits that the drawings name.
+
+H7 for holes, g6 and h6 for shafts in them; a pin is h6 all along, what is pressed on it P7, and
+what turns on it F7 (fits of the basis of shafts, ISO 286-1).
+"""
 
 from __future__ import annotations
 
@@ -12,33 +16,36 @@ class Range(NamedTuple):
     it6: int
     it7: int
     g: int  # how far the upper limit of a shaft g is below the nominal size
+    f: int  # that of a shaft f, and how far the lower limit of a hole F is above it
+    p: int  # how far the lower limit of a shaft p is above it
 
 
-# ISO 286-1:2010: grades IT6 and IT7 by its table 1, the fundamental deviation g by its table 4.
+# ISO 286-1:2010: grades IT6 and IT7 by its table 1, the fundamental deviations g, f and p by
+# its tables 4 and 5.
 ISO_286 = [
     Range(*row)
     for row in (
-        (3, 6, 10, 2),
-        (6, 8, 12, 4),
-        (10, 9, 15, 5),
-        (18, 11, 18, 6),
-        (30, 13, 21, 7),
-        (50, 16, 25, 9),
-        (80, 19, 30, 10),
-        (120, 22, 35, 12),
-        (180, 25, 40, 14),
-        (250, 29, 46, 15),
-        (315, 32, 52, 17),
-        (400, 36, 57, 18),
-        (500, 40, 63, 20),
-        (630, 44, 70, 22),
-        (800, 50, 80, 24),
-        (1000, 56, 90, 26),
-        (1250, 66, 105, 28),
-        (1600, 78, 125, 30),
-        (2000, 92, 150, 32),
-        (2500, 110, 175, 34),
-        (3150, 135, 210, 38),
+        (3, 6, 10, 2, 6, 6),
+        (6, 8, 12, 4, 10, 12),
+        (10, 9, 15, 5, 13, 15),
+        (18, 11, 18, 6, 16, 18),
+        (30, 13, 21, 7, 20, 22),
+        (50, 16, 25, 9, 25, 26),
+        (80, 19, 30, 10, 30, 32),
+        (120, 22, 35, 12, 36, 37),
+        (180, 25, 40, 14, 43, 43),
+        (250, 29, 46, 15, 50, 50),
+        (315, 32, 52, 17, 56, 56),
+        (400, 36, 57, 18, 62, 62),
+        (500, 40, 63, 20, 68, 68),
+        (630, 44, 70, 22, 76, 78),
+        (800, 50, 80, 24, 80, 88),
+        (1000, 56, 90, 26, 86, 100),
+        (1250, 66, 105, 28, 98, 120),
+        (1600, 78, 125, 30, 110, 140),
+        (2000, 92, 150, 32, 120, 170),
+        (2500, 110, 175, 34, 130, 195),
+        (3150, 135, 210, 38, 145, 240),
     )
 ]
 
@@ -52,7 +59,15 @@ def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
     row = next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
     if row is None:
         return None
-    return {"H7": (row.it7, 0), "g6": (-row.g, -row.g - row.it6), "h6": (0, -row.it6)}[fit]
+    # up to 500 mm a hole P7 is pressed as much as a shaft p6 (ISO 286-1, 4.3.2.5)
+    top = -row.p + (row.it7 - row.it6 if 3.0 < nominal_mm <= 500.0 else 0)
+    return {
+        "H7": (row.it7, 0),
+        "F7": (row.f + row.it7, row.f),
+        "P7": (top, top - row.it7),
+        "g6": (-row.g, -row.g - row.it6),
+        "h6": (0, -row.it6),
+    }[fit]
 
 
 def toleranced(nominal_mm: float, shown: str, fit: str) -> str:

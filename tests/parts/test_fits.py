@@ -16,8 +16,9 @@ MAIN = (*MAIN, 2000, 2500, 3150)
 def test_tables_are_their_formulas_rounded(above, up_to):
     """i = 0.45 D^(1/3) + D/1000 up to 500 mm, I = 0.004 D + 2.1 above: IT6 is 10, IT7 16 of them.
 
-    g is 2.5 D^0.34. The standard rounds to the micrometre, and larger values coarser, by at most
-    8 %; up to 3 mm it has 10 um where the formula has 8.7, and no value is off by more.
+    g is 2.5 D^0.34, f 5.5 D^0.41; p is IT7 and 0 to 5 more, from 500 mm 0.072 D + 37.8. The
+    standard rounds to the micrometre, and larger values coarser, by at most 8 %; up to 3 mm it has
+    10 um where the formula has 8.7, and no value is off by more.
     """
     D = math.sqrt(above * up_to)
     i = 0.45 * D ** (1 / 3) + 1e-3 * D if up_to <= 500 else 4e-3 * D + 2.1
@@ -25,6 +26,13 @@ def test_tables_are_their_formulas_rounded(above, up_to):
     assert row.it6 == pytest.approx(10.0 * i, rel=0.08, abs=1.1)
     assert row.it7 == pytest.approx(16.0 * i, rel=0.08, abs=1.4)
     assert row.g == pytest.approx(2.5 * D**0.34, rel=0.08, abs=1.1)
+    assert row.f == pytest.approx(5.5 * D**0.41, rel=0.08, abs=1.1)
+    if up_to <= 3:
+        assert row.p == 6  # as few as the standard has
+    elif up_to <= 500:
+        assert 0 <= row.p - row.it7 <= 5
+    else:
+        assert row.p == pytest.approx(0.072 * D + 37.8, rel=0.05)
 
 
 @pytest.mark.parametrize(
@@ -39,6 +47,15 @@ def test_tables_are_their_formulas_rounded(above, up_to):
         (30.0, "H7", (21, 0)),
         (30.001, "H7", (25, 0)),
         (100.0, "g6", (-12, -34)),
+        (3.0, "F7", (16, 6)),
+        (8.0, "F7", (28, 13)),
+        (20.0, "F7", (41, 20)),
+        (100.0, "F7", (71, 36)),
+        (3.0, "P7", (-6, -16)),
+        (8.0, "P7", (-9, -24)),
+        (20.0, "P7", (-14, -35)),
+        (100.0, "P7", (-24, -59)),
+        (600.0, "P7", (-78, -148)),
         (4000.0, "H7", None),
     ],
 )

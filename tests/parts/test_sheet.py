@@ -153,7 +153,25 @@ def test_the_title_block_says_what_is_there():
     rows = design.part_table("parts").to_dict()
     mass = sum(m * n for m, n in zip(rows["mass_kg"], rows["count"], strict=True) if m is not None)
     assert {f"{mass:.4g} kg", "1:1", "A2", "ISO 2768-m", "steel", design.spec.title} <= texts
-    assert not any(re.search(r"20\d\d-|/", text) for text in texts - {"1/1"})  # no date, no path
+    # no date, no path: what has a stroke are limits of a fit
+    rest = {re.sub(r"\([-+.\d]+/[-+.\d]+\)", "", text) for text in texts - {"1/1"}}
+    assert not any(re.search(r"20\d\d-|/", text) for text in rest)
+
+
+def test_the_roller_turns_on_a_pin_that_the_arm_holds():
+    """A running and a pressed fit of one pin; a hole drawn for a press fit has its own size."""
+    for press, hole in ((0.0, "Ø 6 P7 (-0.008/-0.02)"), (0.02, "Ø 5.98 H7 (+0.012/0)")):
+        found = of(Spec(Wheel(6), size=Size(120.0, 6.0, press_fit_mm=press)))
+        texts = {m.label.text for m in found.measures}
+        assert {"Ø 6 F7 (+0.022/+0.01)", hole} <= texts
+        labels = {label.text for label in found.labels}
+        assert "turns on its pin Ø 6 h6 (0/-0.008), which is pressed in" in labels
+
+
+def test_a_list_of_parts_that_is_too_long_for_its_field_is_referred_to():
+    texts = {label.text for label in load(str(repo.DESIGNS / "four-bar-z4.toml")).sheet().labels}
+    assert "see list" in texts
+    assert not any(text.endswith("...") for text in texts)
 
 
 def test_points_of_a_curved_slot_are_on_it():

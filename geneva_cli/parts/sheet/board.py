@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 CHORD = 1.5  # mm: the longest chord of a curve
-BESIDE, ON = 3.0, 1.0  # mm: of a dimension line to another, and to a line of the part beside it
+BESIDE, ON = 3.0, 4.0  # mm: of a dimension line to another, and to a line of the part beside it
 LEAST = 0.1  # mm: those that share less may be in one line
 GAP = 0.6  # mm: between a text and what is nearest to it
 

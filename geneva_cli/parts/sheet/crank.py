@@ -101,7 +101,7 @@ def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
         view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
     _between(view, made)
     bored(view, [made.bore], radius_of(made.bore), mechanism.spec.size.crank_keyway)
-    view.diameter(made.pins, times(len(made.pins), sized.bore(made.pins[0].radius)))
+    view.diameter(made.pins, times(len(made.pins), sized.pin_hole(mechanism, made.pins[0].radius)))
     radii: dict[str, list[Arc]] = {}
     for arc in made.outline.segments:
         if isinstance(arc, Arc):
@@ -135,7 +135,8 @@ def draw_roller(view: View, found: Outlines) -> None:
     view.cross(axis, sizes.roller)
     view.diameter(circles[:1], sized.roller(found.assembly.mechanism, sizes.roller))
     if sizes.pin:
-        view.diameter(circles[1:], sized.bore(sizes.pin))
+        view.diameter(circles[1:], sized.roller_bore(sizes.pin))
+        view.remark(f"turns on its pin {sized.pin(sizes.pin)}, which is pressed in")
 
 
 def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> None:

@@ -72,7 +72,8 @@ def title_block(fields: dict[str, str], title: str, parts: str) -> Block:
     labels: list[Label] = []
     shapes += [line(TEXT, (0.0, y), (BLOCK, y)) for y in (12.0, 24.0)]
     labels += _field((0.0, 24.0), "title", title, LARGE, BLOCK)
-    labels += _field((0.0, 12.0), "parts", parts, SMALL, BLOCK - 30.0)
+    listed = parts if _fits(parts, SMALL, BLOCK - 34.0) else "see list"
+    labels += _field((0.0, 12.0), "parts", listed, SMALL, BLOCK - 30.0)
     shapes.append(line(TEXT, (BLOCK - 30.0, 12.0), (BLOCK - 30.0, 24.0)))
     symbol_shapes = projection((BLOCK - 15.0, 18.0))
     shapes += symbol_shapes
@@ -94,11 +95,15 @@ def _field(at: Point, name: str, value: str, height: float, room: float) -> list
 
 def cut_to(text: str, height: float, room: float) -> str:
     """A text that is too long for its room, cut."""
-    if width(text) * height <= room:
+    if _fits(text, height, room):
         return text
-    while text and width(text + "...") * height > room:
+    while text and not _fits(text + "...", height, room):
         text = text[:-1]
     return text + "..."
+
+
+def _fits(text: str, height: float, room: float) -> bool:
+    return width(text) * height <= room
 
 
 def projection(at: Point) -> list[Shape]:

@@ -46,6 +46,22 @@ def recess(mechanism: Mechanism, radius: float) -> str:
     return fitted(2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
 
 
+def pin(radius: float) -> str:
+    """The pin's diameter, the same all along: it is pressed into what is P7, and F7 turns on it."""
+    return fitted(2.0 * radius, "Ø ", "h6")
+
+
+def pin_hole(mechanism: Mechanism, radius: float) -> str:
+    """The hole that holds the pin: P7, unless it is drawn smaller by ``press_fit_mm``."""
+    smaller = mechanism.spec.size.allowances.press_fit_mm
+    return fitted(2.0 * radius, "Ø ", "H7" if smaller else "P7")
+
+
+def roller_bore(radius: float) -> str:
+    """What turns on the pin."""
+    return fitted(2.0 * radius, "Ø ", "F7")
+
+
 def bore(radius: float) -> str:
     """A bore's diameter."""
     return fitted(2.0 * radius, "Ø ", "H7")

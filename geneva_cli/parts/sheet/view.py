@@ -81,7 +81,7 @@ class View:
         self.title, self.scale = title, scale
         self.shapes: list[Shape] = []
         self.measures: list[Measure] = []
-        self.notes: list[str] = []  # dimensions for which there was no place
+        self.notes: list[str] = []  # remarks, and dimensions for which there was no place
         self.board = Board()
 
     def draw(self, shape: Shape, layer: str) -> None:
@@ -161,6 +161,10 @@ class View:
     def note(self, tip: Point, text: str) -> None:
         """A text that points at a place."""
         self._put(marks.note(self._at(tip), text, SMALL), text)
+
+    def remark(self, text: str) -> None:
+        """A text below the title."""
+        self.notes.append(text)
 
     def block(self) -> Block:
         """The view with its title below it."""
