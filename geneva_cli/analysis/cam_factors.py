@@ -1,4 +1,4 @@
-"""What a form that asks for a cam curve needs of a motion: the factors Am, Vm and Qm."""
+"""The factors Am, Vm and Qm of a motion, for a maker's form that needs a cam curve."""
 
 from __future__ import annotations
 

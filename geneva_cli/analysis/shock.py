@@ -58,7 +58,7 @@ class SlotAxis(NamedTuple):
 
     @staticmethod
     def of(engagement: Engagement) -> SlotAxis:
-        """Of an engagement with a straight slot."""
+        """The axis of an engagement's straight slot."""
         x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # a straight slot: anywhere
         (px, u), (py, v) = x.c, y.c
         m = library(px)

@@ -89,7 +89,7 @@ def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
 def _of_branch(
     at: Pitch, degrees: Array, outer: Array, side: float, r: float, L: float, back: Mask
 ) -> Undercuts:
-    """Of the way in (``side`` 1) or out (-1)."""
+    """The undercut on the way in (``side`` 1) or out (-1)."""
     bend = outer * at.turning / at.speed  # curvature towards the outer wall
     over = bend * r > 1.0
     n, count = over.shape

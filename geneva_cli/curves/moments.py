@@ -34,7 +34,7 @@ class Moments(NamedTuple):
         return self.x / self.area, self.y / self.area
 
     def turned(self, angle: float) -> Moments:
-        """The same of what is turned about the origin, radians counterclockwise."""
+        """The moments after a turn about the origin, radians counterclockwise."""
         c, s = math.cos(angle), math.sin(angle)
         return Moments(self.area, c * self.x - s * self.y, s * self.x + c * self.y, self.polar)
 

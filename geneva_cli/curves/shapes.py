@@ -141,7 +141,7 @@ def closed(layer: str, segments: Iterable[Segment]) -> Contour:
 
 
 def backwards(contour: Contour) -> Contour:
-    """The same contour, run the other way."""
+    """The contour with the opposite sense of travel."""
     found: list[Segment] = []
     for piece in reversed(contour.segments):
         if isinstance(piece, Cubic):

@@ -138,7 +138,7 @@ def _field(spec: Spec, key: str) -> Field:
 
 
 def taken(thing: T, which: Which) -> T:
-    """Some of the designs of an object of many: ``which`` is a mask or their numbers."""
+    """An object of many designs reduced to some: ``which`` is a mask or their numbers."""
     return cast("T", _changed(thing, lambda array: array[which], {}))
 
 
@@ -147,7 +147,7 @@ def _is_array(value: object) -> bool:
 
 
 def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
-    """The same object with every array (n, 1) in it changed; what holds none is itself."""
+    """A copy with every array (n, 1) in it changed; an object without any is returned itself."""
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
     kind: type = type(thing)

@@ -59,7 +59,7 @@ class SolvedPath:
 
     @cached_property
     def _series(self) -> Sequence[Number]:
-        """Of psi in powers of phi, about mid-motion."""
+        """The series of psi in powers of phi, about mid-motion."""
         return self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
 
     def _by_series(self, x: Number, order: int) -> tuple[Jet, Jet]:

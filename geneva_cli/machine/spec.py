@@ -75,7 +75,7 @@ class Motion(Table):
         _refuse_other(self, "law", Law, "Cycloidal()")
 
     def with_key(self, key: str, value: object) -> Self:
-        """The same with one key of the motion or of its law changed; None: its default.
+        """A copy with one key of the motion or of its law changed; None: its default.
 
         >>> Motion(SineGroup(0.1)).with_key("lambda", 0.05).law
         SineGroup(lambda_=0.05)
@@ -155,7 +155,7 @@ class Spec:
                 refuse(self._unloaded, partial(_no_load, key))
 
     def replace(self, **changes: Any) -> Self:
-        """The same with some of its tables changed.
+        """A copy with some tables changed.
 
         >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
         'internal'
@@ -187,7 +187,7 @@ class Spec:
         return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
 
     def with_(self, key: str, value: object) -> Self:
-        """The same with one key changed, written ``table.key`` as in the file; None: its default.
+        """A copy with one key changed, written ``table.key`` as in the file; None: its default.
 
         Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
 

@@ -71,12 +71,12 @@ Parts = TypeVar("Parts", Cells, Turns, Cuts)
 
 
 def taken(parts: Parts, where: Any) -> Parts:
-    """Some of them, by a mask or their numbers."""
+    """Some of the cells or turns, by a mask or their numbers."""
     return type(parts)._make([one[..., where] for one in parts])
 
 
 def joined(parts: Sequence[Parts]) -> Parts:
-    """All of them."""
+    """Several groups of cells or turns as one."""
     columns = zip(*parts, strict=True)
     return type(parts[0])._make([np.concatenate(one, axis=-1) for one in columns])
 

@@ -142,7 +142,7 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:
-    """The same of the direction of the vector (x, y), which turns at ``rate``."""
+    """sin and 1 - cos of the direction of the vector (x, y), which turns at ``rate``."""
     m = library(x, y)
     length = m.hypot(x, y)
     sine, cosine = y / length, x / length

@@ -84,7 +84,7 @@ def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real, looks: int =
 def boundary_by_sections(
     holds: Callable[[Array], Mask], good: float, bad: float, sections: int = 64
 ) -> float:
-    """The same of something that is answered for many numbers at once, in fewer questions.
+    """``boundary`` for a condition on arrays of numbers, in fewer calls.
 
     >>> boundary_by_sections(lambda x: x * x <= 2.0, 1.0, 2.0)
     1.414213562373095

@@ -79,7 +79,7 @@ class Table:
         return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
 
     def with_key(self, key: str, value: Any) -> Self:
-        """The same with one key, as it is written in the file, changed; None: its default.
+        """A copy with one key changed, as it is written in the file; None: its default.
 
         Raises GenevaError for a key that the table does not have, or a value out of its range.
 
@@ -96,7 +96,7 @@ class Table:
         return self.replace(**{field.attribute: value})
 
     def replace(self, **changes: Any) -> Self:
-        """The same with some of its fields changed, checked like any other.
+        """A copy with some fields changed, checked as every table is.
 
         >>> SideCrank(A=0.6).replace(n_rpm=30.0)
         SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)

@@ -30,7 +30,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     last = None
     for engagement, stretch in cycle.stretches:
         a, b = (engagement.mid_deg + x for x in stretch[:2])
-        driven = stretch.pays < 0.0 and b - a > BRIEF * engagement.motion_deg
+        driven = stretch.feeds < 0.0 and b - a > BRIEF * engagement.motion_deg
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)
         elif driven:

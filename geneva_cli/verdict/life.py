@@ -38,7 +38,7 @@ ROLLER = ("roller_life_min_h", "roller_life_turns", "roller_life_motions", "roll
 
 
 class Life:
-    """The answers about one machine, each made when it is asked for; None where not known.
+    """The strength of one machine, each value worked out when it is first used; None if not known.
 
     ``needs`` says by the value's name which keys would give it; a value that does not apply to a
     machine, as the horn's of one without a lock, needs none.

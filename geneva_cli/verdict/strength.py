@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Strength(Life):
-    """Life's answers, and besides those of the lock and of both shafts."""
+    """The values of ``Life``, and those of the lock and of both shafts."""
 
     @cached_property
     def lock(self) -> lock.LockUnderTorque | None:
@@ -58,7 +58,7 @@ class Strength(Life):
     def crank_shaft(self) -> shafts.Turned | None:
         """The shaft of the crank, where it is parallel to the wheel's; None of others.
 
-        On a sphere the roller's force has a moment about it that no overhang tells.
+        On a sphere the roller's force has a moment about it that does not follow from the overhang.
         """
         if not self.spec.wheel.FLAT:
             return None

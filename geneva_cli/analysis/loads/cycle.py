@@ -107,9 +107,9 @@ class Cycle:
         torque = at.acceleration * given.inertia_Nm + given.resists_Nm
         drives = np.copysign(1.0, torque)
         slides = np.copysign(1.0, sliding(at, drives, given.radius))
-        pays = np.copysign(1.0, drives * gain(given, at, drives, slides))
+        feeds = np.copysign(1.0, drives * gain(given, at, drives, slides))
         with np.errstate(all="ignore"):
-            return bounded(instant(given, at, drives, slides, pays))
+            return bounded(instant(given, at, drives, slides, feeds))
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
@@ -118,7 +118,7 @@ class Cycle:
         """
         with np.errstate(all="ignore"):
             at = contacts(engagement, input_deg)
-            return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.pays))
+            return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.feeds))
 
     def look(self, quantities: Mapping[str, Quantity]) -> None:
         """Search the extremes of each quantity over each motion, without the dwells."""
@@ -143,8 +143,8 @@ class Cycle:
     ) -> Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]:
         """Two rows a quantity: it and its negative, whose maxima are its two extremes."""
 
-        def rows(at: Contact[Jet], drives: Number, slides: Number, pays: Number) -> list[Row[Jet]]:
-            found = instant(self.given, at, drives, slides, pays)
+        def rows(at: Contact[Jet], drives: Number, slides: Number, feeds: Number) -> list[Row[Jet]]:
+            found = instant(self.given, at, drives, slides, feeds)
             out = []
             for quantity in quantities:
                 row = quantity(found)

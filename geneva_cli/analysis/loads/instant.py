@@ -42,7 +42,7 @@ class Instant(NamedTuple, Generic[V]):
     guide_squared: V | None  # of rocker, slider, groove or fixed gear; None without
     drives: Number  # sign of the wheel's torque
     slides: Number  # sign of the sliding
-    pays: Number  # sign of the input's torque
+    feeds: Number  # sign of the input's torque
     grip: V  # where it is not above 0, friction alone holds the wheel: forces are endless
     held: V | None  # the same for what friction alone makes endless; None without
     edge: V | None  # the same for the stress alone: the wall is sharper than the roller
@@ -103,7 +103,7 @@ def lesser(a: V, b: V) -> V:
 
 
 def instant(
-    given: Setting, at: Contact[V], drives: Number, slides: Number, pays: Number
+    given: Setting, at: Contact[V], drives: Number, slides: Number, feeds: Number
 ) -> Instant[V]:
     """What happens where wheel torque, sliding and input torque have these signs."""
     found = forces(given, at, drives, slides)
@@ -111,7 +111,7 @@ def instant(
     rubs = sliding(at, drives, given.radius) * (given.L * w)
     # The efficiency counts where the input drives; what the wheel gives back is not lessened by
     # losses that are not known to be there: a brake must hold all of it.
-    shaft = found.shaft * (0.5 * (1.0 + pays) / given.efficiency + 0.5 * (1.0 - pays))
+    shaft = found.shaft * (0.5 * (1.0 + feeds) / given.efficiency + 0.5 * (1.0 - feeds))
     rub = given.friction * value(at.touches)
     on_wheel = found.force * (1.0 + rub * rub) ** 0.5
     return Instant(
@@ -128,7 +128,7 @@ def instant(
         *_joints(given, at, found.force, drives, rub * slides, on_wheel),
         drives,
         slides,
-        pays,
+        feeds,
         found.grip,
         found.grip if given.rubs else None,
         found.edge,

@@ -164,7 +164,7 @@ def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> l
     if given.rubs or "slides" in more:
         out.append("slides")
     if not all_true(given.efficiency == 1.0):
-        out.append("pays")
+        out.append("feeds")
     if given.rubs:
         out.append("grip")
     if engagement.slot.curved and given.hertz is not None:
@@ -193,10 +193,10 @@ def look(kinds: Sequence[str], given: Setting, at: Contact[Jet], forced: Array |
     slides: Number = 1.0
     if "slides" in kinds:
         slides = sign("slides", sliding(at, drives, given.radius))
-    pays: Number = 1.0
-    if "pays" in kinds:
-        pays = sign("pays", gain(given, at, drives, slides) * drives)
-    found = instant(given, at, drives, slides, pays)
+    feeds: Number = 1.0
+    if "feeds" in kinds:
+        feeds = sign("feeds", gain(given, at, drives, slides) * drives)
+    found = instant(given, at, drives, slides, feeds)
     if "grip" in kinds:
         sign("grip", found.grip)
     if "edge" in kinds and found.edge is not None:

@@ -144,7 +144,7 @@ def _over_all(
     told: Collection[str],
     own: Mapping[str, Wanted] = NONE,
 ) -> list[tuple[Array, Array, Array | None]]:
-    """Of each engagement the greatest values, their places as shown, and the sums."""
+    """For each engagement the greatest values, their input angles as shown, and the integrals."""
     given = setting(mechanism)
     out = []
     for engagement in mechanism.engagements:
@@ -168,7 +168,7 @@ def count(every: Machine) -> int:
 def _of(
     every: Machine, names: Sequence[str], sized: bool, told: Collection[str]
 ) -> tuple[Array, Array, Array | None]:
-    """Of one engagement, at its own input angles."""
+    """The same for one engagement, at its own input angles."""
     m, parts = count(every), []
     for i in range(0, m, GROUP):
         some = taken(every, slice(i, i + GROUP))

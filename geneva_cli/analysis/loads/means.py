@@ -23,7 +23,7 @@ NOUGHT = 1e-30  # a mean whose square is so small a share of the mean square is 
 
 
 class Means(NamedTuple):
-    """Of a quantity, and of its square; dwells count."""
+    """The means of a quantity and of its square over a period, dwells included."""
 
     mean: float
     square: float
@@ -46,7 +46,7 @@ def means_of(cycle: Cycle) -> Mapping[str, Means]:
         return lambda i: square_of(QUANTITIES[name](i).value, name)
 
     def driven(power: int) -> Integrand:
-        return lambda i: (0.5 * (1.0 - i.pays) * i.input_torque_Nm) ** power
+        return lambda i: (0.5 * (1.0 - i.feeds) * i.input_torque_Nm) ** power
 
     back = [driven(1), driven(2)] if TORQUE in names else []
     sums = cycle.integrals(*map(mean, names), *map(square, names), *back)

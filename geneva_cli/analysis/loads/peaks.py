@@ -178,8 +178,8 @@ def _at_mid_motion(
         drives = math.copysign(1.0, needed)
         slides = math.copysign(1.0, float(sliding(here, drives, given.radius).arrays()[0][0]))
         with np.errstate(all="ignore"):
-            pays = float(np.ravel(gain(given, here, drives, slides).c[0])[0]) * drives
-            asked = rows(here, drives, slides, math.copysign(1.0, pays))
+            feeds = float(np.ravel(gain(given, here, drives, slides).c[0])[0]) * drives
+            asked = rows(here, drives, slides, math.copysign(1.0, feeds))
         values = []
         for row, limit in zip(asked, zip(*limits, strict=True), strict=True):
             room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])

@@ -23,7 +23,7 @@ class Sizing(NamedTuple):
 
     inertia_kgm2: float | None = None  # of all that the wheel turns, at its shaft
     wheel_inertia_kgm2: float | None = None  # of the wheel itself, from its outline
-    # the makers' form, of the engagement that asks most of the input
+    # the makers' form, of the engagement with the greatest torque at the input
     acceleration_rad_s2: float | None = None
     inertia_torque_Nm: float | None = None
     friction_torque_Nm: float | None = None  # of the support
@@ -68,7 +68,7 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
 
 
 def _form(cycle: Cycle) -> Sizing:
-    """The makers' form, for the engagement that asks most of the input."""
+    """The makers' form, for the engagement with the greatest torque at the input."""
     mechanism, spec = cycle.mechanism, cycle.mechanism.spec
     friction, w = support_torque_Nm(spec), cycle.given.speed_rad_s
     load = Load(inertia_kgm2(spec), friction, spec.load.torque_Nm, spec.motor.service_factor)

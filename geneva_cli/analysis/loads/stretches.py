@@ -41,7 +41,7 @@ class Stretch(NamedTuple):
     end: float
     drives: float  # of the wheel's torque
     slides: float  # of the sliding
-    pays: float  # of the input's torque
+    feeds: float  # of the input's torque: 1 where it drives the machine, -1 where it is driven
 
 
 Signed: TypeAlias = Callable[[Contact[Jet]], Jet]  # something whose sign is asked for
@@ -76,7 +76,7 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
         cut = signs.cut(cut, lambda piece: -1, "drives")
     cut = signs.cut(cut, lambda piece: ways.index(piece.drives), "slides")
     first = len(ways)
-    return tuple(signs.cut(cut, lambda piece: first + pairs.index(piece[2:4]), "pays"))
+    return tuple(signs.cut(cut, lambda piece: first + pairs.index(piece[2:4]), "feeds"))
 
 
 def _refuse_rounding(engagement: Engagement, fastest: float) -> None:

@@ -82,7 +82,7 @@ class Side(NamedTuple):
         return place + self.half_width * normal, normal
 
     def thickness(self, wall: Array, normal: Array) -> Array:
-        """Of the sections at points of the wall; infinite where another horn begins."""
+        """The thickness at points of the wall, mm; infinite where another horn begins."""
         along = -(wall * normal).sum(axis=0)
         with np.errstate(invalid="ignore"):
             thick = along - np.sqrt(along * along - (wall * wall).sum(axis=0) + self.recess**2)
@@ -126,7 +126,7 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
 
 
 def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> float:
-    """Of the stoutest horn: its thickness at the mouth over the recess's radius."""
+    """The stoutest horn's thickness at the mouth over the recess's radius."""
     return max(side.stoutness for side in horns(mechanism, half_width_mm, recess_mm))
 
 

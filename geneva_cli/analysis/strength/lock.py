@@ -123,7 +123,7 @@ def _contact(
 def _bending(
     mechanism: Mechanism, half_width: float, recess: float, phi: float
 ) -> tuple[float, float, float]:
-    """Of the weakest horn, for 1 N on 1 mm: mm that its end gives, stress in MPa, and thickness."""
+    """The weakest horn under 1 N on 1 mm: its end's deflection, mm, stress, MPa, and thickness."""
     material = mechanism.spec.material_wheel
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))

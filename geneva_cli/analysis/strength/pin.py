@@ -69,7 +69,7 @@ PLATES = {"cantilever": 1.0, "supported": 2.0, "fixed": 2.0}  # that share the f
 
 
 def pin_diameter_mm(mechanism: Mechanism) -> float:
-    """Of the roller's pin; with ``pin_mm = 0`` a roller is its own pin."""
+    """The diameter of the roller's pin; with ``pin_mm = 0`` the roller is its own pin."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     if size.pin_mm is None:
         return r

@@ -73,7 +73,7 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
     pieces = whole(engagement, given)
     if turns_back(engagement):
         signs = Signs(engagement, [piece[:2] for piece in pieces], [lambda at: at.along])
-        pieces = signs.cut(pieces, lambda piece: 0, "pays")
+        pieces = signs.cut(pieces, lambda piece: 0, "feeds")
     drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
 
     def rows(x: Array, span: Whole) -> list[Array]:

@@ -2,7 +2,7 @@
 
 Each starts and ends on the curve, along its tangents. Hermite's handles, thirds of the length,
 miss by the fourth power of the length; the handles of least squares by the sixth, as the error
-is measured along the normal: where along the cubic a point lies is nobody's business.
+is measured along the normal: where along the cubic a point lies does not matter.
 """
 
 from __future__ import annotations

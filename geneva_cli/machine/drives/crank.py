@@ -29,5 +29,5 @@ class Crank(Transmission):
         return True
 
     def about(self, crank_deg: float) -> About:
-        """The same angle."""
+        """The crank's angle, which is the input's."""
         return About(crank_deg, same)

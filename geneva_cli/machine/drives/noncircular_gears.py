@@ -110,7 +110,7 @@ class NoncircularGears(Transmission):
         return _through(_turned(self.ratio.pairs), crank_deg)
 
     def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
-        """As of the side-crank whose ratio it is."""
+        """The peaks of the side-crank that has this ratio; None for a ratio by points."""
         return None if self.A is None else whitworth.closed_peaks(self.A, wheel, place)
 
     def doubt(self, input_deg: float) -> Doubt | None:

@@ -126,7 +126,7 @@ class External(Gearing):
         return slot, OffsetFollowed(path, place.step.b, place.skew)
 
     def closed_form(self, place: Place) -> tuple[float, float, float] | None:
-        """Of radial slots."""
+        """The closed forms of radial slots; None for others."""
         if place.skew is not None:
             return None
         return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)

@@ -39,7 +39,7 @@ class Internal(Gearing):
         return Place(step, self.half_motion_deg(step), all_three, step.sin_cos[0])
 
     def closed_form(self, place: Place) -> tuple[float, float, float] | None:
-        """Of radial slots."""
+        """The closed forms of radial slots."""
         return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
 
     def matched_ratio(self, v: float) -> float:

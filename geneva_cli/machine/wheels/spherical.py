@@ -84,7 +84,7 @@ class Spherical(Gearing):
         )
 
     def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
-        """The meridian, along which the pin's place on the wheel's axis tells the polar angle."""
+        """The meridian slot, with the pin's coordinate along the wheel's axis."""
         assert place.height is not None  # it is a place on a sphere
         return MeridianSlot(path, Height(*place.height, turn)), Followed(path, place.step.b)
 

@@ -24,7 +24,7 @@ class Objective(NamedTuple):
 
 
 def objective(text: str, option: str = "--pareto") -> Objective:
-    """What ``min:acceleration.max`` asks for. Raises GenevaError where it is no objective."""
+    """The objective that ``min:acceleration.max`` means. Raises GenevaError for another text."""
     sense, _, name = text.strip().partition(":")
     if sense not in SENSES or not name:
         raise GenevaError(

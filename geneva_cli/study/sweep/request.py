@@ -1,4 +1,4 @@
-"""All that is asked of a sweep, read from the words of the command line."""
+"""A sweep's request, read from the command line's options."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def request(
 
 
 def _files(text: Text, vary: Sequence[str], many: bool, error: GenevaError) -> tuple[str, ...]:
-    """The files of a spec that is wrong by itself: what it lacks may be a key that is varied."""
+    """The files of a spec that is not valid alone: what it lacks may be a key that is varied."""
     try:
         axes = [axis(words, many) for words in vary]
         return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files

@@ -27,7 +27,7 @@ TRIED = 1000  # designs among which one must be built, to know the quantities
 
 
 class Sweep(NamedTuple):
-    """Designs that are all one spec's, with some keys varied, and what is asked of each."""
+    """The designs of one spec with some keys varied, and the quantities to work out for each."""
 
     text: Text
     plan: Plan

@@ -20,7 +20,7 @@ def crank_shaft(name: str, found: Outlines) -> Check | None:
 
 
 def crank_hub(name: str, found: Outlines) -> Check | None:
-    """The same and the bottom of the locking disc's relief."""
+    """Between the crank's shaft or hub and the bottom of the locking disc's relief."""
     shaft = _shaft(found.sizes)
     if not (shaft and found.crank and is_whole(found.assembly, found.sizes)):
         return None

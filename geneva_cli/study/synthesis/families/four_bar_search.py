@@ -64,7 +64,7 @@ class Pool(NamedTuple):
         return self.taken(order)
 
     def taken(self, which: Any) -> Pool:
-        """Some of them."""
+        """Some of the places."""
         return Pool(*(_taken(part, which) for part in self))
 
 
