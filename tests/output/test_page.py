@@ -20,6 +20,7 @@ from geneva_cli.scene import value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import Turn
 
+pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(design.stem for design in repo.DESIGNS.glob("*.toml"))
 # What the page promises: its knots keep to 1e-7, and 10 digits of an angle of some turns to 1e-8.
 ANGLE = 1e-6
