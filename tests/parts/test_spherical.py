@@ -160,7 +160,7 @@ def test_nothing_meets_in_a_motion(at):
     clearance = found.half_width - found.roller
     _, _, half = geometry(found)
     wheel = edge_points(found, 100)
-    for a in np.linspace(-half, half, 61):
+    for a in np.linspace(-half, half, 31):
         n = math.tan(found.arm) * math.sin(a)
         m = math.sin(found.axes) - math.tan(found.arm) * math.cos(found.axes) * math.cos(a)
         psi = math.atan2(n, m)
@@ -251,19 +251,19 @@ def test_a_kerf_is_beside_the_sheet():
     """Half of it outside of the wheel laid flat: the area grows by its length."""
     design = MACHINES["90"]
     (outline,), (path,) = (
-        [s for s in design.drawing("wheel", kerf_mm=kerf).shapes if s.layer == "WHEEL"]
+        [s for s in design.drawing("wheel", 0.05, kerf_mm=kerf).shapes if s.layer == "WHEEL"]
         for kerf in (None, 0.02)
     )
     length = sum(map(segment_length, outline.segments))
     # a corner adds the kerf's square, some 20 corners of 1e-4 mm²
     assert abs(area(path)) - abs(area(outline)) == pytest.approx(0.01 * length, abs=2e-3)
     with pytest.raises(GenevaError, match="no solid"):
-        list(chunks(design.drawing("wheel", kerf_mm=0.2), "mm"))
+        list(chunks(design.drawing("wheel", 0.05, kerf_mm=0.2), "mm"))
 
 
 def test_solids_are_closed(machine):
     """Each edge bounds two faces, once either way; circles pass through their ends."""
-    drawing = machine.drawing("assembly")
+    drawing = machine.drawing("assembly", 0.05)
     file = File("".join(chunks(drawing, "mm")))
     bodies, shells = file.all("MANIFOLD_SOLID_BREP"), solids(drawing.shells)
     assert len(bodies) == len({(s.name, s.regions) for s in shells})
