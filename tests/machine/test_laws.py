@@ -14,6 +14,7 @@ from words import LAWS, Spec, Wheel, named, points
 
 from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.analysis.peaks import peaks
+from geneva_cli.machine import registry
 from geneva_cli.machine.laws.standard import SineGroup
 from geneva_cli.machine.laws.table import TableLaw
 from geneva_cli.machine.mechanism import build
@@ -149,6 +150,19 @@ def test_constants_to_the_digits_of_the_books():
     assert CONSTANTS["modified-trapezoid"] == pytest.approx((2.0, 4.888, 61.43), abs=5e-3)
     assert CONSTANTS["mcv50"][:2] == pytest.approx((1.27526, 8.01268), abs=5e-6)
     assert CONSTANTS["sine-group"] == pytest.approx((2.667, 10.883, 105.28), abs=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "curve"),
+    [
+        ("modified-sine", (5.52796, 1.75960, 0.98730)),
+        ("modified-trapezoid", (4.88812, 2.0, 1.65503)),
+        ("mcv50", (8.01268, 1.27526, 0.71554)),
+    ],
+)
+def test_curves_of_theory_loads_2(name, curve):
+    """Am, Vm and Qm = max(velocity times acceleration)/Am, to the five digits that it has."""
+    assert characteristic(registry.law(name)()).factors == pytest.approx(curve, abs=5e-6)
 
 
 # ---------------------------------------------------------------- the law "table"
