@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 ROUNDING_DEG = 1e-12  # nearer to mid-motion a change of sign is there
 NO_TORQUE = 1e-9  # of the greatest: less is rounding
+BLOCK = 256  # changes whose integrals are worked out together: they stay in the cache
 CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
@@ -100,6 +101,16 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
 
     The sign of what the wheel gains tells which way it goes. ``drag`` is (m, 1).
     """
+    if not len(at.x):
+        return Impacts(at.x, at.x, at.x)
+    parts = []
+    for i in range(0, len(at.x), BLOCK):
+        part = slice(i, i + BLOCK)
+        parts.append(_impacts(engagement, Changes(at.which[part], at.x[part]), play[part], drag))
+    return Impacts(*(np.concatenate(row) for row in zip(*parts, strict=True)))
+
+
+def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> Impacts:
     start = at.x[:, None]
 
     def gained(x: Array, live: Whole) -> tuple[Array, Array]:

@@ -21,6 +21,7 @@ SUBJECTS = (
     "peaks",
     "many",
     "family",
+    "sweep",
     "motion",
     "loads",
     "slot",

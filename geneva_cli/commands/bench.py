@@ -16,8 +16,8 @@ def run(
         str,
         typer.Argument(
             metavar="[SUBJECT]",
-            help="peaks, many, family, motion, loads, slot, tolerance, vibration, turn, start, "
-            "export or all.",
+            help="peaks, many, family, sweep, motion, loads, slot, tolerance, vibration, turn, "
+            "start, export or all.",
         ),
     ] = "all",
     plots: Annotated[

@@ -22,6 +22,7 @@ OURS = {
     "peaks": 4e-15,
     # two searches, each within the last places of the peak
     "family": 4e-15,
+    "sweep": 1e-12,  # sums of what quadrature leaves
     "many": 4e-15,
     "motion": 8 * 2.0**-52,
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error

@@ -1,0 +1,166 @@
+"""What a sweep works out together, beside one design after the other: strength, swing, blows, play.
+
+Of side-cranks of six slots, A from -0.9 to 0.9, that carry an inertia on an elastic shaft and are
+rubbed by friction. In units of one sine and cosine a design, some 15 ns: 7,000 is ten thousand
+designs a second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.blows import entry_blow, entry_blows, reversal_blow, reversal_blows
+from geneva_cli.analysis.strength import roller, shafts
+from geneva_cli.analysis.strength.roller_many import passages_of_many
+from geneva_cli.analysis.tolerance.dimensions import corners
+from geneva_cli.analysis.tolerance.many import motion_plays, used
+from geneva_cli.analysis.tolerance.motion_error import motion_errors
+from geneva_cli.analysis.vibration.many import vibrations_of_many
+from geneva_cli.analysis.vibration.oscillator import required_oscillator
+from geneva_cli.analysis.vibration.shape import shape
+from geneva_cli.analysis.vibration.vibration import stations
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.many import many
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.spec.tables import Load, Shaft, Size, Tolerance
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+DESIGNS, QUICK = 4096, 100
+LOOP = 5  # designs that are had one after the other
+CHECKED = 20  # designs whose error is measured
+GIVEN = Spec(
+    External(6),
+    SideCrank(A=0.0),
+    size=Size(face_width_mm=10.0, slot_clearance_mm=0.01),
+    load=Load(inertia_kgm2=1.0, friction=0.1),
+    shaft=Shaft(stiffness_Nm_rad=5e3, damping_ratio=0.02, wheel_overhang_mm=30.0),
+    tolerance=Tolerance(crank_radius_mm=0.02, slot_width_mm=0.02),
+)
+
+
+class Answer(NamedTuple):
+    """A quantity: of one design, and of all of them together."""
+
+    name: str
+    one: Callable[[Mechanism], float]
+    together: Callable[[Mechanism], Any]
+
+
+def _shaft(machine: Mechanism) -> float:
+    found = shafts.shaft(machine, shafts.wheel_shaft(machine.spec.shaft), shafts.on_wheel)
+    assert found is not None
+    return found.moment_Nm
+
+
+def _shafts(machine: Mechanism) -> Any:
+    ends = shafts.wheel_shaft(machine.spec.shaft)
+    found = shafts.shaft_of_many(machine, ends, shafts.on_wheel)
+    return found and found.moment_Nm
+
+
+def _force(machine: Mechanism) -> float:
+    found = roller.life(machine)
+    assert found is not None
+    return found.equivalent_force_N
+
+
+def _swing(machine: Mechanism) -> float:
+    shape.cache_clear()
+    return stations(machine, required_oscillator(machine))[0].dynamic_factor
+
+
+def _swings(machine: Mechanism) -> Any:
+    found = vibrations_of_many(machine, ("dynamic_factor",))
+    return found and found.dynamic_factor
+
+
+def _jump(found: Any) -> float:
+    return 0.0 if found is None else abs(found.jump)
+
+
+def _play(machine: Mechanism) -> float:
+    found = motion_errors(machine)[0].greatest(corners(list(used(machine).values())))
+    return float(np.degrees(found.error[0]))
+
+
+def _plays(machine: Mechanism) -> Any:
+    found = motion_plays(machine)
+    return found and found.worst_deg
+
+
+ANSWERS = (
+    Answer("moment in a shaft", _shaft, _shafts),
+    Answer(
+        "equivalent force of a roller",
+        _force,
+        lambda machine: roller.lives(machine, passages_of_many(machine)).equivalent_force_N,
+    ),
+    Answer("dynamic factor", _swing, _swings),
+    Answer(
+        "jump at entry",
+        lambda machine: _jump(entry_blow(machine)),
+        lambda machine: abs(entry_blows(machine).jump),
+    ),
+    Answer(
+        "jump at a change of sides",
+        lambda machine: _jump(reversal_blow(machine)),
+        lambda machine: np.nan_to_num(abs(reversal_blows(machine).jump)),
+    ),
+    Answer("play of a motion", _play, _plays),
+)
+
+
+def subject(quick: bool) -> Subject:
+    """A task a quantity."""
+    count = QUICK if quick else DESIGNS
+    A = np.random.default_rng(12).uniform(-0.9, 0.9, count)
+    machine = many(GIVEN, {"drive.A": A}).machine
+    assert machine is not None
+    alone = [build(GIVEN.with_("drive.A", a)) for a in A[:CHECKED].tolist()]
+    return Subject(
+        "What a sweep works out of many designs together",
+        f"greatest relative error of {CHECKED} designs, against the answer of one design",
+        [_task(answer, machine, count, alone) for answer in ANSWERS],
+        floor=1e-12,
+    )
+
+
+def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]) -> Task:
+    angles, truth = np.linspace(0.0, 1.0, count), np.array([answer.one(m) for m in alone])
+    return Task(
+        f"{answer.name} of {count} side-cranks",
+        f"one np.sin + np.cos over {count} numbers",
+        lambda: (np.sin(angles), np.cos(angles)),
+        partial(_error, truth),
+        [
+            Method(
+                f"one by one (extrapolated from {LOOP})",
+                None,
+                lambda: [_again(answer, one) for one in alone[:LOOP]],
+                True,
+                times=count / LOOP,
+            ),
+            Method("together", None, lambda: answer.together(machine), True),
+        ],
+    )
+
+
+def _again(answer: Answer, machine: Mechanism) -> float:
+    """The answer of a design that nothing is known of."""
+    roller.passage.cache_clear()
+    return answer.one(machine)
+
+
+def _error(truth: Array, found: Any) -> float:
+    there = np.asarray(found)[:CHECKED]
+    known = truth[: len(there)]
+    return float(np.max(np.abs(there - known) / np.where(known == 0.0, 1.0, known)))
