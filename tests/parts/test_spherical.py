@@ -44,15 +44,13 @@ def geometry(found):
     b, S = math.pi / found.z, found.axes
     arm = math.asin(math.sin(S) * math.sin(b))
     mouth = math.atan2(math.sin(S) * math.cos(b), math.cos(S))
-    half = math.atan2(math.sqrt(math.sin(S) ** 2 - math.sin(arm) ** 2), math.tan(arm) * math.cos(S))
+    half = math.acos(math.tan(arm) * math.cos(S) / math.sin(S))  # tan th / tan S, at 90 degrees 0
     return arm, mouth, half
 
 
 def test_sizes_are_those_of_the_theory(machine):
     found, S = sizes(machine), math.radians(machine.spec.wheel.axes_deg)
-    arm, mouth, _ = geometry(found)
-    # cos as = tan th / tan S, which has no limit in doubles at 90 degrees but this
-    half = math.acos(math.tan(arm) * math.cos(S) / math.sin(S))
+    arm, mouth, half = geometry(found)
     assert found.axes == pytest.approx(S, abs=1e-15)
     assert found.arm == pytest.approx(arm, abs=1e-15)
     assert found.half_motion == pytest.approx(half, abs=1e-14)
