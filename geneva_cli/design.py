@@ -493,13 +493,14 @@ class Design:
         of: Proof | None = None,
         kerf_mm: float | None = None,
         dog_bones_mm: float | None = None,
+        centre_marks: bool = False,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
 
         ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``, ``gears`` or
         ``coupon``; millimetres. With a kerf, the paths of a cut so wide; with dog bones, those of
-        a cutter of a diameter in the corners that stand in. Raises GenevaError where there is no
-        room for them.
+        a cutter of a diameter in the corners that stand in; with centre marks, crosses in its
+        circles. Raises GenevaError where there is no room for kerf or bones.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -514,6 +515,10 @@ class Design:
             from geneva_cli.parts.milling import with_dog_bones
 
             made = self._located(lambda: with_dog_bones(made, proof, dog_bones_mm))
+        if centre_marks:
+            from geneva_cli.parts.centre_marks import with_centre_marks
+
+            made = with_centre_marks(made)
         if kerf_mm is None:
             return made
         from geneva_cli.curves.kerf import paths

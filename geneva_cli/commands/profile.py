@@ -67,6 +67,9 @@ def run(
     dog_bones: Annotated[
         bool, typer.Option("--dog-bones", help="Free the corners that this cutter leaves round.")
     ] = False,
+    center_marks: Annotated[
+        bool, typer.Option("--center-marks", help="A cross in every circle, on layer CENTER.")
+    ] = False,
     units: Annotated[
         str,
         typer.Option(
@@ -127,7 +130,7 @@ def run(
     own = {key: value for key, value in asked.items() if value is not None}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
-        _refuse(units=units, kerf=kerf, cutter=cutter, own=own)
+        _refuse(units, kerf, cutter, center_marks, own)
         show(design.part_table(part, tolerance, samples), output, format, files)
         warn(design)
         return
@@ -137,7 +140,7 @@ def run(
     if design.spec.is_flat:
         _judge(design, design.judge(proof), force)
     if sheet:
-        _refuse(units=units, kerf=kerf, cutter=cutter)
+        _refuse(units, kerf, cutter, center_marks)
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
@@ -147,7 +150,13 @@ def run(
         if cutter is not None:
             _judge(design, design.cutter(part, cutter, dog_bones, proof), force)
         drawing = design.drawing(
-            part, tolerance, curves, proof, kerf, cutter if dog_bones else None
+            part,
+            tolerance,
+            curves,
+            proof,
+            kerf,
+            cutter if dog_bones else None,
+            center_marks,
         )
         draw(drawing, output, format, units, files, **own)
     warn(design)
@@ -167,7 +176,11 @@ def _require(curves: str, tolerance: float, units: str) -> None:
 
 
 def _refuse(
-    units: str, kerf: float | None, cutter: float | None, own: dict[str, str] | None = None
+    units: str,
+    kerf: float | None,
+    cutter: float | None,
+    marks: bool,
+    own: dict[str, str] | None = None,
 ) -> None:
     """Raise GenevaError for options of parts to cut, where none is written."""
     if units != "mm":
@@ -176,6 +189,8 @@ def _refuse(
         raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
     if cutter is not None:
         raise GenevaError("--cutter is for parts to cut; this one is a table, or a sheet")
+    if marks:
+        raise GenevaError("--center-marks is for drawings; this one is a table, or a sheet")
     if own:
         raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")
 

@@ -4,20 +4,51 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Shape
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Shape
 
 LAYER = "CENTER"
+LINES = "PITCH"  # a layer of lines on which nothing is cut
 BEYOND = 1.25  # of the hole's radius: how far a cross reaches
 
 
-def centre_marks(holes: Iterable[Shape]) -> Iterator[Contour]:
-    """Two lines across each round hole, level and upright.
+def with_centre_marks(drawing: Drawing) -> Drawing:
+    """A drawing with marks in its circles and keyed bores, one where they are concentric.
+
+    >>> bore, roller = Circle("BORE", (0.0, 0.0), 4.0), Circle("ROLLER", (0.0, 0.0), 8.0)
+    >>> marked = with_centre_marks(Drawing("disc", (roller, bore)))
+    >>> [mark.segments[0].end for mark in marked.shapes[2:]]
+    [(5.0, 0.0), (0.0, 5.0)]
+    """
+    if LAYER in drawing.layers:
+        return drawing
+    least: dict[tuple[float, float], Circle] = {}
+    for circle in _circles(drawing.shapes):
+        known = least.get(circle.centre, circle)
+        least[circle.centre] = min(known, circle, key=lambda one: one.radius)
+    return drawing._replace(shapes=(*drawing.shapes, *centre_marks(least.values())))
+
+
+def _circles(shapes: Iterable[Shape]) -> Iterator[Circle]:
+    """Circles, and round holes with a keyway as circles."""
+    for shape in shapes:
+        if shape.layer == LINES:
+            continue
+        if isinstance(shape, Circle):
+            yield shape
+        elif shape.layer == "BORE":
+            arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
+            for arc in sorted(arcs, key=lambda one: -one.radius)[:1]:  # dog bones are smaller
+                x, y = (round(v, 9) + 0.0 for v in arc.centre)  # mm; of rounding otherwise
+                yield Circle(shape.layer, (x, y), arc.radius)
+
+
+def centre_marks(holes: Iterable[Circle]) -> Iterator[Contour]:
+    """Two lines across each hole, level and upright.
 
     >>> [mark.segments[0].end for mark in centre_marks([Circle("BORE", (10.0, 0.0), 4.0)])]
     [(15.0, 0.0), (10.0, 5.0)]
     """
     for hole in holes:
-        if isinstance(hole, Circle):
-            (x, y), reach = hole.centre, BEYOND * hole.radius
-            for dx, dy in ((reach, 0.0), (0.0, reach)):
-                yield Contour(LAYER, (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)
+        (x, y), reach = hole.centre, BEYOND * hole.radius
+        for dx, dy in ((reach, 0.0), (0.0, reach)):
+            yield Contour(LAYER, (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)

@@ -190,6 +190,7 @@ def test_the_command(tmp_path):
     for options, said in {
         ("--dog-bones",): "--dog-bones needs the cutter's diameter: --cutter MM",
         ("--cutter", "3", "--format", "csv"): "--cutter is for parts to cut; this one is a table",
+        ("--center-marks", "--format", "csv"): "--center-marks is for drawings; this one is a",
     }.items():
         wrong = run(*options)
         assert wrong.exit_code == 2

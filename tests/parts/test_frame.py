@@ -88,3 +88,20 @@ def test_shafts_have_the_size_of_what_they_carry():
 def test_the_shafts_of_a_sphere_stand_in_no_plate():
     with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* cross"):
         Design(Spherical(6)).drawing("frame")
+
+
+def test_marks_stand_in_every_hole_of_any_part():
+    """Also in a bore with a keyway, which is no circle, and in holes of links as they lie."""
+    keyed = made("turret")[0].with_("size.wheel_keyway", "DIN 6885-1")
+    wheel = keyed.drawing("wheel", centre_marks=True)
+    middles = [shape.segments[0] for shape in wheel.shapes if shape.layer == "CENTER"]
+    assert [line.start[1] for line in middles] == [0.0, -1.25 * keyed.parts.sizes.wheel_bore]
+    design, proof, _ = made("side-crank-z6")
+    links = design.drawing("links", of=proof, centre_marks=True)
+    circles = {shape.centre for shape in links.shapes if isinstance(shape, Circle)}
+    level = [shape.segments[0] for shape in links.shapes if shape.layer == "CENTER"][::2]
+    found = sorted((0.5 * (line.start[0] + line.end[0]), line.start[1]) for line in level)
+    assert found == [pytest.approx(centre) for centre in sorted(circles)]
+    plain = design.drawing("links", of=proof)
+    assert links.shapes[: len(plain.shapes)] == plain.shapes
+    assert links.solid == plain.solid
