@@ -12,6 +12,8 @@ disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel 
   degrees, on the recess itself, where the two centres are rho - k apart.
 
 It is taken in the middle of a dwell, where the disc stands symmetrically to the recess.
+
+Of one design, as the sizes of its parts are; the deviations may be arrays of machines.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""The smooth pieces of a cycle's curves: motions, cut where a curve breaks, and dwells."""
+"""The smooth pieces of a cycle's curves: motions, cut where a curve breaks, and dwells.
+
+Of one design: curves are cut and thinned for a picture, each into as many points as it needs.
+"""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ CARRIED = [
 
 @cache
 def designs(name):
-    """Four designs of a machine together, and two of those that can be built each alone."""
+    """Four designs of a machine together, and the last of them built alone."""
     spec, rules = MACHINES[name]
     given = Load(inertia_kgm2=1.0, friction=0.1)
     spec = spec.replace(
@@ -63,7 +63,7 @@ def designs(name):
     varied = {key: values[built] for key, values in varied.items()}
     found = many(spec, varied)
     assert not found.refused.any()
-    return found.machine, [(i, alone(spec, varied, i)) for i in (0, len(built) - 1)]
+    return found.machine, [(i, alone(spec, varied, i)) for i in [len(built) - 1]]
 
 
 def same(found, i, one, close=ULPS, size=0.0):
@@ -143,7 +143,7 @@ def test_rollers(name):
 def test_a_roller_that_turns_back_thrice_in_its_slot():
     """An epicyclic drive's: its way is what its distance from the wheel's axis goes up and down."""
     _, each = designs("epicyclic")
-    one = each[1][1]
+    one = each[0][1]
     engagement = one.engagements[0]
     x, y = engagement.path(np.linspace(engagement.entry_deg, engagement.exit_deg, 200_001), 0)
     far = np.diff(np.hypot(x.c[0], y.c[0])) * one.center_distance_mm / 1000.0

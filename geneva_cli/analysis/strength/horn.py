@@ -13,6 +13,8 @@ is counted.
 Plane stress (finite elements, in the tests), of external and internal wheels with straight slots:
 0.7 % less to 2 % more where h < R/6, 4 % more at h = 2 R/7, 7 % more at R/2; beyond that it is no
 beam. Of curved slots 3 % less to 2 % more where h < R/6, 5 % less to 7 % more at R/2.
+
+Of one design, as the sizes of its parts are.
 """
 
 from __future__ import annotations
