@@ -90,6 +90,11 @@ def made_once():
 READ = functools.cache(load)
 
 
+def read(path, given=()):
+    """A design; what is given beside the file is kept as a tuple."""
+    return READ(path, tuple(given))
+
+
 @pytest.fixture(scope="module")
 def read_once():
     """A file's design, read once: what it has worked out for one test it has for all such files.
@@ -100,5 +105,5 @@ def read_once():
     for module in pkgutil.iter_modules(study.__path__, "geneva_cli.study."):
         importlib.import_module(module.name)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("geneva_cli.design.load", READ)
+        patch.setattr("geneva_cli.design.load", read)
         yield
