@@ -53,8 +53,8 @@ class Blows(NamedTuple):
 def entry_blow(mechanism: Mechanism, share: float = 1.0) -> Blow | None:
     """Where the crank is as wrong as its tolerances allow, times ``share``; None without any.
 
-    On the slot's axis, or on the mouth's corner where the slot is too narrow to let a short arm's
-    roller in beside it. The jump is negative where the wheel is struck back.
+    On the slot's axis, or on a corner of the mouth where the slot is too narrow to let the roller
+    in beside its axis. The jump is negative where the wheel is struck back.
     """
     return entry_blows(mechanism, share).first
 
@@ -95,7 +95,7 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
 def _on_mouth(
     mechanism: Mechanism, engagement: Engagement, share: float
 ) -> list[FirstContacts | None]:
-    """The first contacts on the mouth's corner, the largest roller in the narrowest slot."""
+    """The first contacts on the mouth's corners, the largest roller in the narrowest slot."""
     given, L = mechanism.spec.tolerance, mechanism.center_distance_mm
     clear = mechanism.spec.size.allowances.slot_clearance_mm
     lost = 0.5 * share * (given.roller_diameter_mm + given.slot_width_mm)
@@ -106,7 +106,7 @@ def _on_mouth(
 
 
 def mouth_jumps(mechanism: Mechanism, engagement: Engagement) -> Array | None:
-    """Jumps on the mouth's corner at the ends of the tolerances; NaN where the roller has room.
+    """Jumps on the mouth's corners at the ends of the tolerances; NaN where the roller has room.
 
     None where it is not known how the roller meets the mouth.
     """

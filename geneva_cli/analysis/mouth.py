@@ -1,15 +1,16 @@
-"""The shock at the mouth: a roller whose arm is too short for its slot.
+"""The shock at the mouth: a roller whose arm is too short or too long for its slot.
 
-It comes nearer to the crank's axis than the slot does. Where the slot's clearance leaves it no room
-for that, it meets the corner in which the slot's wall ends on the side of the crank's axis, drawn
-at the foot of the perpendicular from there, and strikes the wheel forwards. On a sharp corner that
-is about
+Where the slot's clearance leaves it no room for that, it meets the corner in which one of the
+slot's walls ends, drawn at the foot of the perpendicular from the crank's axis: an arm too short
+the corner on the side of that axis, which it strikes forwards, an arm too long the one beyond,
+which it strikes back. On a sharp corner the blow is about
 
-    jump / omega = tan b sqrt(2 eps) sqrt((R - r)/r),
+    jump / omega = tan b sqrt(2 eps) sqrt((R -+ r)/r),
 
-eps being the share of R that is missing once the clearance is used up, r the roller's radius:
-three times what a crank too long by as much costs on the slot's axis (``shock``) where r is R/10. A
-corner rounded by c counts as a roller of r + c.
+less for the arm too short, eps being the share of R that is missing or too much once the clearance
+is used up, r the roller's radius: some three times the first contact with the slot's axis
+(``shock``) where r is R/10, as if the walls went on past the mouth. A corner rounded by c counts
+as a roller of r + c.
 """
 
 from __future__ import annotations
@@ -30,12 +31,12 @@ if TYPE_CHECKING:
 def mouth_contacts(
     engagement: Engagement, crank: N, center: N, roller: N, clearance: N
 ) -> FirstContacts | None:
-    """The first contacts with the mouth's sharp corner; NaN where the roller has room.
+    """The first contacts with the mouth's sharp corners; NaN where the roller has room.
 
     ``crank`` and ``center`` are relative errors as of ``shock.first_contacts``, ``roller`` the
     roller's radius and ``clearance`` that of the slot per side, both over L: floats, or (m, 1) of
     m designs. None for a roller that is on no crank's arm, and for slots that are solved for. The
-    arm turns evenly during the little that it is early.
+    arm turns evenly during the little that it is early. A jump below 0 is one back.
 
         >>> from geneva_cli import Design, External
         >>> [engagement] = Design(External(6)).mechanism.engagements
@@ -47,21 +48,19 @@ def mouth_contacts(
     if engagement.motion.entry is None or not on_arm:
         return None
     axis = SlotAxis.of(engagement)
-    true = abs(np.atleast_2d(axis.beside + engagement.slot.offset))
-    R = true * (1.0 + crank)
-    apart = R + (1.0 + crank) * axis.aside(crank, center) * -np.sign(axis.beside)
+    R = abs(np.atleast_2d(axis.beside + engagement.slot.offset)) * (1.0 + crank)
+    over = (1.0 + crank) * axis.aside(crank, center) * np.sign(axis.beside)  # of the arm
+    side, over = np.sign(over), abs(over)
     far = abs(axis.along) * (1.0 + center)
     rate = abs(engagement.carrier(engagement.entry_deg).c[0])
     wide = roller + clearance
-    corner = apart - wide  # from the crank's axis
-    near = R - corner  # of the roller's centre, at the foot
+    corner = R - side * (over - wide)  # from the crank's axis
     with np.errstate(all="ignore"):
         # on the circle of R the corner is a roller away: R² + corner² - 2 R corner cos = r²
-        rise = (roller - near) * (roller + near) / (2.0 * R * corner)  # 1 - cos
-        early = np.where(
-            (near < roller) & (corner > 0.0), 2.0 * np.arcsin(np.sqrt(rise / 2)), np.nan
-        )
-        sine, across = R * np.sin(early), R * np.cos(early) - corner
+        rise = (over - clearance) * (roller + wide - over) / (2.0 * R * corner)  # 1 - cos
+        meets = (over > clearance) & (over < wide) & (corner > 0.0)
+        early = np.where(meets, 2.0 * np.arcsin(np.sqrt(rise / 2)), np.nan)
+        sine, across = R * np.sin(early), side * (corner - R * np.cos(early))
         # speeds of roller and corner along the line between them are one
-        jump = rate * corner * sine / (far * across + wide * sine)
+        jump = -side * rate * corner * sine / (far * across + wide * sine)
     return FirstContacts(np.ravel(engagement.entry_deg - early / rate / DEGREE), np.ravel(jump))

@@ -39,7 +39,7 @@ class Entry(NamedTuple):
     mean: float
     std: float
     missed: float  # share of the machines whose roller misses the slot's axis
-    mouth: float | None  # the worst on the mouth's corner; 0 where all have room, None: not known
+    mouth: float | None  # the worst on a mouth's corner; 0 where all have room, None: not known
 
 
 class Study(NamedTuple):
@@ -128,13 +128,13 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
 
 
 def _mouth(mechanism: Mechanism) -> float | None:
-    """The worst jump of a roller that meets its mouth's corner; None where that is not known."""
+    """The size of the worst jump on a mouth's corner; None where that is not known."""
     worst = 0.0
     for engagement in mechanism.engagements:
         found = mouth_jumps(mechanism, engagement)
         if found is None:
             return None
-        worst = max(worst, *np.nan_to_num(found).tolist())
+        worst = max(worst, *abs(np.nan_to_num(found)).tolist())
     return worst
 
 
