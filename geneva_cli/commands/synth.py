@@ -104,8 +104,9 @@ def run(
     Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
     tenth of the centre distance aside; a side-crank; equal elliptical gears; a planet gear (z 3, 4,
     6); a four-bar's coupler; curved slots and a cam, with an extra dwell. Side-crank, gears, planet
-    and four-bar carry one roller, straight slots as many as leave a dwell, curved slots also more
-    while their parts can be built.
+    and four-bar carry one roller, straight slots as many as leave a dwell, curved slots and cams
+    also more while their parts can be built. Where a range has no other end, a hundredth of the
+    cycle is left to motion and to dwell. --law all takes seconds more.
     Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the motion.
 
     The four-bar is the best found among proportions whose crank turns all round, whose joints keep
@@ -124,6 +125,8 @@ def run(
         raise GenevaError("--set goes with --from: it changes a key of that spec")
     if checked < 0 or (buildable and not checked):
         raise GenevaError(f"--checked {cut(checked)}: it must be at least {int(buildable)}")
+    if write is not None and write < 1:
+        raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
     wish = read_wish(
         tau=tau,
         k=k,

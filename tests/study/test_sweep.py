@@ -196,7 +196,7 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume goes on with all"),
         (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
         (["--vary", "drive.A=0.1", "--jobs", "0"], "--jobs 0"),
-        (["--vary", "drive.A=2,3"], "none of the first 2 designs can be built: drive.A=2"),
+        (["--vary", "drive.A=2,3"], "none of the 2 designs can be built: drive.A=2"),
         ([], "--vary is missing"),
     ],
 )

@@ -503,6 +503,13 @@ def test_rollers_beyond_those_of_straight_slots():
     assert [w.rollers for w in found] == list(range(1, most + 1))
 
 
+def test_cams_too_carry_more_rollers_than_the_plain_wheel():
+    """A grid over alpha_0 found three of 55 degrees on z = 6, which pass every check."""
+    found = candidates(dwell_s="0.8..", cycle="1.5", motion_deg="..180", z="6", external=True)
+    (three,) = [w for w in found if w.drive == "cam" and w.rollers == 3]
+    assert three.motion_deg == pytest.approx(56.0, rel=1e-14) and three.parts == "maybe"
+
+
 @pytest.mark.parametrize("z", [3, 6, 20])
 @pytest.mark.parametrize("share", [0.001, 0.2, 0.5, 0.7, 0.999])
 def test_shafts_at_an_angle(z, share):

@@ -19,6 +19,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synthesis.families import four_bars as families
+from geneva_cli.study.synthesis.parts import parts
 from geneva_cli.study.synthesis.reading import read_wish
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.written import chosen
@@ -189,3 +190,19 @@ def test_what_brute_force_finds_is_there_or_better(z):
         (family,) = families.four_bars(wish, External(z))
         found = build(family.make(0.0)).engagements[0]
         assert acceleration_peak(found).max <= peak[i]
+
+
+def test_no_lock_is_in_the_way_where_there_is_none():
+    """A four-bar has no locking disc, and no horn between recess and slot."""
+    drive = FourBar(
+        crank_mm=41.67,
+        ground_mm=190.8,
+        coupler_mm=68.18,
+        rocker_mm=201.5,
+        point_mm=47.36,
+        point_deg=49.36,
+        entry_deg=114.07,
+    )
+    size = Size(roller_radius_mm=8.0, wheel_hub_mm=0.0)
+    machine = build(Spec(External(8, held_by="detent"), drive, size=size))
+    assert parts(machine).why == ""

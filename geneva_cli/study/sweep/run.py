@@ -113,7 +113,9 @@ def _first(text: Text, plan: Plan) -> Mechanism:
             return _machine(text, plan, some)
         except GenevaError as error:
             said = said or str(error)
-    raise GenevaError(f"none of the first {min(TRIED, len(plan))} designs can be built: {said}")
+    first = "first " if len(plan) > TRIED else ""
+    count = f"none of the {first}{min(TRIED, len(plan))} designs" if len(plan) > 1 else "no design"
+    raise GenevaError(f"{count} can be built: {said}")
 
 
 def with_values(text: Text, axes: Sequence[Axis], some: Sequence[Value]) -> Text:

@@ -13,7 +13,7 @@ from geneva_cli.specfile.settings import read_value
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours, some gigabytes
-_WHOLE = r"\s*([+-]?\d{1,9})\s*"
+_WHOLE = r"\s*([+-]?\d{1,99})\s*"
 _RANGE = re.compile(rf"{_WHOLE}\.\.{_WHOLE}")
 
 
@@ -55,6 +55,11 @@ def _axis(key: str, text: str, said: str, random: bool) -> Axis:
             return Axis(key, tuple(map(float, ends)), span=True)
         raise GenevaError(
             f"{said}: a range is LOW:HIGH:STEP" + (", or LOW:HIGH with LOW below" if random else "")
+        )
+    if ".." in text:
+        raise GenevaError(
+            f"{said}: LOW..HIGH is of whole numbers; other ranges are LOW:HIGH:STEP"
+            + (" or LOW:HIGH" if random else "")
         )
     return Axis(key, tuple(_one(part, said) for part in text.split(",")))
 

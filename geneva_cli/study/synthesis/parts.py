@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -93,6 +93,7 @@ def parts(mechanism: Mechanism) -> Parts:
         r = spec.size.roller_radius_mm
         return Parts(spec, _obstacle(where, known, r, wall) or (ISLAND if r < least else ""))
 
+    @cache
     def obstacle(percent: float) -> str:
         return _obstacle(where, known, 0.01 * percent * L, wall)
 
@@ -163,7 +164,7 @@ def _obstacle(where: Assembly, known: RollerPaths, r: float, between: float) -> 
         return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
     if between - 2.0 * found.half_width < found.wall_min:
         return WALLS
-    if found.horn < found.wall_min:
+    if found.lock and found.horn < found.wall_min:
         return LOCK
     cut = undercut(mechanism, LOOKS)
     return UNDERCUT if cut is not None and cut.depth_mm > NEARLY * SHOWN_UNDERCUT else ""

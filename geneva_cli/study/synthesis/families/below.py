@@ -87,3 +87,4 @@ def _curved(
         yield make(m)
         yield cam(make(m))
     yield from more_rollers(wish, natural, make)
+    yield from more_rollers(wish, natural, lambda m: cam(make(m)))

@@ -1,7 +1,6 @@
 """Curved slots, and a cam along the crank: a law gives the motion, with an extra dwell alpha_0.
 
-Curved slots take as many rollers as those of the plain wheel, and more for as long as their parts
-can be built.
+Both take as many rollers as the plain wheel, and more for as long as their parts can be built.
 """
 
 from __future__ import annotations
@@ -49,26 +48,41 @@ def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     """
     if not wheel.FLAT:
         return
-    natural = natural_deg(wheel)
     for law in wish.laws:
         make = partial(curved, wish, wheel, law)
-        spans = {m: closed_span(wanted(wish, m, natural), m) for m in rollers(wish, natural)}
-        for m, free in spans.items():
-            if free is None:
-                continue
-            own = holds(free, natural)
-            motion = Span(natural, natural) if own and free.exact else free
-            yield _free(wish, partial(make, m), motion, natural)
-            yield _free(wish, _grooved(partial(make, m)), _until_parallel(wheel, motion), natural)
-            if own:
-                yield only(make(m, natural))
-                yield only(cam(make(m, natural)))
+        yield from _of_law(wish, wheel, make, lambda motion: motion)
+        yield from _of_law(wish, wheel, partial(_grooved, make), partial(_until_parallel, wheel))
 
-        def longest(m: int, make: Callable[[int, float], Spec] = make) -> Spec | None:
-            free = closed_span(wanted(wish, m, natural), m)
-            return make(m, free.high) if free else None
 
-        yield from map(only, more_rollers(wish, natural, longest))
+def _of_law(
+    wish: Wish, wheel: Gearing, make: Callable[[int, float], Spec], reached: Callable[[Span], Span]
+) -> Iterator[Family]:
+    """``make`` makes the machine of so many rollers and such a motion; ``reached`` says which
+    motions of a span it makes.
+    """
+    natural = natural_deg(wheel)
+
+    def motions(m: int) -> Span | None:
+        asked = closed_span(wanted(wish, m, natural), m)
+        return reached(asked) if asked else None
+
+    for m in rollers(wish, natural):
+        free = motions(m)
+        if free is None:
+            continue
+        own = holds(free, natural)
+        motion = Span(natural, natural) if own and free.exact else free
+        yield _free(wish, partial(make, m), motion, natural)
+        if own:
+            yield only(make(m, natural))
+
+    def longest(m: int) -> Spec | None:
+        free = motions(m)
+        return make(m, free.high) if free else None
+
+    for spec in more_rollers(wish, natural, longest):
+        m = spec.drive.rollers
+        yield _free(wish, partial(make, m), motions(m) or Span(natural, natural), natural)
 
 
 def _free(wish: Wish, make: Callable[[float], Spec], motion: Span, natural: float) -> Family:
@@ -77,8 +91,8 @@ def _free(wish: Wish, make: Callable[[float], Spec], motion: Span, natural: floa
     return Family(make, low, motion.high, plain=natural)
 
 
-def _grooved(make: Callable[[float], Spec]) -> Callable[[float], Spec]:
-    return lambda motion: cam(make(motion))
+def _grooved(make: Callable[[int, float], Spec], m: int, motion: float) -> Spec:
+    return cam(make(m, motion))
 
 
 def _until_parallel(wheel: Gearing, motion: Span) -> Span:
@@ -97,7 +111,7 @@ def cam(spec: Spec) -> Spec:
 
 
 def more_rollers(wish: Wish, natural: float, make: Callable[[int], Spec | None]) -> Iterator[Spec]:
-    """More rollers than the straight slots take, while the curved ones can be built."""
+    """More rollers than the plain wheel takes, while the parts can be built."""
     if wish.rollers is not None:
         return
     for m in count(rollers_max(natural) + 1):
