@@ -468,7 +468,7 @@ def test_write(tmp_path):
 @pytest.mark.parametrize(
     ("words", "wants"),
     [
-        (["--write", "0"], "rows 1 to"),
+        (["--write", "0"], "numbered from 1"),
         (["--write", "99"], "rows 1 to"),
         (["--write", "1", "--format", "csv"], "TOML"),
         (["-o", "spec.toml"], "--write N"),
