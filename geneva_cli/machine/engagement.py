@@ -83,8 +83,15 @@ class Slot(ABC):
 
     # whether it is a curve that was solved for: it has two branches and walls of its own
     curved = False
+    # whether something else than the roller drives the wheel for a while
+    relieved = False
     # e: by how much a straight slot's axis misses the wheel's centre
     offset: float = 0.0
+
+    @property
+    def walls_flat(self) -> bool:
+        """Whether the roller presses on a straight wall throughout."""
+        return not (self.curved or self.relieved)
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
@@ -131,6 +138,10 @@ class Motion(ABC):
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives by the input angle in radians."""
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """The wheel's speed over the input's, for whoever does not need the angle itself."""
+        return self(input_deg, order + 1).derivative()
 
     @property
     def entry(self) -> Anchor | None:

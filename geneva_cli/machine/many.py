@@ -31,6 +31,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, marking
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Motion, Spec, attribute
+from geneva_cli.numerics.latest import Latest
 from geneva_cli.spec.schema import Field, Points, Table, fields, unknown
 
 if TYPE_CHECKING:
@@ -170,7 +171,8 @@ def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
     if all(values[name] is value for name, value in held.items()):
         return thing
     new: object = object.__new__(kind)
-    vars(new).update(values)
+    for name, value in values.items():  # what is kept was worked out of other designs
+        vars(new)[name] = Latest() if isinstance(value, Latest) else value
     return new
 
 

@@ -21,7 +21,8 @@ from geneva_cli.machine.engagement import (
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library, parameter
-from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sqrt
+from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sqrt, turning
+from geneva_cli.numerics.latest import Latest
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -39,6 +40,7 @@ class AnchoredPath:
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors_of(anchors), ahead
+        self._latest = Latest()
 
     @property
     def middle(self) -> Anchor:
@@ -47,8 +49,13 @@ class AnchoredPath:
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""
-        along, across = self.middle.place(input_deg, order)
+        along, across = self.from_middle(input_deg, order)
         return turned(along, across, self.ahead)
+
+    def from_middle(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        """The pin along the middle anchor's ray and across it."""
+        along, across = self._latest(self.middle.place, input_deg, order)
+        return along, across
 
 
 class RadialSlot(Slot):
@@ -68,7 +75,7 @@ class RadialSlot(Slot):
         return Axis(Jet(depth.c[:-1]), depth.derivative())
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
-        x, y = self.path.middle.place(input_deg, order)
+        x, y = self.path.from_middle(input_deg, order)
         return sqrt(x * x + y * y)
 
 
@@ -139,6 +146,14 @@ class Followed(Motion):
         def solve(anchor: Anchor, x: Number) -> Jet:
             along, across = anchor.place(x, order)
             return atan2(across, along) + anchor.wheel
+
+        return self.path.anchors.solved(input_deg, solve)
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """How fast the pin's direction turns: without an arc tangent."""
+
+        def solve(anchor: Anchor, x: Number) -> Jet:
+            return turning(*anchor.place(x, order + 1))
 
         return self.path.anchors.solved(input_deg, solve)
 

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from geneva_cli.numerics.extrema_many import turn_of_cubic
 from geneva_cli.numerics.roots import PREDICTED, TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.jet import Array
 
 LEVEL = 1e-9  # share of a function's range: a rise over a cell that a slope of 0 may feign
@@ -67,12 +69,27 @@ class Cuts(NamedTuple):
     positive: Mask  # (2, signs, k)
 
 
-Parts = TypeVar("Parts", Cells, Turns, Cuts)
+class Beside(NamedTuple):
+    """The samples on both sides of cells, and whether no sign changes between the two."""
+
+    known: Mask  # (2, k)
+    x: Array
+    value: Array  # (2, functions, k)
+    slope: Array
+
+    def at(self, end: int) -> tuple[Array, Array, Array]:
+        """Place, values and slopes on one side."""
+        return self.x[end], self.value[end], self.slope[end]
+
+
+Parts = TypeVar("Parts", Cells, Turns, Cuts, Beside)
 
 
 def taken(parts: Parts, where: Any) -> Parts:
     """Some of the cells or turns, by a mask or their numbers."""
-    return type(parts)._make([one[..., where] for one in parts])
+    index = np.flatnonzero(where) if where.dtype == bool else where
+    # a third of the time of one[..., where]
+    return type(parts)._make([np.take(one, index, axis=-1) for one in parts])
 
 
 def joined(parts: Sequence[Parts]) -> Parts:
@@ -98,14 +115,18 @@ class Range(NamedTuple):
         self.low[:, design] = np.fmin(self.low[:, design], low)
         self.high[:, design] = np.fmax(self.high[:, design], high)
 
+    def width(self, row: int | Whole, design: Whole) -> Array:
+        """The range of one function of some designs."""
+        width: Array = self.high[row, design] - self.low[row, design]
+        return width
+
     def size(self, design: Whole) -> Array:
         """The greatest size of each function of some designs."""
         return np.maximum(-self.low[:, design], self.high[:, design])
 
     def level(self, row: int, design: Whole) -> Array:
         """The rise over a cell that is rounding, of one function of some designs."""
-        level: Array = LEVEL * (self.high[row, design] - self.low[row, design])
-        return level
+        return LEVEL * self.width(row, design)
 
 
 class Tops:
@@ -141,12 +162,15 @@ class Tops:
 
     def add_samples(self, design: Whole, x: Array, value: Array) -> None:
         """The first greatest of samples (functions, m, k) at places (m, k)."""
-        every = np.arange(len(x))
-        for k, one in enumerate(value):
-            for sign, side in self.sides(one):
-                most = side.max(axis=1)
-                first = np.argmax(side >= bar(most)[:, None], axis=1)
-                self.add(self.number(k, sign), design, x[every, first], most)
+        for sign, side in self.sides(value):
+            most = side.max(axis=2)
+            least, first = bar(most), np.broadcast_to(x[:, -1], most.shape)
+            for i in range(x.shape[1] - 2, -1, -1):
+                first = np.where(side[..., i] >= least, x[:, i], first)
+            for k in range(len(value)):
+                number = self.number(k, sign)
+                self.most[number, design] = np.maximum(self.most[number, design], most[k])
+                self.known.append((number, design, first[k], most[k]))
 
     def bounded(self) -> Mask:
         """Whether each function of each design is bounded, as far as is known."""
@@ -174,6 +198,16 @@ class Tops:
         hopes = (d * e <= 0.0) & (reach >= most) & (most < np.inf)
         return taken(turns._replace(rises=rises), hopes)
 
+    def first(self, turns: Turns) -> Mask:
+        """Whether each is the one of its design and function whose cubic rises highest."""
+        left, right = turns.left, turns.right
+        top = turns.rises * cubic(left, right, turn_of_cubic(left, right))
+        number = self.number(turns.row, turns.rises), turns.design
+        most = np.full(self.most.shape, -np.inf)
+        np.fmax.at(most, number, top)
+        highest: Mask = ~(top < most[number])
+        return highest
+
 
 def bar(most: Array) -> Array:
     """What is no less is as good as the greatest."""
@@ -192,16 +226,23 @@ def may_turn(before: Array, after: Array, level: Array) -> Mask:
     return turns
 
 
-def turns_in(row: int, k: int, cells: Cells, range_: Range) -> Turns:
-    """The cells in which the function ``row``, the k-th that is wanted, may turn."""
+def turns_in(row: int, k: int, cells: Cells, range_: Range, where: Mask) -> Turns:
+    """The cells, of those ``where``, in which the function ``row`` may turn, the k-th wanted."""
     (a, b), (v, w), (d, e) = cells.x, cells.value[:, row], cells.slope[:, row]
     level = range_.level(row, cells.design) / (b - a)
-    here = np.flatnonzero(may_turn(d, e, level))
-    left, right = np.stack((a, v, d))[:, here], np.stack((b, w, e))[:, here]
-    for end in (left, right):  # slopes that are 0 but for rounding
-        end[2, np.abs(end[2]) <= level[here]] = 0.0
-    positive = cells.positive[0][:, here]
-    return Turns(np.full(len(here), k), left[0], cells.design[here], positive, left, right)
+    here = np.flatnonzero(may_turn(d, e, level) & where)
+    left, right = (np.stack([one[here] for one in end]) for end in ((a, v, d), (b, w, e)))
+    level, design = level[here], cells.design[here]
+    return turns_of(k, design, level, cells.positive[0][:, here], left, right)
+
+
+def turns_of(
+    k: int, design: Whole, level: Array, positive: Mask, left: Array, right: Array
+) -> Turns:
+    """Turns of the k-th wanted function; slopes that are 0 but for rounding, ``level``, are 0."""
+    for end in (left, right):
+        end[2, np.abs(end[2]) <= level] = 0.0
+    return Turns(np.full(len(design), k), left[0], design, positive, left, right)
 
 
 def touches(cells_width: Array, v: Array, d: Array, w: Array, e: Array) -> Mask:
@@ -209,10 +250,22 @@ def touches(cells_width: Array, v: Array, d: Array, w: Array, e: Array) -> Mask:
 
     The tangents there meet beyond zero: what is bent one way lies between them and its chord.
     """
-    up = np.sign(v)
-    way = (w - v - e * cells_width) / (d - e)
-    meet: Mask = (v * w > 0.0) & (d * up < 0.0) & (e * up > 0.0) & ((v + d * way) * up < 0.0)
+    meet: Mask = (v * w > 0.0) & (d * v < 0.0) & (e * v > 0.0)
+    if meet.any():
+        where = np.nonzero(meet)  # few
+        v, w, d, e = (one[where] for one in (v, w, d, e))
+        way = (w - v - e * np.broadcast_to(cells_width, meet.shape)[where]) / (d - e)
+        meet[where] = (v + d * way) * v < 0.0
     return meet
+
+
+def cubic(left: Sample, right: Sample, x: Array) -> Array:
+    """The cubic through two places' values and slopes at x."""
+    width = right[0] - left[0]
+    t = (x - left[0]) / width
+    v, w, d, e = left[1], right[1], left[2] * width, right[2] * width
+    value: Array = v + t * (d + t * (3.0 * (w - v) - 2.0 * d - e + t * (d + e - 2.0 * (w - v))))
+    return value
 
 
 def zero_of_cubic(v: Array, w: Array, d: Array, e: Array) -> Array:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 SCAN = 12  # intervals of the first scan, an even number
 BLOCK = 1024  # designs scanned at a time: 13 places of each are 110 kB a number of a formula
 GROUP = 16 * BLOCK  # designs refined together
-CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a Newton step, the last bit
+CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a step, the last bit
 ROUNDING = 1e-13  # share of a value that no sampling makes any surer
 _UNIT = np.arange(SCAN + 1) / SCAN
 
@@ -195,15 +195,24 @@ def unpredicted(left: Sample, middle: Sample, right: Sample, low: Array, high: A
     predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
     rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
     missed: Mask = np.abs(middle[1] - predicted) > PREDICTED * (high - low) + rounding
-    half = 0.5 * width
-    for one, two in ((left, middle), (middle, right)):
-        # the slope is a parabola, below zero within where its mean is less than a third of this
-        product = one[2] * two[2]
-        size = np.abs(one[2] + two[2])
-        rise = np.copysign(two[1] - one[1], (two[1] - one[1]) * one[2])
-        goes_back = 3.0 * rise < half * (size - np.sqrt(product))
-        missed |= goes_back & (product > 0.0) & (half * size > rounding)
-    return missed
+    missed |= goes_back(left, middle, rounding)
+    return missed | goes_back(middle, right, rounding)
+
+
+def goes_back(one: Sample, two: Sample, rounding: Array) -> Mask:
+    """Whether the cubic through two samples turns twice between slopes of the same sign."""
+    width, rise = two[0] - one[0], two[1] - one[1]
+    product, both = one[2] * two[2], (one[2] + two[2]) * width
+    # The slope is a parabola, below zero within where its mean is less than a third of the sum of
+    # the two slopes less the root of their product: of the sum alone, to begin with.
+    turns: Mask = (3.0 * rise * both < both * both) & (product > 0.0)
+    if turns.any():
+        where = np.nonzero(turns)  # few
+        mean = np.sqrt(product[where]) * np.abs(np.broadcast_to(width, turns.shape)[where])
+        size, rise = np.abs(both[where]), rise[where] * np.sign(both[where])
+        large = size > np.broadcast_to(rounding, turns.shape)[where]
+        turns[where] = (3.0 * rise < size - mean) & large
+    return turns
 
 
 def _turns(left: Array, right: Array) -> Mask:
@@ -238,9 +247,9 @@ def _tops(f: Curves, pairs: _Pairs) -> Stationary:
         return slope, bend - slope * others, value
 
     start = turn_of_cubic(left, right)
-    x, step, (slope, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE)
-    # on the parabola through the last place but one
-    found = np.stack((x, value + 0.5 * slope * step))
+    slopes = np.where(at_a, np.nan, left[2]), np.where(at_b, np.nan, right[2])
+    x, rise, (_, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE, slopes)
+    found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
     return Stationary(which, x, value)
 

@@ -6,7 +6,7 @@ that is not a number anywhere has no number for an answer, and disturbs no other
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,10 +20,12 @@ FALSI = 0.02  # of a bracket: the next place is no nearer to its ends
 
 
 class Roots(NamedTuple):
-    """Places of roots, the last Newton steps to them, and what the functions were before those."""
+    """Places of roots, what the functions' integrals gain by the last steps to them, and what the
+    functions were before those.
+    """
 
     x: Array
-    step: Array
+    rise: Array
     last: list[Array]
 
 
@@ -41,7 +43,7 @@ def roots_between(
     with np.errstate(all="ignore"):
         chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
         start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
-        return Roots(*newton_many(f, a, b, start, ends[0] < 0.0, close))
+        return Roots(*newton_many(f, a, b, start, ends[0] < 0.0, close, ends))
 
 
 def roots_many(
@@ -110,15 +112,20 @@ def newton_many(
     x: Array,
     rising: Mask,
     close: float,
+    ends: Sequence[Array] | None = None,
 ) -> tuple[Array, Array, list[Array]]:
-    """Roots between a and b from x on, the last steps to them, and what f was a step before.
+    """Roots between a and b from x on, what f's integral gains by the last steps to them, and what
+    f was a step before.
 
-    f begins with value and slope. A bracket is done after a Newton step of ``close`` times its
-    width, or of two units in the last place; those that are done drop out.
+    f begins with value and slope. Steps are Newton's, bent by what is known of f at the bracket's
+    ends: ``ends`` are its values at a and b, NaN where they tell nothing. A bracket is done after
+    a step of ``close`` times its width, or of two units in the last place; those that are done
+    drop out.
     """
-    out, steps, live = x.copy(), np.zeros(len(x)), np.arange(len(x))
+    out, rises, live = x.copy(), np.zeros(len(x)), np.arange(len(x))
     last: list[Array] = []
     near, step = close * (b - a), b - a
+    f_a, f_b = np.full((2, len(x)), np.nan) if ends is None else ends
     for _ in range(STEPS):
         values = f(x, live)
         if not last:
@@ -126,18 +133,44 @@ def newton_many(
         for all_, some in zip(last, values, strict=True):
             all_[live] = some
         value, slope = values[:2]
+        bent, rise = _bent_step(value, slope, (a - x, f_a), (b - x, f_b))
         left = (value < 0.0) == rising
         a, b = np.where(left, x, a), np.where(left, b, x)
-        new = x - value / slope
-        newton = ((a < new) & (new < b) | (new == x)) & (np.abs(new - x) < 0.5 * np.abs(step))
+        f_a, f_b = np.where(left, value, f_a), np.where(left, f_b, value)
+        new = x + bent
+        newton = ((a < new) & (new < b) | (new == x)) & (np.abs(bent) < 0.5 * np.abs(step))
         new = np.where(newton, new, 0.5 * (a + b))
         new = np.where(value == 0.0, x, np.where(np.isnan(value), value, new))
         step = new - x
-        out[live], steps[live] = new, step
+        out[live], rises[live] = new, np.where(newton, rise, 0.5 * value * step)
         short = np.abs(step) <= np.maximum(near, 2.0 * np.spacing(np.abs(x)))
         open_ = ~((newton & short) | (new == x) | (new == a) | (new == b) | np.isnan(new))
         if not open_.any():
             break
         live, a, b, x = live[open_], a[open_], b[open_], new[open_]
         rising, near, step = rising[open_], near[open_], step[open_]
-    return out, steps, last
+        f_a, f_b = f_a[open_], f_b[open_]
+    return out, rises, last
+
+
+def _bent_step(
+    f: Array, slope: Array, one: tuple[Array, Array], two: tuple[Array, Array]
+) -> tuple[Array, Array]:
+    """The step to the root of a cubic through a value and slope and two values some way off, and
+    the cubic's integral over it; Newton's step where one of the two is not known.
+
+    What Newton's step leaves goes with its square, what this one leaves with that times the
+    bracket's third power: a scan's brackets are done after one step less.
+    """
+    (s, f_s), (t, f_t) = one, two
+    p, q = (f_s - f - slope * s) / (s * s), (f_t - f - slope * t) / (t * t)
+    cubic = (q - p) / (t - s)
+    square = p - cubic * s
+    newton = -f / slope
+    # one step of Newton's on the cubic, of which the first two terms are 0 there
+    more = newton * newton * (square + newton * cubic)
+    step = newton - more / (slope + newton * (2.0 * square + 3.0 * newton * cubic))
+    plain = ~np.isfinite(step)
+    step = np.where(plain, newton, step)
+    bend = np.where(plain, 0.0, square / 3.0 + step * cubic / 4.0)
+    return step, step * (f + step * (0.5 * slope + step * bend))

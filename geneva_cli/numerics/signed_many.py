@@ -18,6 +18,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
+    Beside,
     Cells,
     Cuts,
     Look,
@@ -25,7 +26,6 @@ from geneva_cli.numerics.cells import (
     Tops,
     Turns,
     joined,
-    may_turn,
     taken,
     touches,
     turns_in,
@@ -34,18 +34,19 @@ from geneva_cli.numerics.cells import (
 from geneva_cli.numerics.extrema_many import unpredicted
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
+from geneva_cli.numerics.samples_many import Samples, unpredicted_beside
 from geneva_cli.numerics.turns_many import Signed, turn
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.arrays import Mask, Which, Whole
     from geneva_cli.numerics.jet import Array
 
-BLOCK = 512  # designs sampled at a time: so many lie in the processor's cache
+BLOCK = 1024  # designs sampled at a time: so many lie in the processor's cache
 CELLS = 8  # of a span, to begin with
-ENDED = 1e-9  # share of a cell: after so short a Newton step, what is left of a zero is rounding
+ENDED = 1e-6  # share of a cell: after so short a step, what is left of a zero is rounding
 NARROW = 1e-9  # share of a place: a cell no wider is not halved
 NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
-_HALF = np.arange(CELLS // 2 + 1) / CELLS
+_HALF = np.arange(CELLS // 2) / CELLS
 
 
 class Found(NamedTuple):
@@ -81,6 +82,7 @@ class _Search:
         self.tops = Tops(f.wanted, n, sized)
         self.range = Range(*np.full((2, f.signs + f.wanted, n), np.inf) * [[[1.0]], [[-1.0]]])
         self.cells: list[Cells] = []  # to be looked at again
+        self.crossed: list[tuple[Cells, Beside]] = []  # in which a sign changes
         self.turns: list[Turns] = []
         self.cuts: list[Cuts] = []
         for k, place, value in known:
@@ -96,7 +98,7 @@ class _Search:
                 self._sample(a[part], np.maximum(a, b)[part], there[part], part, number)
         cells = joined(self.cells)
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
-        self._settle(cells)
+        self._settle(joined([cells, *self._crossed()]))
         turn(self.f, self.range, self.tops, joined(self.turns))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
 
@@ -105,41 +107,36 @@ class _Search:
         f = self.f
         # Designs lie side by side in memory: each operation runs along all of them.
         # Each half is counted from its own end: mirrored spans have mirrored places.
-        x = np.asfortranarray(np.hstack((a + (b - a) * _HALF, b - (b - a) * _HALF[-2::-1])))
-        positive, (value, slope) = f.look(f.at(x, part, 1))
+        way = (b - a) * _HALF
+        x = np.asfortranarray(np.hstack((a + way, 0.5 * (a + b), b - way[:, ::-1])))
+        at = f.at(x, part, 1)
+        positive, (value, slope) = f.look(at)
         slope *= DEGREE
         design = np.arange(part.start, part.start + len(x))
+        size = np.abs(value[: f.signs]).max(axis=2)
         for end, beside in ((0, 1), (-1, -2)):
-            self._sign_end(x, positive, value, slope, design, end, beside)
-        self.range.widen(design[there], value[:, there])
-        self.tops.add_samples(design[there], x[there], value[f.signs :, there])
-        open_ = self._open(x, positive, value, slope, design) & there[:, None]
-        closed = ~open_ & there[:, None]
-
-        def cells(where: Mask) -> Cells:
-            row, column = np.nonzero(where)
-            ends = [
-                np.stack((v[..., row, column], v[..., row, column + 1])) for v in (x, value, slope)
-            ]
-            signs = np.stack((positive[:, row, column], positive[:, row, column + 1]))
-            return Cells(design[row], np.full(len(row), number), ends[0], signs, ends[1], ends[2])
-
-        self.cells.append(cells(open_))
+            self._sign_end(at, x, positive, value, slope, size, end, beside)
+        samples = Samples(design, number, x, positive, value, slope)
+        full: Which = slice(None) if there.all() else there
+        self.range.widen(design[full], value[:, full])
+        self.tops.add_samples(design[full], x[full], value[f.signs :, full])
+        differ = samples.differ
+        open_ = samples.open(self.range, self._bounded(design), differ)
+        closed, differ = ~(open_ | differ) & there[:, None], differ & there[:, None]
+        self.cells.append(samples.cells(open_ & there[:, None]))
+        self.crossed.append((samples.cells(differ), samples.beside(differ)))
         for k in range(f.wanted):
-            row = f.signs + k
-            level = self.range.level(row, design)[:, None] / (x[:, 1:] - x[:, :-1])
-            turning = may_turn(slope[row, :, :-1], slope[row, :, 1:], level) & closed
-            if turning.any():
-                some = turns_in(row, k, cells(turning), self.range)
-                self.turns.append(self.tops.hopeful(some))
+            some = samples.turns(f.signs + k, k, self.range, closed)
+            self.turns.append(self.tops.hopeful(some))
 
     def _sign_end(
         self,
+        at: Any,
         x: Array,
         positive: Mask,
         value: Array,
         slope: Array,
-        design: Whole,
+        size: Array,
         end: int,
         beside: int,
     ) -> None:
@@ -147,8 +144,7 @@ class _Search:
 
         A motion's middle and ends are where it passes 0, and there a span begins or ends.
         """
-        signs, known = self.f.signs, np.full((self.f.signs, len(design)), np.nan)
-        size = np.abs(value[:signs]).max(axis=2)
+        signs, known = self.f.signs, np.full((self.f.signs, len(x)), np.nan)
         within = np.where(positive[:, :, beside], 1.0, -1.0)
         for kind in range(signs):  # those after it may hang on its sign
             noise = np.abs(value[kind, :, end]) <= NOISE * size[kind]
@@ -156,28 +152,11 @@ class _Search:
             clear = np.abs(rise) > LEVEL * size[kind]
             own = np.where(clear, np.sign(rise), within[kind])
             known[kind] = np.where(noise, own, np.nan)
-            wrong = np.flatnonzero(noise & (positive[kind, :, end] != (own > 0.0)))
-            if len(wrong):
-                at = self.f.at(x[wrong, end, None], design[wrong], 1)
-                look = self._look(at, known[:, wrong])
-                positive[:, wrong, end], value[:, wrong, end], slope[:, wrong, end] = look
-
-    def _open(self, x: Array, positive: Mask, value: Array, slope: Array, design: Whole) -> Mask:
-        """Of samples (m, k) the cells that must be looked at again: (m, k - 1)."""
-        left, middle, right = (
-            (x[:, part], value[:, :, part], slope[:, :, part])
-            for part in (slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2))
-        )
-        low, high = (side[:, design, None] for side in self.range)
-        missed = unpredicted(left, middle, right, low, high)
-        lost = (missed & self._bounded(design)[:, :, None]).any(axis=0)
-        differ = (positive[:, :, :-1] != positive[:, :, 1:]).any(axis=0)
-        v, d, width = value[: self.f.signs], slope[: self.f.signs], x[:, 1:] - x[:, :-1]
-        open_: Mask = np.asarray(differ)
-        open_ = open_ | touches(width, v[..., :-1], d[..., :-1], v[..., 1:], d[..., 1:]).any(axis=0)
-        for side in (slice(0, None, 2), slice(1, None, 2)):
-            open_[:, side] |= lost | differ[:, ::2] | differ[:, 1::2]
-        return open_
+            wrong = noise & (positive[kind, :, end] != (own > 0.0))
+            if wrong.any():
+                here = self._look(self.f.column(at, end), known)
+                for samples, other in zip((positive, value, slope), here, strict=True):
+                    samples[..., end] = np.where(wrong, other, samples[..., end])
 
     def _bounded(self, design: Whole) -> Mask:
         """Whether functions are bounded as far as is known: what is not is looked at no nearer."""
@@ -190,6 +169,35 @@ class _Search:
         """At places (m, 1): without their last axis, and slopes by degrees."""
         positive, c = self.f.look(at, None if forced is None else forced[..., None], asked)
         return Look(positive[..., 0], c[0][..., 0], c[1][..., 0] * DEGREE)
+
+    def _crossed(self) -> list[Cells]:
+        """Of cells cut where a sign changes, the parts that must be looked at again.
+
+        A part and the sample beside it in which no sign changes are judged together.
+        """
+        cells, beside = (joined(parts) for parts in zip(*self.crossed, strict=True))
+        out = []
+        for end, part in enumerate(self._cut(cells)):
+            low, high = (side[:, part.design] for side in self.range)
+            three = beside.at(end), part.at(end), part.at(1 - end)
+            missed = unpredicted_beside(*three, low, high) & self._bounded(part.design)
+            open_ = missed.any(axis=0) | ~beside.known[end] | self._may_cross(part)
+            open_ |= (part.positive[0] != part.positive[1]).any(axis=0)
+            self._close(part, ~open_)
+            out.append(taken(part, open_))
+        return out
+
+    def _may_cross(self, cells: Cells) -> Mask:
+        """Whether a function whose sign counts may change it twice within cells."""
+        signs, (a, b) = self.f.signs, cells.x
+        (v, w), (d, e) = cells.value[:, :signs], cells.slope[:, :signs]
+        return np.asarray(touches(b - a, v, d, w, e).any(axis=0))
+
+    def _close(self, cells: Cells, where: Mask) -> None:
+        """Keep where wanted functions may turn within cells that are not looked at again."""
+        for k in range(self.f.wanted):
+            some = turns_in(self.f.signs + k, k, cells, self.range, where)
+            self.turns.append(self.tops.hopeful(some))
 
     def _settle(self, cells: Cells) -> None:
         """Cut at zeros, and halve until a cubic predicts."""
@@ -218,7 +226,7 @@ class _Search:
         every = np.arange(len(a))
         (v, w), (d, e) = cells.value[:, kind, every], cells.slope[:, kind, every]
         start = a + (b - a) * zero_of_cubic(v, w, d * (b - a), e * (b - a))
-        x = newton_many(zero, a, b, start, ~left[kind, every], ENDED)[0]
+        x = newton_many(zero, a, b, start, ~left[kind, every], ENDED, (v, w))[0]
         at = f.at(x[:, None], design, 1)
         looks = [self._look(at, np.where(number <= kind, side, np.nan)) for side in sides]
         for look in looks:
@@ -251,12 +259,9 @@ class _Search:
         open_ |= (look.positive != cells.positive[0]).any(axis=0)
         halves = cells.parted(x, (look, look))
         for half in halves:
-            (v, w), (d, e) = half.value[:, : f.signs], half.slope[:, : f.signs]
-            open_ |= touches(half.x[1] - half.x[0], v, d, w, e).any(axis=0) & wide
-        closed = joined([taken(half, ~open_) for half in halves])
-        for k in range(f.wanted):
-            some = turns_in(f.signs + k, k, closed, self.range)
-            self.turns.append(self.tops.hopeful(some))
+            open_ |= self._may_cross(half) & wide
+        for half in halves:
+            self._close(half, ~open_)
         return taken(halves[0], open_), taken(halves[1], open_)
 
 

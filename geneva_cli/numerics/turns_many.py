@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.cells import Range, Tops, Turns
+from geneva_cli.numerics.cells import Range, Tops, Turns, taken
 from geneva_cli.numerics.extrema_many import turn_of_cubic
 from geneva_cli.numerics.roots_many import newton_many
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array
 
-TURNED = 1e-6  # and of a turn's value, which goes with the square
+TURNED = 1e-5  # share of a cell: after so short a step, its value is rounding
 BESIDE = 0.01  # share of a cell: Newton begins no nearer to its ends
 BENT = 1e-7  # share of a function's range: a smaller bend over a cell may be rounding
 
@@ -35,6 +35,9 @@ class Signed(Protocol):
     def at(self, x: Array, which: Which, order: int) -> Any:
         """What the functions of some designs are made of, at places (m, k) in degrees."""
 
+    def column(self, at: Any, number: int) -> Any:
+        """The same at one place of each design."""
+
     def look(
         self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
@@ -47,8 +50,14 @@ class Signed(Protocol):
 
 
 def turn(f: Signed, range_: Range, tops: Tops, turns: Turns) -> None:
-    """Newton on every turn that may still be the greatest."""
+    """Newton on every turn that may still be the greatest: the most hopeful ones of all first."""
     turns = tops.hopeful(_bent(f, range_, tops.hopeful(turns)))
+    first = tops.first(turns)
+    _refined(f, tops, taken(turns, first))
+    _refined(f, tops, tops.hopeful(taken(turns, ~first)))
+
+
+def _refined(f: Signed, tops: Tops, turns: Turns) -> None:
     if not len(turns.row):
         return
 
@@ -63,13 +72,13 @@ def turn(f: Signed, range_: Range, tops: Tops, turns: Turns) -> None:
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
         return slope, bend - slope * np.nan_to_num(others), value
 
-    start = turn_of_cubic(turns.left, turns.right)
     width = b - a
+    start = turn_of_cubic(turns.left, turns.right)
     start = np.clip(start, a + BESIDE * width, b - BESIDE * width)
-    x, step, (slope, _, value) = newton_many(slope_of, a, b, start, turns.rises < 0.0, TURNED)
-    # on the parabola through the last place but one; a size that is zero has no slope
-    ahead = 0.5 * slope * step
-    value = value + np.where(np.isnan(ahead), 0.0, ahead)
+    slopes = np.where(at_a, np.nan, turns.left[2]), np.where(at_b, np.nan, turns.right[2])
+    found = newton_many(slope_of, a, b, start, turns.rises < 0.0, TURNED, slopes)
+    x, rise, (_, _, value) = found
+    value = value + np.where(np.isnan(rise), 0.0, rise)  # a size that is zero has no slope
     top = np.abs(value) if tops.sized else turns.rises * value
     x = np.where(np.isnan(x), start, x)
     tops.add(tops.number(turns.row, turns.rises), turns.design, x, top)

@@ -95,6 +95,29 @@ def test_the_same_motion_path_and_slot(case):
                             near(full(at_one, (n, 1))[:, row], jet[:, row, here], level[here])
 
 
+def test_the_rate_is_the_derivative_of_the_angle(case):
+    found = case[2]
+    for engagement in found.machine.engagements:
+        motion = engagement.motion
+        x = motion.entry_deg + engagement.motion_deg * np.linspace(0.01, 0.99, 8)
+        x = np.ascontiguousarray(np.broadcast_to(x, (len(found.which), 8)))
+        rate, angle = motion.rate(x, 4), motion(x, 5).derivative()
+        for one, row in enumerate(x):
+            each = [full(jet, x.shape)[:, one] for jet in (rate, angle)]
+            near(*each, row)
+
+
+def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(case):
+    """What is kept of the latest angles was worked out of other designs."""
+    found = case[2]
+    motion, n = found.machine.engagements[0].motion, len(found.which)
+    x = np.linspace(-1e-3, 1e-3, 3)
+    whole = np.broadcast_to(motion(x, 1).c[1], (n, 3))
+    for part in (slice(0, n // 2), slice(n // 2, n)):
+        some = np.broadcast_to(taken(motion, part)(x, 1).c[1], whole[part].shape)
+        assert np.array_equal(some, whole[part])
+
+
 def test_the_same_numbers(case):
     _, _, found, singles = case
     m, singles = found.machine, [one for one in singles if one is not None]

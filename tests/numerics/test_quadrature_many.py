@@ -1,29 +1,70 @@
 """The rule by which loads of many designs are summed up."""
 
+import math
+
 import numpy as np
 import pytest
 
-from geneva_cli.numerics.quadrature_many import NODE, WEIGHT, integrals_many
+from geneva_cli.numerics import quadrature_many
+from geneva_cli.numerics.quadrature_many import FEW, LEFT, NODES, integrals_many
 
 
-@pytest.mark.parametrize("power", [0, 2, 20, 60])
-def test_kronrod_is_exact_to_its_degree(power):
-    """3 n + 1 of n = 20 places of Gauss; odd powers vanish by symmetry."""
-    assert WEIGHT @ NODE**power == pytest.approx(2.0 / (power + 1), rel=4e-15)
+def summed(f, n=1, ends=False):
+    """The integral over [0, 1] of n functions (n, k) of a place, and how many places it took."""
+    places = []
+
+    def functions(x, which):
+        places.append(x.size)
+        return f(x, which)[None]
+
+    a, every = np.zeros(n), np.arange(n)
+    found = integrals_many(functions, a, a + 1.0, every, np.full((1, n), True), ends)
+    return found[0], sum(places)
 
 
-def test_every_other_place_is_a_place_of_gauss():
-    assert NODE[1::2] == pytest.approx(np.polynomial.legendre.leggauss(20)[0], abs=2e-15)
+@pytest.mark.parametrize("power", [0, 1, 9, 12])
+def test_what_few_terms_tell_is_had_at_once(power):
+    found, places = summed(lambda x, _: x**power)
+    assert found == pytest.approx(1.0 / (power + 1), rel=4e-15)
+    assert places == NODES
+
+
+@pytest.mark.parametrize("pole", [0.05, 0.1, 0.2, 0.5, 1.0])
+def test_what_is_left_is_told_by_the_series(pole, monkeypatch):
+    """∫ dx/(x + p) is log(1 + 1/p): whatever may be left, no more is."""
+    for left in (LEFT, 1e-9, 1e-6, 1e-3):
+        monkeypatch.setattr(quadrature_many, "LEFT", left)
+        found, _ = summed(lambda x, _: 1.0 / (x + pole))
+        assert found == pytest.approx(math.log1p(1.0 / pole), rel=left + 4e-15)
+
+
+@pytest.mark.parametrize("power", [1, 3, 5, 7])
+def test_a_kink_is_no_series_that_falls(power):
+    """∫ |x - c|^p: each halving leaves the half that has the kink."""
+    c = 1.0 / math.pi
+    found, places = summed(lambda x, _: np.abs(x - c) ** power)
+    exact = (c ** (power + 1) + (1.0 - c) ** (power + 1)) / (power + 1)
+    assert found == pytest.approx(exact, rel=LEFT)
+    assert places > 2 * NODES
 
 
 @pytest.mark.parametrize("ends", [False, True])
 def test_designs_that_need_more_are_halved(ends):
     """∫ dx/(x² + s²) over [0, 1] is atan(1/s)/s: of a narrow peak the rule sees nothing."""
     s = np.array([1.0, 1e-4])
+    found, _ = summed(lambda x, which: 1.0 / (x * x + s[which, None] ** 2), 2, ends)
+    assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=4e-15)
 
-    def peaks(x, which):
-        return (1.0 / (x * x + s[which, None] ** 2))[None]
 
-    every, asked = np.arange(2), np.full((1, 2), True)
-    found = integrals_many(peaks, 0.0 * s, 1.0 + 0.0 * s, every, asked, ends)
-    assert found[0] == pytest.approx(np.arctan(1.0 / s) / s, rel=4e-15)
+def test_narrow_spans_begin_with_fewer_places():
+    """Two spans of one design; each rule's own series tells what is left."""
+    places = []
+
+    def functions(x, which):
+        places.append(x.shape)
+        return np.exp(x)[None]
+
+    a, b, design = np.array([0.0, 0.9]), np.array([0.9, 1.0]), np.zeros(2, dtype=int)
+    found = integrals_many(functions, a, b, design, np.full((1, 1), True))
+    assert found[0] == pytest.approx(math.e - 1.0, rel=4e-16)
+    assert places == [(1, FEW), (1, NODES)]

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 from design_arrays import MACHINES
-from stress_many import PLACES, stressed
+from stress_many import stressed
 
 from geneva_cli.numerics import extrema_many
 
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_none_is_missed(name):
-    row = stressed(name, 60, places=200, witnessed=0)
+    row = stressed(name, 60, witnessed=0)
     assert (row.designs, row.missed) == (60, 0)
 
 
@@ -19,6 +19,6 @@ def test_it_can_tell(monkeypatch):
     monkeypatch.setattr(extrema_many, "SCAN", 2)
     monkeypatch.setattr(extrema_many, "_UNIT", np.arange(3) / 2.0)
     monkeypatch.setattr(extrema_many, "unpredicted", lambda left, *_: np.zeros(left[0].shape, bool))
-    row = stressed("spherical, slowed", 200, places=PLACES, witnessed=0)
+    row = stressed("spherical, slowed", 200, witnessed=0)
     assert row.missed > 0
     assert row.short > 1e-3

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
-ODD = ("acceleration", "aside", "along")  # what a mirror at mid-motion turns round
+# what a mirror at mid-motion turns round
+ODD = ("acceleration", "aside", "along", "curvature")
 BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight
 
 
@@ -56,13 +57,30 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
 def mirrored(at: Contact[Jet]) -> Contact[Jet]:
     """The contact at the mirror images of places (n, k), in their order, without joints.
 
-    Of a straight radial slot whose motion is symmetric.
+    Of motion and slot that are symmetric.
     """
     jets = []
     for name, jet in zip(at._fields[:-1], at[:-1], strict=True):
         even = name not in ODD
         jets.append(Jet([_turned(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
     return Contact._make([*jets, None])
+
+
+def column(at: Contact[Jet], number: int) -> Contact[Jet]:
+    """The contact at one of the places (n, k) of each design: (n, 1)."""
+
+    def of(jet: Jet) -> Jet:
+        return Jet([_column(c, number) for c in jet.c])
+
+    *jets, held = at
+    loads = held and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in held)
+    return Contact._make([*map(of, jets), loads])
+
+
+def _column(c: Number, number: int) -> Number:
+    if isinstance(c, float) or c.shape[-1] == 1:
+        return c
+    return c[..., number : number + 1 or None]
 
 
 def _turned(c: Number, same: bool) -> Number:
@@ -121,9 +139,11 @@ def _beside(
     ``rates`` are the jet of the wheel's velocity, one order higher, where it is known.
     """
     motion = None
-    if rates is None:
+    if rates is None and engagement.slot.curved:
         motion = engagement.motion(x, order + 2)
         rates = motion.derivative()
+    elif rates is None:
+        rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = _cut(rates, order), rates.derivative()
     constant = velocity * 0.0
     straight_axis = engagement.slot.axis(x, order)

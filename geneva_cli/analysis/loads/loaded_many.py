@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, mirrored
+from geneva_cli.analysis.loads.contact import NEAR, Contact, column, contact, mirrored
 from geneva_cli.analysis.loads.cycle import Quantity
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant, instant
@@ -25,12 +25,13 @@ from geneva_cli.numerics.cells import Cuts
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array, Number
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
+ALIKE = 1e-9  # share of a stretch by which the ends of its mirror image may be off
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
 # The setting, the contact, the shape of the places, and what is wanted of the designs there.
 At: TypeAlias = "tuple[Setting, Contact[Jet], tuple[int, ...], Sequence[Wanted]]"
@@ -84,11 +85,11 @@ class Loaded:
         self.reactions = held and engagement.reactions is not None
         self.spins = own or "slides" in self.kinds or any(name in SLIDING for name in names)
         motion, slot = engagement.motion, engagement.slot
-        straight = not slot.curved and all_true(slot.offset == 0.0)
-        self.mirrored = straight and motion.symmetric and not self.reactions
+        radial = all_true(slot.offset == 0.0) and (not slot.curved or has_mirrored_path(engagement))
+        self.mirrored = radial and motion.symmetric and not self.reactions
         # of the block of designs that is sampled: which, their machine, and places and contact
         self.kept: tuple[slice | None, Any] = (None, None)
-        self.last: tuple[Array, Contact[Jet]] | None = None
+        self.last: list[tuple[Array, Contact[Jet]]] = []
 
     @property
     def repeats(self) -> bool:
@@ -107,17 +108,23 @@ class Loaded:
             engagement, given, wanted = taken(self.machine, which)
             return given, self._contact(engagement, x, order), x.shape, wanted
         if which != self.kept[0]:
-            self.kept, self.last = (which, taken(self.machine, which)), None
+            self.kept, self.last = (which, taken(self.machine, which)), []
         engagement, given, wanted = self.kept[1]
         if not self.mirrored:
             return given, self._contact(engagement, x, order), x.shape, wanted
-        if self.last and order == 1 and np.array_equal(self.last[0], -x[:, ::-1]):
-            return given, mirrored(self.last[1]), x.shape, wanted
-        self.last = x, self._contact(engagement, x, order)
-        return given, self.last[1], x.shape, wanted
+        for other, found in self.last if order == 1 else ():
+            if np.array_equal(other, -x[:, ::-1]):
+                return given, mirrored(found), x.shape, wanted
+        self.last.append((x, self._contact(engagement, x, order)))
+        return given, self.last[-1][1], x.shape, wanted
 
     def _contact(self, engagement: Engagement, x: Array, order: int) -> Contact[Jet]:
         return contact(engagement, x, order, self.reactions, self.spins)
+
+    def column(self, at: At, number: int) -> At:
+        """The same at one place of each design: (m, 1)."""
+        given, found, shape, wanted = at
+        return given, column(found, number), (*shape[:-1], 1), wanted
 
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
@@ -154,6 +161,17 @@ class Look(NamedTuple):
     signs: list[Array]
     jets: list[Jet]
     instant: Instant[Jet]
+
+
+def has_mirrored_path(engagement: Engagement) -> bool:
+    """Whether the roller's way out, of all designs, is the mirror image of its way in."""
+    for share in (0.3, 0.7):
+        at = share * engagement.exit_deg
+        (x, y), (u, v) = engagement.path(at, 0), engagement.path(-at, 0)
+        off = np.abs(x.c[0] - u.c[0]) + np.abs(y.c[0] + v.c[0])
+        if np.any(off > ZERO):
+            return False
+    return True
 
 
 def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:
@@ -291,3 +309,15 @@ def stretches_of(load: Loaded, spans: Sequence[tuple[Array, Array]], cuts: Cuts)
     signs = np.where(first, before, positive)
     there = b > a
     return Cuts(design[there], span[there], np.stack((a, b))[:, there], signs[:, there])
+
+
+def mirror_images(pieces: Cuts) -> Whole:
+    """Of each stretch of symmetric motions the number of its mirror image, or else its own."""
+    design, (a, b), every = pieces.design, pieces.x, np.arange(len(pieces.design))
+    count = np.bincount(design, minlength=1)
+    start = np.cumsum(count) - count
+    other = 2 * start[design] + count[design] - 1 - every
+    close = ALIKE * (b - a)
+    alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
+    images: Whole = np.where(alike & alike[other], other, every)
+    return images

@@ -21,22 +21,24 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR
+from geneva_cli.analysis.loads.contact import NEAR, mirrored
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loaded_many import (
     REACTIONS,
+    At,
     Loaded,
     Machine,
     Wanted,
     at_mid_motion,
     look,
     machine,
+    mirror_images,
     spans_of,
     stretches_of,
 )
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
-from geneva_cli.analysis.loads.quantities import SQUARED
+from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
 from geneva_cli.analysis.loads.summary import rounded, shares
 from geneva_cli.analysis.peaks_many import PeakOfMany
 from geneva_cli.machine.many import taken
@@ -81,12 +83,22 @@ def greatest_of_many(
     As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is ``wheel_torque_Nm``.
     ``own`` are quantities that the cycle does not know, by their names.
     """
-    best: dict[str, PeakOfMany] = {}
-    for found, at_deg, _ in _over_all(mechanism, names, sized=True, told=(), own=own):
-        for name, most, at in zip(names, found, at_deg, strict=True):
+    given, best = setting(mechanism), dict[str, PeakOfMany]()
+    flat = all(e.slot.walls_flat for e in mechanism.engagements)
+    lent = {n: FORCE if flat and n == STRESS and given.hertz is not None else n for n in names}
+    sought = list(dict.fromkeys(lent.values()))
+    for found, at_deg, _ in _over_all(mechanism, sought, sized=True, told=(), own=own):
+        for name, most, at in zip(sought, found, at_deg, strict=True):
             here = PeakOfMany(most, at)
             best[name] = _greater(best[name], here) if name in best else here
-    return {n: p._replace(max=np.sqrt(p.max)) if n in SQUARED else p for n, p in best.items()}
+    out = {}
+    for name, source in lent.items():
+        one = best[source]
+        if source != name:  # the square of the stress on a flat wall goes with the force
+            assert given.hertz is not None
+            one = one._replace(max=one.max * np.ravel(given.hertz))
+        out[name] = one._replace(max=np.sqrt(one.max)) if name in SQUARED else one
+    return out
 
 
 def summaries_of_many(
@@ -145,11 +157,12 @@ def _over_all(
     own: Mapping[str, Wanted] = NONE,
 ) -> list[tuple[Array, Array, Array | None]]:
     """For each engagement the greatest values, their input angles as shown, and the integrals."""
-    given = setting(mechanism)
+    given, spec = setting(mechanism), mechanism.spec
+    analytic = spec.drive.ANALYTIC and (spec.motion is None or spec.motion.law.ANALYTIC)
     out = []
     for engagement in mechanism.engagements:
         every = machine(engagement, given, names, own)
-        most, x, sums = _of(every, names, sized, told)
+        most, x, sums = _of(every, names, sized, told, analytic)
         places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
         shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, sums))
@@ -166,58 +179,81 @@ def count(every: Machine) -> int:
 
 
 def _of(
-    every: Machine, names: Sequence[str], sized: bool, told: Collection[str]
+    every: Machine, names: Sequence[str], sized: bool, told: Collection[str], analytic: bool
 ) -> tuple[Array, Array, Array | None]:
     """The same for one engagement, at its own input angles."""
     m, parts = count(every), []
     for i in range(0, m, GROUP):
         some = taken(every, slice(i, i + GROUP))
-        parts.append(_group(Loaded(some, names), min(GROUP, m - i), sized, told))
+        parts.append(_group(Loaded(some, names), min(GROUP, m - i), sized, told, analytic))
     most, x, sums = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
     return most, x, sums if told else None
 
 
-def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Array, Array, Array]:
+def _group(
+    load: Loaded, n: int, sized: bool, told: Collection[str], analytic: bool
+) -> tuple[Array, Array, Array]:
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
     known = at_mid_motion(load, n) if load.machine[0].slot.curved else []
     found = search(load, spans, n, sized, known)
-    sums = _sums(load, found, spans, n, "mean" in told) if told else found.most
+    sums = _sums(load, found, spans, n, "mean" in told, analytic) if told else found.most
     return found.most, found.x, sums
 
 
 def _sums(
-    load: Loaded, found: Found, spans: Sequence[tuple[Array, Array]], n: int, plain: bool
+    load: Loaded,
+    found: Found,
+    spans: Sequence[tuple[Array, Array]],
+    n: int,
+    plain: bool,
+    analytic: bool,
 ) -> Array:
     """The integrals by the angle in radians of the squares, and of the quantities where ``plain``.
 
     Only a quantity whose square is looked for goes with a root at the ends of its stretches.
     """
-    design, _, (a, b), positive = stretches_of(load, spans, found.cuts)
-    signs = np.where(positive, 1.0, -1.0)
+    pieces = stretches_of(load, spans, found.cuts)
+    every = np.arange(len(pieces.design))
+    # of a mirrored motion the second half goes with the first, as functions of their own
+    other = mirror_images(pieces) if load.mirrored else every
+    kept = every <= other
+    design, (a, b), other = pieces.design[kept], pieces.x[:, kept], other[kept]
+    signs = np.where(pieces.positive, 1.0, -1.0)
+    sides = signs[:, kept], signs[:, other]
+    paired = other != every[kept]
 
     def rows(x: Array, which: Whole) -> Array:
-        return _powers(load, x, design[which], signs[:, which, None], plain)
+        given, at, shape, wanted = state = load.at(x, design[which], 0)
+        here = _powers(load, state, sides[0][:, which, None], plain)
+        if not paired.any():
+            return here
+        image = given, mirrored(at), shape, wanted
+        back = _powers(load, image, sides[1][:, which, None], plain)
+        back[:, ~paired[which]] = 0.0
+        return np.concatenate((here, back))
 
     rooted = plain and any(name in SQUARED for name in load.names)
-    powers = 2 if plain else 1
+    parts = (2 if plain else 1) * (2 if paired.any() else 1)
     with np.errstate(all="ignore"):
         # of what has no bound there is no mean
         bounded = np.isfinite(found.most).reshape(len(load.names), 2, n).all(axis=1)
-        total = integrals_many(rows, a, b, design, np.tile(bounded, (powers, 1)), rooted)
+        total = integrals_many(rows, a, b, design, np.tile(bounded, (parts, 1)), rooted, analytic)
+        if paired.any():
+            total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]
         if engagement.slot.curved:  # the way to mid-motion, which no stretch reaches
             for end in (engagement.entry_deg, engagement.exit_deg):
                 near = np.broadcast_to(np.reshape(NEAR * end, (-1, 1)), (n, 1))
-                beside = _powers(load, near * AHEAD, np.arange(n), None, plain)
+                beside = _powers(load, load.at(near * AHEAD, np.arange(n), 0), None, plain)
                 total += (beside @ SHARES) * np.abs(near[:, 0])
     return total * DEGREE
 
 
-def _powers(load: Loaded, x: Array, which: Whole, signs: Array | None, plain: bool) -> Array:
+def _powers(load: Loaded, state: At, signs: Array | None, plain: bool) -> Array:
     """The squares of the quantities, and where ``plain`` they themselves after those."""
-    given, at, shape, wanted = load.at(x, which, 0)
+    given, at, shape, wanted = state
     here = look(load.kinds, given, at, signs).instant
     count = len(load.names)
     out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)

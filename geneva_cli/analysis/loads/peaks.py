@@ -130,8 +130,8 @@ def _tops(
         return slope, 2.0 * DEGREE * bend, value
 
     slopes = found.slope[row, before], found.slope[row, before + 1]
-    way, step, (slope, _, value) = between_samples(jets, found, before, before + 1, *slopes)
-    value = value + 0.5 * DEGREE * slope * step  # on the parabola through the last place but one
+    way, rise, (_, _, value) = between_samples(jets, found, before, before + 1, *slopes)
+    value = value + DEGREE * rise
     for i, place, most in zip(row, (found.x[before] + way).tolist(), value.tolist(), strict=True):
         out[i].append((place, most))
     return out

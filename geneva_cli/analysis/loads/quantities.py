@@ -6,6 +6,7 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
 from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.numerics.roots import first_greatest
 
+FORCE = "pin_force_N"
 STRESS = "contact_stress_MPa"
 MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
@@ -18,7 +19,7 @@ QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: Row(i.omega_rad_s),
     "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
     "wheel_torque_Nm": lambda i: Row(i.wheel_torque_Nm),
-    "pin_force_N": lambda i: i.pin_force,
+    FORCE: lambda i: i.pin_force,
     STRESS: lambda i: i.stress,
     "sliding_m_s": lambda i: Row(i.sliding_m_s),
     "input_torque_Nm": lambda i: i.shaft,

@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-AGREED = 1e-12  # a law of points has knots at which its higher derivatives jump
 FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integrals
 
 
@@ -86,5 +85,6 @@ def _group(every: Machine, n: int) -> Array:
     every_one = np.full(n, True)
     asked = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, a, b, design, asked, True, AGREED) * DEGREE
+        # a law of points has knots at which its higher derivatives jump
+        total = integrals_many(rows, a, b, design, asked, ends=True, analytic=False) * DEGREE
     return np.where(asked, total, np.inf)

@@ -188,6 +188,8 @@ class SectorPath(NamedTuple):
 class SectorSlot(Slot):
     """The slot, and the gears' pitch circle while they drive."""
 
+    relieved = True
+
     def __init__(self, inner: RadialSlot, motion: SectorMotion) -> None:
         self.inner, self.motion = inner, motion
 

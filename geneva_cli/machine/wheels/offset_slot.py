@@ -40,17 +40,25 @@ class OffsetFollowed(Followed):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """The wheel's angle: the slot's direction, from the nearest anchor; at rest at the ends."""
+        return self._told(input_deg, order, angle=True)
+
+    def rate(self, input_deg: Number, order: int = 2) -> Jet:
+        """How fast the slot's direction turns: without an arc tangent."""
+        return self._told(input_deg, order + 1, angle=False)
+
+    def _told(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
+        """The wheel's angle, or its rate, one order lower."""
         (entry, mid, exit_), cuts = self.path.anchors, self.path.anchors.cuts
-        first, last = (self._from_end(end, order) for end in (entry, exit_))
+        first, last = (self._from_end(end, order, angle) for end in (entry, exit_))
         if are_designs(input_deg, *cuts):  # one formula serves both ends
 
             def nearer(x: Number) -> Jet:
-                return self._from_end(chosen(x, (mid.input_deg,), (entry, exit_)), order)(x)
+                return self._from_end(chosen(x, (mid.input_deg,), (entry, exit_)), order, angle)(x)
 
             first = last = nearer
-        return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order), last])
+        return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order, angle), last])
 
-    def _from_end(self, anchor: Anchor, order: int) -> Callable[[Number], Jet]:
+    def _from_end(self, anchor: Anchor, order: int, angle: bool) -> Callable[[Number], Jet]:
         """About entry or exit, where the pin is at (along, -e) in the slot's frame.
 
         The slot's axis passes the pin at (s, -e) with s² = rho² - e². What s gains on ``along`` is
@@ -64,23 +72,29 @@ class OffsetFollowed(Followed):
             square = along * along + more
             s = sqrt(square)
             gain = more / (s + along)
+            rate = _turning(along, across, gain * e, square + e * e)
+            if not angle:
+                return rate
             a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
             value = library(a, b, e).atan2(b * s0 - g * e, a * s0 - (b - e) * e) + anchor.wheel
-            return _turning(along, across, gain * e, square + e * e, value)
+            return integral(rate, value)
 
         return solve
 
-    def _inside(self, x: Number, order: int) -> Jet:
+    def _inside(self, x: Number, order: int, angle: bool) -> Jet:
         """About mid-motion: the pin's direction, and less what the slot's gains on it."""
         e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
         toward, across = mid.displacement_at(x, order)
         s, rho2 = _depth(self.skew, toward)
         along = toward + mid.along
+        rate = _turning(along, across, s * e, rho2)
+        if not angle:
+            return rate
         m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]
         value = m.atan2(across.c[0], along.c[0]) + mid.wheel
         # atan2(e, deepest) - atan2(e, s)
         value -= m.atan2(2.0 * u / (depth + deepest) * e, depth * deepest + e * e)
-        return _turning(along, across, s * e, rho2, value)
+        return integral(rate, value)
 
 
 def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
@@ -93,10 +107,10 @@ def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
     return sqrt(square), square + skew.e**2
 
 
-def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet, value: Number) -> Jet:
-    """A wheel's angle from its rate, (x y' - y x' - e s') / rho², for ``lever`` = e s."""
+def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
+    """A wheel's rate, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
     if not x.order:
-        return Jet((value,))
+        return Jet(())
     low_x, low_y, low_rho2 = Jet(x.c[:-1]), Jet(y.c[:-1]), Jet(rho2.c[:-1])
     across = low_x * y.derivative() - low_y * x.derivative()
-    return integral((across - lever.derivative()) / low_rho2, value)
+    return (across - lever.derivative()) / low_rho2

@@ -13,7 +13,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, Place
 from geneva_cli.machine.wheels.poses import HalfStep, Pose
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Jet, Number, atan2
+from geneva_cli.numerics.jet import Jet, Number, turning
 from geneva_cli.spec.rules import Range
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ class Cone(NamedTuple):
     def __call__(self, tau: Number, order: int) -> Jet:
         """Positive with the wheel, ``tau`` input radians after mid-motion."""
         sine, versine = self.turn(tau, order + 1)
-        out: Jet = atan2(sine, 1.0 - versine).derivative() * -self.cos_th
+        out: Jet = turning(1.0 - versine, sine) * -self.cos_th
         return out
 
 

@@ -1,0 +1,137 @@
+"""Samples of many designs' spans: which of the cells between them are as good as cubics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+import numpy as np
+
+from geneva_cli.numerics.cells import (
+    Beside,
+    Cells,
+    Range,
+    Turns,
+    cubic,
+    may_turn,
+    touches,
+    turns_of,
+)
+from geneva_cli.numerics.extrema_many import ROUNDING, goes_back, unpredicted
+from geneva_cli.numerics.roots import PREDICTED
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.extrema_many import Sample
+    from geneva_cli.numerics.jet import Array
+
+T = TypeVar("T", "Array", "Mask")
+
+
+class Samples(NamedTuple):
+    """Samples of a span of m designs, whose places lie side by side in memory: (..., m, k)."""
+
+    design: Whole  # (m,)
+    span: int
+    x: Array
+    positive: Mask  # (signs, m, k)
+    value: Array  # (functions, m, k)
+    slope: Array  # by degrees
+
+    @property
+    def differ(self) -> Mask:
+        """The cells, between each sample and the next, in which a sign changes: (m, k - 1)."""
+        changes: Mask = self.positive[..., :-1] != self.positive[..., 1:]
+        return np.asarray(changes.any(axis=0))
+
+    def cells(self, where: Mask) -> Cells:
+        """Some of the cells."""
+        index = _numbers(where)
+        numbers = self._designs(index), np.full(len(index), self.span)
+        ends = [(self._at(index, i, self.positive), *self._three(index, i)) for i in (0, 1)]
+        positive, x, value, slope = (np.stack(pair) for pair in zip(*ends, strict=True))
+        return Cells(*numbers, x, positive, value, slope)
+
+    def beside(self, where: Mask) -> Beside:
+        """What is on both sides of some of the cells."""
+        index = _numbers(where)
+        alike = np.zeros((where.shape[1] + 2, len(where)), dtype=bool)
+        alike[1:-1] = ~self.differ.T
+        known = np.stack([alike.ravel()[index + shift * len(where)] for shift in (0, 2)])
+        ends = zip(*[self._three(index, shift) for shift in (-1, 2)], strict=True)
+        return Beside(known, *map(np.stack, ends))
+
+    def open(self, range_: Range, bounded: Mask, differ: Mask) -> Mask:
+        """Which of the cells in which no sign changes must be looked at again.
+
+        Pairs of cells are judged by the sample where they meet: the 1st with the 2nd, and so on,
+        and a cell whose partner has a change of sign with its other neighbour.
+        """
+        signs, x, value, slope = len(self.positive), self.x, self.value, self.slope
+        left, middle, right = (
+            (x[:, part], value[:, :, part], slope[:, :, part])
+            for part in (slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2))
+        )
+        low, high = range_.low[:, self.design], range_.high[:, self.design]
+        missed = unpredicted(left, middle, right, low[..., None], high[..., None])
+        crossed = differ[:, ::2] | differ[:, 1::2]
+        lost = (missed & bounded[..., None]).any(axis=0) & ~crossed
+        v, d, width = value[:signs], slope[:signs], x[:, 1:] - x[:, :-1]
+        found = touches(width, v[..., :-1], d[..., :-1], v[..., 1:], d[..., 1:]).any(axis=0)
+        found |= np.repeat(lost, 2, axis=1)
+        index = _numbers(np.repeat(crossed, 2, axis=1) & ~differ & ~found)
+        column, row = np.divmod(index, len(differ))
+        odd = column % 2
+        other = column - 1 + 2 * odd  # of the next pair
+        last = differ.shape[1] - 1
+        alone = (other < 0) | (other > last) | differ[row, np.clip(other, 0, last)]
+        one, two, three = (self._three(index, odd + i) for i in (-1, 0, 1))
+        missed = unpredicted(one, two, three, low[:, row], high[:, row])
+        alone |= (missed & bounded[:, row]).any(axis=0)
+        found[row[alone], column[alone]] = True
+        return found & ~differ
+
+    def turns(self, row: int, k: int, range_: Range, where: Mask) -> Turns:
+        """Of some of the cells those in which the function ``row`` may turn, the k-th wanted."""
+        level = range_.level(row, self.design)[:, None] / (self.x[:, 1:] - self.x[:, :-1])
+        slope = self.slope[row]
+        index = _numbers(may_turn(slope[:, :-1], slope[:, 1:], level) & where)
+        rows = self.x, self.value[row], slope
+        left, right = (np.stack([self._at(index, end, one) for one in rows]) for end in (0, 1))
+        positive = self._at(index, 0, self.positive)
+        return turns_of(k, self._designs(index), _flat(level)[index], positive, left, right)
+
+    def _designs(self, index: Whole) -> Whole:
+        """The designs of some cells or samples."""
+        return self.design[index % len(self.design)]
+
+    def _three(self, index: Whole, shift: int | Whole) -> tuple[Array, Array, Array]:
+        """Places, values and slopes of samples so many places after some others."""
+        x, value, slope = (self._at(index, shift, one) for one in (self.x, self.value, self.slope))
+        return x, value, slope
+
+    def _at(self, index: Whole, shift: int | Whole, one: T) -> T:
+        """Something of them; those beyond the ends of a span are any."""
+        return np.take(_flat(one), index + shift * len(self.design), axis=-1, mode="clip")
+
+
+def _flat(samples: T) -> T:
+    """Samples (..., m, k) as (..., k m), as they lie in memory."""
+    return samples.swapaxes(-1, -2).reshape(*samples.shape[:-2], -1)
+
+
+def _numbers(where: Mask) -> Whole:
+    """The numbers, in memory, of some of the samples or cells (m, k)."""
+    return np.flatnonzero(_flat(where))
+
+
+def unpredicted_beside(outer: Sample, near: Sample, far: Sample, low: Array, high: Array) -> Mask:
+    """Whether the cubic through two places misses a sample between them that is nearer to ``far``.
+
+    As of ``unpredicted``, of which this is the case of a cell from ``near`` to ``far`` that is no
+    wider than the one before it.
+    """
+    rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
+    missed: Mask = (
+        np.abs(near[1] - cubic(outer, far, near[0])) > PREDICTED * (high - low) + rounding
+    )
+    return missed | goes_back(near, far, rounding)

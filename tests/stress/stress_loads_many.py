@@ -1,0 +1,56 @@
+"""Extremes of loads of many designs: is any missed? Part of `make stress`.
+
+    stress_loads_many.py [--designs N] [--machine NAME]... [--seconds S]
+
+Random designs of every machine (those of tests/design_arrays.py), each under a load of its own,
+with friction: the greatest and least of its forces, torques and stresses is held against a scan
+that knows no search, of other places in each design. One row a machine; the exit status is 1 where
+a place of the scan passes an extreme.
+"""
+
+import argparse
+import math
+import sys
+import time
+
+from design_arrays import MACHINES
+from loaded_arrays import beyond, loaded
+
+CHUNK = 4_096  # designs built together
+PLACES = 200
+MORE = 1e-12  # of a quantity's size: above what rounding does
+
+
+def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
+    """How many designs of a machine were held against it, how many passed, by how much, and CPU."""
+    start = time.process_time()
+    done, missed, most = 0, 0, -math.inf
+    while done < count and time.process_time() - start < seconds:
+        found = loaded(name, min(CHUNK, 2 * (count - done) + 20), seed)[2]
+        seed += 1
+        if found.machine is None:
+            continue
+        over = beyond(found, places, seed)
+        done += len(over)
+        missed += int((over > MORE).any(axis=1).sum())
+        most = max(most, float(over.max()))
+    return done, missed, most, time.process_time() - start
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--designs", type=int, default=20_000, help="of each machine")
+    parser.add_argument("--machine", action="append", choices=list(MACHINES))
+    parser.add_argument("--seconds", type=float, default=math.inf, help="for each machine, of CPU")
+    asked = parser.parse_args()
+    print(f"{'machine':26}{'designs':>10}{'missed':>8}{'passed by':>12}{'CPU s':>8}")
+    wrong = False
+    for name in asked.machine or MACHINES:
+        done, missed, most, seconds = stressed(name, asked.designs, seconds=asked.seconds)
+        print(f"{name:26}{done:>10}{missed:>8}{most:>12.1e}{seconds:>8.0f}", flush=True)
+        wrong |= bool(missed)
+    sys.exit(wrong)
+
+
+if __name__ == "__main__":
+    main()
