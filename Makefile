@@ -33,8 +33,8 @@ stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
-	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev
