@@ -11,7 +11,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.design import Design
+from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.scan import hopeful, scan
@@ -251,3 +251,18 @@ def test_a_motion_between_two_angles_has_no_loads():
     for near in (1.0 - 1e-7, 1.0 - 1e-9, 1.0 - 1e-12):
         with pytest.raises(GenevaError, match="by its last digit: such loads would be rounding"):
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
+
+
+def test_beside_a_cusp_the_stress_goes_to_nought():
+    """At a pitch curve's cusp one wall turns away from the roller: 1/r + k/(1 - k r) goes to 0.
+
+    1/k goes with the angle, and so does the square of the stress; 1e-3 for what is of higher order.
+    """
+    design = load("designs/press-345.toml")
+    [engagement] = design.mechanism.engagements
+    more, less = (
+        loads.state(design.mechanism, engagement, at).contact_stress_MPa for at in (1e-3, 1e-4)
+    )
+    assert less / more == pytest.approx(math.sqrt(0.1), rel=1e-3)
+    found = design.loads["contact_stress_MPa"]
+    assert (found.min, found.min_at_deg) == (0.0, 0.0)

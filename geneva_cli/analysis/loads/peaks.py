@@ -184,7 +184,8 @@ def _at_mid_motion(
         for row, limit in zip(asked, zip(*limits, strict=True), strict=True):
             room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])
             value = float(np.ravel(row.value.c[0])[0])
-            if room > ZERO and math.isfinite(value):
+            away = math.isinf(room) and row.way < 0.0  # a cusp: on one side of it the wall turns
+            if (room > ZERO or away) and math.isfinite(value):  # away, and its stress goes to 0
                 values.append(value)
             elif loaded:
                 values.append(math.copysign(math.inf, row.way))
