@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.jet import Array
 
+MIDDLE = 3.0  # of the quartiles' distance: what is further out is near a pole
 LEVEL = 1e-9  # share of a function's range: a rise over a cell that a slope of 0 may feign
 
 
@@ -99,7 +100,11 @@ def joined(parts: Sequence[Parts]) -> Parts:
 
 
 class Range(NamedTuple):
-    """The least and the greatest finite sample of each function of each design: (functions, n)."""
+    """The least and the greatest finite sample of each function of each design: (functions, n).
+
+    Of a span in which a function has no bound those of the middle of its samples: near a pole they
+    are of any size, and say nothing of what is far from it.
+    """
 
     low: Array
     high: Array
@@ -112,8 +117,20 @@ class Range(NamedTuple):
         else:
             low = np.where(finite, value, np.inf).min(axis=2)
             high = np.where(finite, value, -np.inf).max(axis=2)
+            lost = np.nonzero(~finite.all(axis=2) & finite.any(axis=2))
+            if len(lost[0]):
+                known = np.where(finite[lost], value[lost], np.nan)
+                first, third = np.nanquantile(known, (0.25, 0.75), axis=1)
+                low[lost] = np.maximum(low[lost], first - MIDDLE * (third - first))
+                high[lost] = np.minimum(high[lost], third + MIDDLE * (third - first))
         self.low[:, design] = np.fmin(self.low[:, design], low)
         self.high[:, design] = np.fmax(self.high[:, design], high)
+
+    def holds(self, design: Whole, value: Array) -> Mask:
+        """Whether values (functions, m, ...) of some designs are within it."""
+        shape = *self.low.shape[:1], -1, *(1,) * (value.ndim - 2)
+        low, high = (side[:, design].reshape(shape) for side in self)
+        return np.asarray((low <= value) & (value <= high))
 
     def width(self, row: int | Whole, design: Whole) -> Array:
         """The range of one function of some designs."""

@@ -64,7 +64,8 @@ class Samples(NamedTuple):
         """Which of the cells in which no sign changes must be looked at again.
 
         Pairs of cells are judged by the sample where they meet: the 1st with the 2nd, and so on,
-        and a cell whose partner has a change of sign with its other neighbour.
+        and a cell whose partner has a change of sign with its other neighbour. Of a function that
+        is not ``bounded`` none that is near its pole is.
         """
         signs, x, value, slope = len(self.positive), self.x, self.value, self.slope
         left, middle, right = (
@@ -74,7 +75,11 @@ class Samples(NamedTuple):
         low, high = range_.low[:, self.design], range_.high[:, self.design]
         missed = unpredicted(left, middle, right, low[..., None], high[..., None])
         crossed = differ[:, ::2] | differ[:, 1::2]
-        lost = (missed & bounded[..., None]).any(axis=0) & ~crossed
+        held = None if bounded.all() else range_.holds(self.design, value)
+        if held is not None:
+            both = held[..., :-1:2] & held[..., 1::2] & held[..., 2::2]
+            missed &= bounded[..., None] | both
+        lost = missed.any(axis=0) & ~crossed
         v, d, width = value[:signs], slope[:signs], x[:, 1:] - x[:, :-1]
         found = touches(width, v[..., :-1], d[..., :-1], v[..., 1:], d[..., 1:]).any(axis=0)
         found |= np.repeat(lost, 2, axis=1)
@@ -86,7 +91,10 @@ class Samples(NamedTuple):
         alone = (other < 0) | (other > last) | differ[row, np.clip(other, 0, last)]
         one, two, three = (self._three(index, odd + i) for i in (-1, 0, 1))
         missed = unpredicted(one, two, three, low[:, row], high[:, row])
-        alone |= (missed & bounded[:, row]).any(axis=0)
+        if held is not None:
+            three_ = (self._at(index, odd + i, held) for i in (-1, 0, 1))
+            missed &= bounded[:, row] | np.logical_and.reduce(list(three_))
+        alone |= missed.any(axis=0)
         found[row[alone], column[alone]] = True
         return found & ~differ
 

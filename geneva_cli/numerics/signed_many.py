@@ -158,10 +158,16 @@ class _Search:
                 for samples, other in zip((positive, value, slope), here, strict=True):
                     samples[..., end] = np.where(wrong, other, samples[..., end])
 
-    def _bounded(self, design: Whole) -> Mask:
-        """Whether functions are bounded as far as is known: what is not is looked at no nearer."""
+    def _bounded(self, design: Whole, *ends: Array) -> Mask:
+        """Whether functions are bounded as far as is known: near a pole none is looked at nearer.
+
+        ``ends`` are values (functions, m): in whose range they are, those are far from one.
+        """
         wanted = self.tops.bounded()[:, design]
-        return np.concatenate((np.full((self.f.signs, len(design)), True), wanted))
+        known = np.concatenate((np.full((self.f.signs, len(design)), True), wanted))
+        if ends and not known.all():
+            known |= np.logical_and.reduce([self.range.holds(design, value) for value in ends])
+        return known
 
     def _look(
         self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
@@ -180,7 +186,8 @@ class _Search:
         for end, part in enumerate(self._cut(cells)):
             low, high = (side[:, part.design] for side in self.range)
             three = beside.at(end), part.at(end), part.at(1 - end)
-            missed = unpredicted_beside(*three, low, high) & self._bounded(part.design)
+            missed = unpredicted_beside(*three, low, high)
+            missed &= self._bounded(part.design, *(value for _, value, _ in three))
             open_ = missed.any(axis=0) | ~beside.known[end] | self._may_cross(part)
             open_ |= (part.positive[0] != part.positive[1]).any(axis=0)
             self._close(part, ~open_)
@@ -255,7 +262,8 @@ class _Search:
         low, high = (side[:, design] for side in self.range)
         missed = unpredicted(cells.at(0), (x, *look[1:]), cells.at(1), low, high)
         wide = cells.x[1] - cells.x[0] > NARROW * (np.abs(cells.x[0]) + np.abs(cells.x[1]))
-        open_ = (missed & self._bounded(design)).any(axis=0) & wide
+        known = self._bounded(design, cells.value[0], look.value, cells.value[1])
+        open_ = (missed & known).any(axis=0) & wide
         open_ |= (look.positive != cells.positive[0]).any(axis=0)
         halves = cells.parted(x, (look, look))
         for half in halves:

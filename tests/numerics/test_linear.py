@@ -63,7 +63,7 @@ import numpy as np
 from geneva_cli import design
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.curves import fit
-from geneva_cli.parts.assembly import plane
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.groove import groove_curve
 from geneva_cli.parts.outlines import slot_walls
 from geneva_cli.parts.sizes import sizes
@@ -77,7 +77,7 @@ for side in (1.0, 0.0):
     for a, b in ((cam.entry_deg, cam.exit_deg), (cam.exit_deg, cam.entry_deg + 360.0)):
         tell(fit.KINDS["arcs"](curve, a, b, 0.001))
 curved = load("designs/modified-sine-matched.toml")
-where = plane(curved)
+where = assembly(curved)
 tell(slot_walls(where, sizes(where), curved.engagements[0], 0.001))
 tell([c.tolist() for c in motion_table(load("designs/table-law.toml"), 999).columns])
 tell([c.tolist() for c in motion_table(load(sys.argv[1]), 999).columns])

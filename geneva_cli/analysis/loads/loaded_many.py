@@ -262,8 +262,10 @@ def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
                 row = quantity(found, here)
                 known = np.broadcast_to(value(row.value), (n, 1))
                 room = np.inf if row.room is None else value(row.room)
-                away = np.isinf(room) & (row.way < 0.0)  # on one side of a cusp: its stress is 0
-                there = ((room > ZERO) | away) & np.isfinite(known)
+                there = (room > ZERO) & np.isfinite(known)
+                # at a cusp the wall turns away on one side: what is lost on the other goes to 0
+                away = np.isinf(room) & np.isfinite(known)
+                out.append((k, place, np.where(away, known, np.nan)[:, 0]))
                 for limit in limits:
                     none = np.where(loaded, np.inf * row.way, limit[k])
                     here_ = np.where(there, known, none)
