@@ -37,6 +37,7 @@ def integrals_many(
     asked: Mask,
     ends: bool = False,
     analytic: bool = True,
+    apart: bool = False,
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
@@ -46,10 +47,12 @@ def integrals_many(
 
     ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
     (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
-    then t² (3 - 2 t) of it.
+    then t² (3 - 2 t) of it. With ``apart`` the integral of each span is had: (functions, spans),
+    to the same share of its design's.
     """
     n = asked.shape[1]
-    total, size = np.zeros((2, 0, n))
+    into = np.arange(len(a)) if apart else design
+    total, size = np.zeros((0, len(a) if apart else n)), np.zeros((0, n))
     widest = np.zeros(n)
     np.maximum.at(widest, design, b - a)
     narrow = b - a <= NARROW * widest[design]
@@ -65,16 +68,16 @@ def integrals_many(
                 found.append(_parts(functions, *spans, nodes, ends, analytic))
         whole, left, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
         if not len(total):
-            total, size = np.zeros((2, len(whole), n))
+            total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
             _add(size, design[of], sizes)
         open_ = (~(left <= LEFT * size[:, design[of]]) & asked[:, design[of]]).any(axis=0)
-        _add(total, design[of[~open_]], whole[:, ~open_])
+        _add(total, into[of[~open_]], whole[:, ~open_])
         if not open_.any():
             return total
         middle = 0.5 * (low + high)[open_]
         low, high = np.concatenate((low[open_], middle)), np.concatenate((middle, high[open_]))
         of, few = np.concatenate((of[open_], of[open_])), 0
-    total[:, design[of]] = np.inf
+    total[:, into[of]] = np.inf
     return total
 
 

@@ -124,7 +124,8 @@ class Samples(NamedTuple):
 
 def _flat(samples: T) -> T:
     """Samples (..., m, k) as (..., k m), as they lie in memory."""
-    return samples.swapaxes(-1, -2).reshape(*samples.shape[:-2], -1)
+    *rows, m, k = samples.shape  # of no rows NumPy could not tell k m
+    return samples.swapaxes(-1, -2).reshape(*rows, k * m)
 
 
 def _numbers(where: Mask) -> Whole:

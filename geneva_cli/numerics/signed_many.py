@@ -99,7 +99,8 @@ class _Search:
         cells = joined(self.cells)
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
         self._settle(joined([cells, *self._crossed()]))
-        turn(self.f, self.range, self.tops, joined(self.turns))
+        if self.turns:
+            turn(self.f, self.range, self.tops, joined(self.turns))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
 
     def _sample(self, a: Array, b: Array, there: Mask, part: slice, number: int) -> None:

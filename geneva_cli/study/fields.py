@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.analysis.loads.cycle import cycle_of
+from geneva_cli.analysis.loads.sizing import WHEEL, sizing
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.mechanism import Mechanism
@@ -48,11 +49,18 @@ def cycle(proof: Proof) -> Values:
     return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
 
 
+def bought(proof: Proof) -> Values:
+    """Motor, flywheel and the makers' form; the wheel's own inertia is that of its parts."""
+    found, _ = sizing(cycle_of(proof.mechanism))
+    return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL}
+
+
 # The report's sections and those above. Those that make parts come last.
 ALL = (
     Section("study.fields:machine"),
     *(s for s in SECTIONS if not s.makes_parts),
     Section("study.fields:cycle"),
+    Section("study.fields:bought"),
     *(s for s in SECTIONS if s.makes_parts),
     Section("study.fields:judged", makes_parts=True),
 )

@@ -12,6 +12,9 @@ from design_arrays import MACHINES, alone, drawn
 
 from geneva_cli.analysis import blows, change_of_sides, undercut
 from geneva_cli.analysis import positive_drive as positive
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.sizing import sizing
+from geneva_cli.analysis.loads.sizing_many import NAMES, sizings_of_many
 from geneva_cli.analysis.strength import roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
@@ -22,7 +25,15 @@ from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.many import vibrations_of_many
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.machine.many import many
-from geneva_cli.spec.tables import Load, RollerMaterial, Shaft, Tolerance, WheelMaterial
+from geneva_cli.spec.tables import (
+    Load,
+    Motor,
+    RollerMaterial,
+    Shaft,
+    Support,
+    Tolerance,
+    WheelMaterial,
+)
 
 ULPS = 16 * 2.0**-52
 # Searches under a load: 32 units, as for the loads themselves. Sums: what quadrature leaves.
@@ -31,6 +42,9 @@ PLACE = 1e-4 / 360.0  # of a top, which is flat: to the root of a rounding
 CARRIED = [
     ("load.inertia_kgm2", 0.5, 3.0),
     ("load.torque_Nm", 0.0, 30.0),
+    ("support.friction", 0.0, 0.2),
+    ("motor.inertia_kgm2", 0.0, 0.1),
+    ("motor.gear_ratio", 1.0, 20.0),
     ("drive.n_rpm", 5.0, 100.0),
     ("size.face_width_mm", 5.0, 20.0),
     ("size.slot_clearance_mm", 0.01, 0.05),
@@ -55,6 +69,8 @@ def designs(name):
         shaft=Shaft(wheel_span_mm=40.0, shear_stress_max_MPa=60.0),
         material_wheel=WheelMaterial(wear_mm3_Nm=1e-8),
         material_roller=RollerMaterial(dynamic_capacity_N=5000.0),
+        motor=Motor(speed_variation=0.05, gear_efficiency=0.8),
+        support=Support(radius_mm=100.0, force_N=50.0),
     )
     if spec.drive.ONE_ARM:
         spec = spec.with_("tolerance.crank_radius_mm", 0.02)
@@ -151,6 +167,17 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
     assert (np.sign(far[1:]) != np.sign(far[:-1])).sum() == 3
     # a top between two of the angles is less than 1e-10 of the way above both
     assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_sizing(name):
+    """The work that swings is a difference of sums: 1e-12 of the torque's, as its mean is."""
+    machine, each = designs(name)
+    found = sizings_of_many(machine)
+    for i, one in each:
+        told, _ = sizing(Cycle(one))
+        for field in NAMES:
+            same(found.get(field), i, told[field], SUMMED)
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -68,3 +68,14 @@ def test_narrow_spans_begin_with_fewer_places():
     found = integrals_many(functions, a, b, design, np.full((1, 1), True))
     assert found[0] == pytest.approx(math.e - 1.0, rel=4e-16)
     assert places == [(1, FEW), (1, NODES)]
+
+
+def test_spans_apart():
+    """Of a design's spans the rounding of one is known to a share of them all, not of itself."""
+    design, a, b = np.array([0, 0, 1]), np.array([0.0, 1.0, 0.0]), np.array([1.0, 2.0, 3.0])
+
+    def waves(x, which):
+        return np.where((which == 1)[:, None], 1e-16 * np.sin(1e9 * x), np.cos(x))[None]
+
+    found = integrals_many(waves, a, b, design, np.full((1, 2), True), apart=True)
+    assert found[0] == pytest.approx(np.sin([1.0, 0.0, 3.0]), rel=4e-15, abs=1e-15)

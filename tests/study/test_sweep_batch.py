@@ -1,5 +1,6 @@
 """Designs worked out together are the designs one by one: values, refusals and reasons."""
 
+import math
 import os
 
 import pytest
@@ -105,6 +106,8 @@ LOADS = [
         ("unequal-steps.toml", ["load.inertia_kgm2=1,2"], 2),
         # a design without a load has none: it is asked by itself
         ("internal-z6.toml", ["load.torque_Nm=0", "load.inertia_kgm2=1,0"], 1),
+        # where a torque alone resists no sign ever changes
+        ("side-crank-z6.toml", ["load.torque_Nm=10", "drive.A=0,0.3", "load.inertia_kgm2=0"], 2),
     ],
 )
 def test_loads_together_as_alone(spec, vary, some):
@@ -127,7 +130,7 @@ GIVEN = [
     *["shaft.wheel_diameter_mm=20", "shaft.wheel_span_mm=40", "shaft.shear_stress_max_MPa=50"],
     *["material.roller.stress_max_MPa=300", "material.roller.dynamic_capacity_N=9000"],
     *["material.wheel.wear_mm3_Nm=1e-8", "load.friction=0.1", "tolerance.center_distance_mm=0.02"],
-    "shaft.crank_overhang_mm=25",
+    *["shaft.crank_overhang_mm=25", "motor.speed_variation=0.1", "motor.inertia_kgm2=0.01"],
 ]
 OTHERS = [f"{table}.{name}" for table, group in GROUPS.items() for name in group.names]
 
@@ -149,3 +152,15 @@ def test_parts_together_as_alone(spec):
         for name, a, b in zip(OTHERS, one[keys:-1], other[keys:-1], strict=True):
             near = {"abs": PLACE} if name.endswith("at_deg") else {"rel": 1e-12, "abs": 1e-13}
             assert a == b or a == pytest.approx(b, **near), name
+
+
+NOTHING = ["load.inertia_kgm2=0", "load.torque_Nm=0"]
+
+
+def test_of_designs_without_a_load_each_is_asked():
+    """Nothing rises or falls under no load; a motion's factors are known all the same."""
+    picks = ["strength.pin.stress_MPa", "sizing.motor_torque_rms_Nm", "sizing.Am"]
+    together, alone, _ = rows("internal-z6.toml", ["size.face_width_mm=10,20", *NOTHING], picks)
+    assert together == alone
+    Am = math.tan(math.pi / 6) * (4 * math.pi / 3) ** 2 / (math.pi / 3)  # at the ends, in 240°
+    assert [row[3:] for row in alone] == [[None, None, pytest.approx(Am), None]] * 2

@@ -132,7 +132,7 @@ class Loaded:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
         given, contact, shape, every = at
         wanted = every if asked is None else [every[k] for k in asked]
-        found = look(self.kinds, given, contact, forced)
+        found = look(self.kinds, given, contact, forced, every[0])
         orders = range(contact.velocity.order + 1)
         shape_in = (self.signs + len(wanted), *shape[::-1])
         values = [np.empty(shape_in).swapaxes(1, 2) for _ in orders]
@@ -175,13 +175,16 @@ def has_mirrored_path(engagement: Engagement) -> bool:
 
 
 def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:
-    """Whose signs count: of what changes nothing, none, but for those asked for as ``more``."""
+    """Whose signs count: of what changes nothing, none, but for those asked for as ``more``.
+
+    ``wanted`` is the first quantity that is wanted.
+    """
     out = []
     if not all_true(given.inertia_Nm == 0.0):
         out.append("drives")
     if given.rubs or "slides" in more:
         out.append("slides")
-    if not all_true(given.efficiency == 1.0):
+    if not all_true(given.efficiency == 1.0) or "feeds" in more:
         out.append("feeds")
     if given.rubs:
         out.append("grip")
@@ -189,11 +192,22 @@ def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> l
         out.append("edge")
     if "along" in more:
         out.append("along")
+    if "wanted" in more:
+        out.append("wanted")
     return out
 
 
-def look(kinds: Sequence[str], given: Setting, at: Contact[Jet], forced: Array | None) -> Look:
-    """What happens at a contact; ``forced`` are the signs of ``kinds`` that are known, else NaN."""
+def look(
+    kinds: Sequence[str],
+    given: Setting,
+    at: Contact[Jet],
+    forced: Array | None,
+    wanted: Wanted | None = None,
+) -> Look:
+    """What happens at a contact; ``forced`` are the signs of ``kinds`` that are known, else NaN.
+
+    ``wanted`` is the quantity whose sign may count too.
+    """
     signs: list[Array] = []
     jets: list[Jet] = []
 
@@ -221,6 +235,8 @@ def look(kinds: Sequence[str], given: Setting, at: Contact[Jet], forced: Array |
         sign("edge", found.edge)
     if "along" in kinds:
         sign("along", at.along)
+    if wanted is not None and "wanted" in kinds:
+        sign("wanted", wanted(found, at).value)
     return Look(signs, jets, found)
 
 
@@ -324,3 +340,14 @@ def mirror_images(pieces: Cuts) -> Whole:
     alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
     images: Whole = np.where(alike & alike[other], other, every)
     return images
+
+
+def to_mid_motion(engagement: Engagement, stretches: Cuts, n: int) -> Cuts:
+    """Stretches of n designs up to the mid-motion of a curved slot; searches stop short of it."""
+    if not engagement.slot.curved:
+        return stretches
+    x = stretches.x
+    for end in (engagement.entry_deg, engagement.exit_deg):
+        near = np.broadcast_to(np.ravel(NEAR * end), n)[stretches.design]
+        x = np.where(x == near, 0.0, x)
+    return stretches._replace(x=x)

@@ -50,6 +50,7 @@ from geneva_cli.numerics.roots import TIE
 from geneva_cli.numerics.signed_many import Found, search
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
@@ -157,8 +158,7 @@ def _over_all(
     own: Mapping[str, Wanted] = NONE,
 ) -> list[tuple[Array, Array, Array | None]]:
     """For each engagement the greatest values, their input angles as shown, and the integrals."""
-    given, spec = setting(mechanism), mechanism.spec
-    analytic = spec.drive.ANALYTIC and (spec.motion is None or spec.motion.law.ANALYTIC)
+    given, analytic = setting(mechanism), is_analytic(mechanism.spec)
     out = []
     for engagement in mechanism.engagements:
         every = machine(engagement, given, names, own)
@@ -167,6 +167,11 @@ def _over_all(
         shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, sums))
     return out
+
+
+def is_analytic(spec: Spec) -> bool:
+    """Whether loads are analytic within their stretches: points have knots."""
+    return spec.drive.ANALYTIC and (spec.motion is None or spec.motion.law.ANALYTIC)
 
 
 def count(every: Machine) -> int:

@@ -12,10 +12,19 @@ from geneva_cli.analysis.loads.makers_form import Load, MakersForm, makers_form
 from geneva_cli.analysis.loads.means import DRIVEN, TORQUE, means_of
 from geneva_cli.analysis.loads.quantities import KINETIC, ends_of, ends_of_each
 from geneva_cli.analysis.peaks import velocity_peak
+from geneva_cli.numerics.arrays import choose_record, larger, library
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geneva_cli.analysis.loads.cycle import Cycle
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.arrays import N
     from geneva_cli.spec.tables import Motor
+
+
+WHEEL = "wheel_inertia_kgm2"  # which parts know, and ``sizing`` does not
 
 
 class Sizing(NamedTuple):
@@ -69,12 +78,10 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
 
 def _form(cycle: Cycle) -> Sizing:
     """The makers' form, for the engagement with the greatest torque at the input."""
-    mechanism, spec = cycle.mechanism, cycle.mechanism.spec
-    friction, w = support_torque_Nm(spec), cycle.given.speed_rad_s
-    load = Load(inertia_kgm2(spec), friction, spec.load.torque_Nm, spec.motor.service_factor)
-    best: tuple[MakersForm, CamFactors] | None = None
-    for number, engagement in enumerate(mechanism.engagements):
-        step, motion = mechanism.index_deg(number), engagement.motion_deg
+    spec, w = cycle.mechanism.spec, cycle.given.speed_rad_s
+    friction = support_torque_Nm(spec)
+    peaks = []
+    for number, engagement in enumerate(cycle.mechanism.engagements):
         closed_peak = engagement.motion.closed_peak
         velocity, acceleration, power = (
             found.size
@@ -86,12 +93,8 @@ def _form(cycle: Cycle) -> Sizing:
                 ("power", KINETIC, w * w * w),
             )
         )
-        factors = cam_factors(velocity, acceleration, power, motion, step)
-        form = makers_form(factors, step, motion, spec.drive.n_rpm, load)
-        if best is None or (form.Tc, form.alpha) > (best[0].Tc, best[0].alpha):
-            best = form, factors
-    assert best is not None  # a machine has engagements
-    form, factors = best
+        peaks.append((velocity, acceleration, power))
+    form, factors = greatest_form(cycle.mechanism, peaks)
     out = Sizing(acceleration_rad_s2=form.alpha, **factors._asdict())
     if not cycle.is_loaded:
         return out
@@ -104,6 +107,34 @@ def _form(cycle: Cycle) -> Sizing:
         input_torque_Nm=form.Tc,
         power_W=w * form.Tc / lost,
     )
+
+
+def greatest_form(
+    mechanism: Mechanism, peaks: Sequence[tuple[float, float, float]]
+) -> tuple[MakersForm, CamFactors]:
+    """The makers' form with the greatest torque at the input, and its motion's factors.
+
+    ``peaks`` are each engagement's greatest velocity, acceleration, and product of both, as
+    invariants.
+    """
+    spec = mechanism.spec
+    load = Load(
+        inertia_kgm2(spec),
+        support_torque_Nm(spec),
+        spec.load.torque_Nm,
+        spec.motor.service_factor,
+    )
+    every = []
+    for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
+        step, motion = mechanism.index_deg(number), engagement.motion_deg
+        factors = cam_factors(*peak, motion, step)
+        every.append((makers_form(factors, step, motion, spec.drive.n_rpm, load), factors))
+    best, *others = every
+    for other in others:
+        (one, _), (two, _) = best, other
+        more = (two.Tc > one.Tc) | ((two.Tc == one.Tc) & (two.alpha > one.alpha))
+        best = choose_record(more, other, best)
+    return best
 
 
 def _greatest(cycle: Cycle, quantity: str, engagement: int) -> float:
@@ -124,29 +155,54 @@ def _exact(cycle: Cycle, form_torque: float | None) -> tuple[dict[str, float | N
     out["energy_fluctuation_J"] = swing
     if motor.speed_variation is not None:
         whole = flywheel_kgm2(swing, motor.speed_variation, w)
-        own = motor.inertia_kgm2 * motor.gear_ratio**2
-        out |= {"flywheel_kgm2": whole, "flywheel_to_add_kgm2": max(whole - own, 0.0)}
-    # The reducer takes its share where it drives and where it is driven. At constant speed the
-    # rotor's own inertia takes no torque.
-    eta, ratio = motor.gear_efficiency, motor.gear_ratio
-    returned = means[DRIVEN].square
-    spent = max(means[TORQUE].square - returned, 0.0)
-    out["motor_torque_max_Nm"] = max(torque.max / eta, -torque.min * eta) / ratio
-    out["motor_torque_rms_Nm"] = math.sqrt(spent / eta**2 + returned * eta**2) / ratio
+        out |= {"flywheel_kgm2": whole, "flywheel_to_add_kgm2": flywheel_to_add_kgm2(motor, whole)}
+    squares = means[TORQUE].square, means[DRIVEN].square
+    out["motor_torque_max_Nm"] = greatest_motor_torque_Nm(motor, torque.max, torque.min)
+    out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, *squares)
     size = max(torque.max, -torque.min)
     if form_torque and size:
         out["input_torque_ratio"] = form_torque / size
     return out, []
 
 
-def _inertias(cycle: Cycle, motor: Motor) -> dict[str, float | None]:
-    """What the motor feels of the wheel's inertia where it turns fastest, against its own.
+def greatest_motor_torque_Nm(motor: Motor, most: N, least: N) -> N:
+    """Of the input's greatest and least torque that which is more at the motor.
 
-    Left to coast without losses, I_input w²/2 + I psi1² w²/2 stays: w = w0/sqrt(1 + mu psi1²).
+    The reducer takes its share where it drives and where it is driven. At constant speed the
+    rotor's own inertia takes no torque.
     """
+    eta = motor.gear_efficiency
+    return larger(most / eta, -least * eta) / motor.gear_ratio
+
+
+def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
+    """Of the means of the square of the input's torque, and of that where the wheel drives it."""
+    eta = motor.gear_efficiency
+    spent = larger(square - returned, 0.0 * square)
+    mean = spent / eta**2 + returned * eta**2
+    return library(mean).sqrt(mean) / motor.gear_ratio
+
+
+def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
+    """What the flywheel in all needs besides the motor's own inertia, seen at the input."""
+    left = whole - motor.inertia_kgm2 * motor.gear_ratio**2
+    return larger(left, 0.0 * left)
+
+
+def _inertias(cycle: Cycle, motor: Motor) -> dict[str, float | None]:
     if not motor.inertia_kgm2:
         return {}
     fastest = max(velocity_peak(engagement).max for engagement in cycle.mechanism.engagements)
-    felt = inertia_kgm2(cycle.mechanism.spec) * (fastest / motor.gear_ratio) ** 2
-    mu = felt / motor.inertia_kgm2
-    return {"inertia_ratio": mu, "coasting_speed_share": 1.0 / math.sqrt(1.0 + mu)}
+    ratio, share = inertia_ratio(cycle.mechanism.spec, fastest)
+    return {"inertia_ratio": ratio, "coasting_speed_share": share}
+
+
+def inertia_ratio(spec: Spec, fastest: N) -> tuple[N, N]:
+    """What the motor feels of the wheel's inertia where it turns fastest, against its own.
+
+    ``fastest`` is the greatest velocity psi1. Left to coast without losses, I_input w²/2 +
+    I psi1² w²/2 stays: w = w0/sqrt(1 + mu psi1²), which is the second number's w/w0.
+    """
+    turn = fastest / spec.motor.gear_ratio
+    mu = inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2
+    return mu, 1.0 / library(mu).sqrt(1.0 + mu)

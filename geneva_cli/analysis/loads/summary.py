@@ -20,7 +20,7 @@ from geneva_cli.analysis.loads.quantities import (
     ends_of,
     known_quantities,
 )
-from geneva_cli.analysis.loads.sizing import sizing
+from geneva_cli.analysis.loads.sizing import WHEEL, sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.errors import Caution
 from geneva_cli.table import Table, pieces, record_table, rows_table
@@ -196,9 +196,9 @@ def loads_table(
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
     bought, needed = sizing(cycle)
-    bought["wheel_inertia_kgm2"] = wheel_inertia_kgm2
+    bought[WHEEL] = wheel_inertia_kgm2
     if cycle.is_loaded and wheel_inertia_kgm2 is None:
-        needed = [*needed, f"wheel_inertia_kgm2: {_unweighed(spec)}"]
+        needed = [*needed, f"{WHEEL}: {_unweighed(spec)}"]
     for group, answers in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)

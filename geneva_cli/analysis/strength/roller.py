@@ -87,9 +87,11 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
 def turns_back(engagement: Engagement) -> bool:
     """Whether a roller may turn back in its slot elsewhere than at mid-motion.
 
-    One on a crank's arm does not, and of a curved slot both ways begin there.
+    One on a crank's arm does not, unless its motion is tilted: it turns on the line of centres. Of
+    a curved slot both ways begin at mid-motion.
     """
-    return is_straight(engagement) and not all_true(engagement.crank_sense == 0.0)
+    on_arm = all_true(engagement.crank_sense == 0.0)
+    return is_straight(engagement) and not (on_arm and engagement.motion.symmetric)
 
 
 def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:

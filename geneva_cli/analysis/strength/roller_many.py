@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR, contact
+from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
@@ -27,6 +27,7 @@ from geneva_cli.analysis.loads.loaded_many import (
     machine,
     spans_of,
     stretches_of,
+    to_mid_motion,
 )
 from geneva_cli.analysis.loads.many import GROUP, NONE, count
 from geneva_cli.analysis.strength.roller import Passage, passing, turns_back
@@ -66,11 +67,8 @@ def _group(every: Machine, n: int) -> Array:
     spans = spans_of(engagement, n)
     known = at_mid_motion(load, n) if engagement.slot.curved else []
     found = search(load, spans, n, True, known)
-    design, _, (a, b), positive = stretches_of(load, spans, found.cuts)
-    if engagement.slot.curved:  # values have no need to keep away from mid-motion
-        for end in (engagement.entry_deg, engagement.exit_deg):
-            near = np.broadcast_to(np.ravel(NEAR * end), n)[design]
-            a, b = (np.where(x == near, 0.0, x) for x in (a, b))
+    whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
+    design, _, (a, b), positive = whole
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:

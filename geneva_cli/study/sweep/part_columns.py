@@ -17,6 +17,8 @@ from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.quantities import PV
+from geneva_cli.analysis.loads.sizing_many import NAMES as SIZING
+from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.strength import pin as pins
 from geneva_cli.analysis.strength import roller, shafts
@@ -156,6 +158,13 @@ def _reversal(machine: Mechanism, asked: Collection[str]) -> Columns:
     return {**_blows(machine, reversal_blows(machine)), "drag_Nm": drag}
 
 
+def _sizing(machine: Mechanism, asked: Collection[str]) -> Columns:
+    """NaN where nothing resists the wheel: its design says which values it has."""
+    loaded = _loaded(machine)
+    found = sizings_of_many(machine, asked)
+    return {name: np.where(np.isnan(row), np.inf, row) * loaded for name, row in found.items()}
+
+
 def _slot(machine: Mechanism, asked: Collection[str]) -> Columns:
     found = positive_drives(machine)
     if found is None:
@@ -192,6 +201,7 @@ GROUPS = {
     "vibration": Group(Vibrations._fields, _vibration),
     "shock.entry": Group(Blow._fields, _entry),
     "shock.reversal": Group((*Blow._fields, "drag_Nm"), _reversal),
+    "sizing": Group(SIZING, _sizing),
     "slot": Group(SLOT, _slot),
     # what the random machines of a study tell is told of each design alone
     "tolerance.motion_play": Group(("worst_deg", "rss_deg"), _play),

@@ -1,0 +1,123 @@
+"""How far the input's work swings about its mean in many designs: ``fluctuation_J`` of each.
+
+Motions are cut where the torque is its mean, too, and integrated between to the last digits.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
+    >>> found = many(spec, {"wheel.z": np.array([4, 6])}).machine
+    >>> swings_of_many(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
+    array([230.09708 ,  39.478418])
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import Contact
+from geneva_cli.analysis.loads.forces import Row, Setting, setting
+from geneva_cli.analysis.loads.instant import Instant
+from geneva_cli.analysis.loads.loaded_many import (
+    Loaded,
+    at_mid_motion,
+    look,
+    machine,
+    spans_of,
+    stretches_of,
+    to_mid_motion,
+)
+from geneva_cli.analysis.loads.many import GROUP, is_analytic
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.signed_many import search
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.jet import Array
+
+UNEVEN = ("unevenness_Nm",)
+
+
+class Unevenness(NamedTuple):
+    """The input's torque less its mean, which is (m, 1)."""
+
+    mean: Array
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The quantity, and what bounds it."""
+        return Row(i.input_torque_Nm - self.mean, i.held)
+
+
+class Swings(NamedTuple):
+    """Of m designs, (m,) each."""
+
+    energy_J: Array  # greatest minus least of the cumulated work less its mean line
+    returned: Array  # integral over the period of the torque's square where the wheel drives
+
+
+def swings_of_many(mechanism: Mechanism, mean: Array) -> Swings:
+    """Of designs the means (m,) of whose input torque are known; of one without a mean infinite."""
+    parts = []
+    for i in range(0, len(mean), GROUP):
+        part = slice(i, i + GROUP)
+        parts.append(_group(taken(mechanism, part), mean[part]))
+    return Swings(*(np.concatenate(row) for row in zip(*parts, strict=True)))
+
+
+def _group(mechanism: Mechanism, mean: Array) -> Swings:
+    """The sums, in the order of the period, of the works between places of the mean."""
+    bounded = np.isfinite(mean)
+    mean = np.where(bounded, mean, 0.0)[:, None]
+    given, analytic, end = setting(mechanism), is_analytic(mechanism.spec), None
+    parts, returned = [0.0 * mean], np.zeros(len(mean))
+    for engagement in mechanism.engagements:
+        if end is not None:
+            dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
+            parts.append(-mean * dwell)
+        works, back = _works(engagement, given, mean, bounded, analytic)
+        parts.append(works)
+        returned += back
+        end = engagement.mid_deg + engagement.exit_deg
+    sums = np.cumsum(np.hstack(parts), axis=1)
+    energy = sums.max(axis=1) - sums.min(axis=1)
+    return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
+
+
+def _works(
+    engagement: Engagement, given: Setting, mean: Array, bounded: Mask, analytic: bool
+) -> tuple[Array, Array]:
+    """Works less the mean's in joules, a row a design with zeros at its end; and what returns."""
+    n = len(mean)
+    every = machine(engagement, given, UNEVEN, {UNEVEN[0]: Unevenness(mean)})
+    load = Loaded(every, UNEVEN, ("feeds", "wanted"))
+    spans = spans_of(engagement, n)
+    known = at_mid_motion(load, n) if engagement.slot.curved else []
+    found = search(load, spans, n, True, known)
+    whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
+    design, _, (a, b), positive = whole
+    signs = np.where(positive, 1.0, -1.0)
+
+    def rows(x: Array, which: Whole) -> Array:
+        some, at, _, (uneven,) = load.at(x, design[which], 0)
+        here = look(load.kinds, some, at, signs[:, which, None]).instant
+        back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
+        return np.stack(np.broadcast_arrays(uneven(here, at).value.c[0], back * back))
+
+    asked = np.stack((bounded, bounded))
+    with np.errstate(all="ignore"):
+        each = integrals_many(rows, a, b, design, asked, True, analytic, apart=True) * DEGREE
+    first = np.searchsorted(design, np.arange(n))
+    number = np.arange(len(design)) - first[design]
+    works = np.zeros((n, int(number.max()) + 1))
+    works[design, number] = each[0]
+    returned = np.zeros(n)
+    np.add.at(returned, design, each[1])
+    return works, returned
