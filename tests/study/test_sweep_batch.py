@@ -106,8 +106,6 @@ LOADS = [
         ("unequal-steps.toml", ["load.inertia_kgm2=1,2"], 2),
         # a design without a load has none: it is asked by itself
         ("internal-z6.toml", ["load.torque_Nm=0", "load.inertia_kgm2=1,0"], 1),
-        # where a torque alone resists no sign ever changes
-        ("side-crank-z6.toml", ["load.torque_Nm=10", "drive.A=0,0.3", "load.inertia_kgm2=0"], 2),
     ],
 )
 def test_loads_together_as_alone(spec, vary, some):
@@ -164,3 +162,15 @@ def test_of_designs_without_a_load_each_is_asked():
     assert together == alone
     Am = math.tan(math.pi / 6) * (4 * math.pi / 3) ** 2 / (math.pi / 3)  # at the ends, in 240°
     assert [row[3:] for row in alone] == [[None, None, pytest.approx(Am), None]] * 2
+
+
+def test_where_a_torque_alone_resists():
+    """No sign ever changes."""
+    picks = ["loads.pin_force_N.max", "sizing.motor_torque_rms_Nm", "sizing.energy_fluctuation_J"]
+    together, alone, found = rows(
+        "side-crank-z6.toml", ["drive.A=0,0.3", "load.torque_Nm=10"], picks
+    )
+    every = found.plan.rows(0, 2)
+    assert len(batch.table(every, ["drive.A", "load.torque_Nm"], picks, found._spec)) == 2
+    for one, other in zip(together, alone, strict=True):
+        assert one[:-1] == pytest.approx(other[:-1], rel=1e-12)
