@@ -12,6 +12,7 @@ from design_arrays import MACHINES, alone, drawn
 
 from geneva_cli.analysis import blows, change_of_sides, undercut
 from geneva_cli.analysis import positive_drive as positive
+from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import NAMES, sizings_of_many
@@ -113,6 +114,23 @@ def test_shocks(name):
         records(back, i, blows.reversal_blow(one))
         # what the inertia asks for less what resists: in units of either
         same(drag, i, change_of_sides.lasting_drag_Nm(one), size=one.spec.load.torque_Nm)
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_states(name):
+    machine, each = designs(name)
+    for number, engagement in enumerate(machine.engagements):
+        x = engagement.entry_deg + engagement.motion_deg * np.linspace(0.0, 1.0, 6)
+        found, first = loads.state(machine, engagement, x), loads.state(machine, engagement, -1.0)
+        for i, one in each:
+            own = np.broadcast_to(x, (i + 1, 6))[i]
+            told = loads.state(one, one.engagements[number], own)
+            at = loads.state(one, one.engagements[number], -1.0)
+            for name_, rows in told._asdict().items():
+                both = (np.atleast_2d(v._asdict()[name_]) for v in (found, first))
+                here, there = (v[min(i, len(v) - 1)] for v in both)
+                assert here == pytest.approx(rows, rel=SEARCHED, abs=SEARCHED), name_
+                assert there == pytest.approx([at._asdict()[name_]], rel=SEARCHED), name_
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -41,7 +41,10 @@ class State(NamedTuple):
 
 
 def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> State:
-    """An engagement's loads at an input angle from its mid-motion, or at an array of angles."""
+    """An engagement's loads at an input angle from its mid-motion, or at an array of angles.
+
+    Of m designs at k angles (m, k), at one (m, 1); without the m what is alike in all.
+    """
     import numpy as np
 
     given = setting(mechanism)
@@ -55,14 +58,16 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> St
         found = forces(given, at, drives, slides)
         held = found.grip.c[0] > 0.0
         force = np.where(held, found.force.c[0], bound)
-        rubbed = np.where(held, found.shaft.c[0], bound) if given.friction else found.shaft.c[0]
+        free = np.equal(given.friction, 0.0)
+        rubbed = np.where(held | free, found.shaft.c[0], bound)
         shaft = rubbed / np.where(rubbed > 0.0, given.efficiency, 1.0)
         stress = None
         if found.edge is not None and found.square is not None:
             square = np.where(held & (found.edge.c[0] > 0.0), found.square.c[0], bound)
             stress = np.sqrt(square)
     pressure: Array = np.degrees(np.arctan2(np.abs(at.aside.c[0]), at.lever.c[0])) + 0.0 * x
-    if isinstance(input_deg, (int, float)):
+    every = (torque, force, shaft, pressure)
+    if isinstance(input_deg, (int, float)) and all(value.ndim < 2 for value in every):
         one = None if stress is None else float(stress[0])
         return State(float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0]))
     return State(torque, force, shaft, stress, pressure)

@@ -18,6 +18,8 @@ has none. Without clearance the
 arcs lie on each other as they do once they have worn in. The pressure then goes with the sine of
 the angle from the line of centres, as the wear of a wheel that turns a little does: the greatest is
 2 M sin phi/(b R L (phi - sin phi cos phi)).
+
+Of one design, as the sizes of its parts are, which are found one design after the other.
 """
 
 from __future__ import annotations
