@@ -1,4 +1,7 @@
-"""The characteristic values of the motion laws: C_v, C_a, C_j and C_p, and a cam form's factors."""
+"""The characteristic values of the motion laws: C_v, C_a, C_j and C_p, and a cam form's factors.
+
+Of one law, for the table of them; the peaks of many machines' motions are in ``peaks_many``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""The wheel's position, velocity, acceleration and jerk over a whole period of the machine."""
+"""The wheel's position, velocity, acceleration and jerk over a whole period of the machine.
+
+Of one design, as each has its motions and dwells in other rows; an engagement's own ``motion``
+answers for many.
+"""
 
 from __future__ import annotations
 
