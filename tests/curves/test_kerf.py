@@ -136,7 +136,8 @@ def test_no_path_crosses_itself(corners, kerf, outside):
     assert LinearRing(vertices(path, SAGITTA)).is_simple
     nominal, made = polygon(shape), cut(path, outside, kerf)
     inner, outer = (nominal, made) if outside else (made, nominal)
-    assert outer.buffer(MICRON).contains(inner)
+    # of a corner as sharp as d, shapely's chords leave a tip of SAGITTA² cot(d/2)
+    assert inner.difference(outer.buffer(MICRON)).area < MICRON**2
 
 
 def test_a_slot_is_as_wide_as_it_was():

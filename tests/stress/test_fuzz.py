@@ -143,9 +143,9 @@ FILES = [
 ]
 # a file, an option, an argument's name or its text, or the usage of the whole
 FILE = r"(spec|other|gone)\.toml|law\.csv|x+\.*x*\.csv|\.:|/|<std\w+>|'a\\x00b'"
-TEXT = r'"[^"]*" is no '
+TEXT = r'".*" is no '
 PLACES = re.compile(
-    rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}|{TEXT}|\S+: cannot (read|write)"
+    rf"Usage: |(unknown )?KIND|--?[\w-]+|SPEC|{FILE}|{TEXT}|[^:]+: cannot (read|write)"
 )
 
 
