@@ -129,7 +129,7 @@ def test_elliptical_gears_make_both_gearings_alike():
 
 def test_tau_of_one_roller_outside():
     """From 1/6 to 11/24 for z = 3 to 24, one plain crank for each."""
-    for z in (*range(3, 13), 17, 24):
+    for z in (3, 4, 5, 6, 7, 9, 12, 24):
         tau = Fraction(z - 2, 2 * z)
         near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
         (candidate,) = plain(candidates(tau=str(tau), external=True, rollers=1, z=near))
