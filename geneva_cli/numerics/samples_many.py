@@ -92,8 +92,8 @@ class Samples(NamedTuple):
         one, two, three = (self._three(index, odd + i) for i in (-1, 0, 1))
         missed = unpredicted(one, two, three, low[:, row], high[:, row])
         if held is not None:
-            three_ = (self._at(index, odd + i, held) for i in (-1, 0, 1))
-            missed &= bounded[:, row] | np.logical_and.reduce(list(three_))
+            within = [self._at(index, odd + i, held) for i in (-1, 0, 1)]
+            missed &= bounded[:, row] | np.logical_and.reduce(within)
         alone |= missed.any(axis=0)
         found[row[alone], column[alone]] = True
         return found & ~differ

@@ -170,14 +170,24 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
-        return max(room - min(r, room / 5.0), 0.5 * (room + least))
-    if not least < size.lock_radius_mm < room:
+        return lock_between(least, room, r)
+    require_lock_between(size.lock_radius_mm, least, room)
+    return size.lock_radius_mm
+
+
+def lock_between(least: float, room: float, roller: float) -> float:
+    """The reach of a lock that is not given: into the rim, and a horn's breadth off the slot."""
+    return max(room - min(roller, room / 5.0), 0.5 * (room + least))
+
+
+def require_lock_between(lock_radius_mm: float, least: float, room: float) -> None:
+    """Raise GenevaError where a lock that is given does not reach the rim, or leaves no horn."""
+    if not least < lock_radius_mm < room:
         raise GenevaError(
-            f"lock_radius_mm = {size.lock_radius_mm:g}: it must be above {least:.6g}, to reach "
+            f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g}, to reach "
             f"into the rim, and below {room:.6g}, to leave a horn beside the slot; or 0 for none",
             ("size", "lock_radius_mm"),
         )
-    return size.lock_radius_mm
 
 
 def _refuse(assembly: Assembly, found: Sizes) -> None:

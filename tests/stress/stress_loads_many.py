@@ -8,13 +8,12 @@ that knows no search, of other places in each design. One row a machine; the exi
 a place of the scan passes an extreme.
 """
 
-import argparse
 import math
 import sys
 import time
 
-from design_arrays import MACHINES
 from loaded_arrays import beyond, loaded
+from many_options import options
 
 CHUNK = 4_096  # designs built together
 PLACES = 200
@@ -38,14 +37,10 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--designs", type=int, default=20_000, help="of each machine")
-    parser.add_argument("--machine", action="append", choices=list(MACHINES))
-    parser.add_argument("--seconds", type=float, default=math.inf, help="for each machine, of CPU")
-    asked = parser.parse_args()
+    asked = options(__doc__)
     print(f"{'machine':26}{'designs':>10}{'missed':>8}{'passed by':>12}{'CPU s':>8}")
     wrong = False
-    for name in asked.machine or MACHINES:
+    for name in asked.machine:
         done, missed, most, seconds = stressed(name, asked.designs, seconds=asked.seconds)
         print(f"{name:26}{done:>10}{missed:>8}{most:>12.1e}{seconds:>8.0f}", flush=True)
         wrong |= bool(missed)

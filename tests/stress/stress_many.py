@@ -14,7 +14,6 @@ parts, and some at distances of all orders of magnitude from the motion's ends a
 found. What some hundred designs would hide, a peak ever so narrow, a million show.
 """
 
-import argparse
 import math
 import sys
 import time
@@ -23,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 from design_arrays import MACHINES, alone, drawn
 from machine_witness import motions
+from many_options import options
 from witness import QUANTITIES as EXACT
 
 from geneva_cli.analysis.peaks_many import peaks_of_many
@@ -120,14 +120,10 @@ def errors(true, peaks, row):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--designs", type=int, default=20_000, help="of each machine")
-    parser.add_argument("--machine", action="append", choices=list(MACHINES))
-    parser.add_argument("--seconds", type=float, default=math.inf, help="for each machine, of CPU")
-    asked = parser.parse_args()
+    asked = options(__doc__)
     print(f"{'machine':26}{'designs':>10}{'missed':>8}{'short':>10}{'error':>10}{'CPU s':>8}")
     wrong = False
-    for name in asked.machine or MACHINES:
+    for name in asked.machine:
         row = stressed(name, asked.designs, seconds=asked.seconds)
         error = "-" if row.worst is None else f"{row.worst:.1e}"
         print(

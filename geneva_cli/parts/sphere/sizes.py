@@ -14,7 +14,7 @@ from geneva_cli.curves.sphere import Vector, place
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
-from geneva_cli.parts.sizes import thicknesses
+from geneva_cli.parts.sizes import lock_between, require_lock_between, thicknesses
 from geneva_cli.spec.tables import Z_DRAWN
 
 LEAST_HORN = 1e-3  # of the roller's angle: a horn at the rim thinner than this is none
@@ -139,13 +139,8 @@ def _lock(mechanism: Mechanism, room: float, least: float, roller: float) -> flo
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
-        return max(room - min(roller, room / 5.0), 0.5 * (room + least))
-    if not low < size.lock_radius_mm < high:
-        raise GenevaError(
-            f"lock_radius_mm = {size.lock_radius_mm:g}: it must be above {low:.6g}, to reach "
-            f"into the rim, and below {high:.6g}, to leave a horn beside the slot; or 0 for none",
-            ("size", "lock_radius_mm"),
-        )
+        return lock_between(least, room, roller)
+    require_lock_between(size.lock_radius_mm, low, high)
     return math.asin(size.lock_radius_mm / L)
 
 
