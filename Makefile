@@ -65,7 +65,7 @@ fuzz: .venv/dev
 	@mkdir -p build
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
-	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 20000 --jobs 2 --state build/fuzz-play.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
 bench-start: .venv/dev

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -54,9 +55,14 @@ class Gaps:
         self.near = NEAR * assembly.L
         self.left = math.inf
         self._sector()
-        sagitta, longest = SAGITTA * assembly.L, LONGEST * assembly.L
         self.crank = Polyarc(crank) if crank else None
-        self.wheel_points = self.wheel.samples(sagitta, longest)
+
+    @cached_property
+    def wheel_points(self) -> Array:
+        """Points along the wheel's outline that come near to the locking disc, (n, 2)."""
+        L = self.assembly.L
+        points = self.wheel.samples(SAGITTA * L, LONGEST * L)
+        return points[np.hypot(*points.T) >= L - self.sizes.lock]
 
     def begin(self) -> None:
         """Count work from here on; more than WORK raises NotProved."""
