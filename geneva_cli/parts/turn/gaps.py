@@ -62,7 +62,8 @@ class Gaps:
         """Points along the wheel's outline that come near to the locking disc, (n, 2)."""
         L = self.assembly.L
         points = self.wheel.samples(SAGITTA * L, LONGEST * L)
-        return points[np.hypot(*points.T) >= L - self.sizes.lock]
+        near: Array = points[np.hypot(*points.T) >= L - self.sizes.lock]
+        return near
 
     def begin(self) -> None:
         """Count work from here on; more than WORK raises NotProved."""
