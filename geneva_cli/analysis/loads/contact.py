@@ -49,7 +49,12 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
         found = _beside(engagement, input_deg, 0, rates)
     else:
         found = contact(engagement, input_deg)
-    *jets, holds = found
+    return valued(found)
+
+
+def valued(at: Contact[Jet]) -> Contact[Array]:
+    """The values of a contact's jets."""
+    *jets, holds = at
     held = holds and [[(x.c[0], y.c[0]) for x, y in pair] for pair in holds]
     return Contact._make([*[jet.c[0] for jet in jets], held])
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
-from geneva_cli.analysis.loads.instant import Instant, bounded, instant, values
+from geneva_cli.analysis.loads.instant import NAMES, Instant, bounded, values
 from geneva_cli.analysis.loads.peaks import looked
 from geneva_cli.analysis.loads.stretches import Stretch, cusps, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
@@ -88,18 +88,18 @@ class Cycle:
         Infinite where nothing bounds a force: where friction alone holds the wheel, and at
         mid-motion of a curved slot that lies across the roller's path.
         """
-        out: list[Array | None] = [np.zeros(len(input_deg)) for _ in Instant._fields]
+        out: dict[str, Array | None] = {name: np.zeros(len(input_deg)) for name in NAMES}
         for span in spans(self.mechanism, input_deg):
             local = local_deg(span, input_deg)
             if not len(local):
                 continue
-            for i, row in enumerate(self.moving(span.engagement, local)):
-                total = out[i]
+            for name, row in self.moving(span.engagement, local).quantities().items():
+                total = out[name]
                 if row is None or total is None:
-                    out[i] = None
+                    out[name] = None
                 else:
                     total[span.moves] = row
-        return Instant._make(out)
+        return Instant.known(out)
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
@@ -109,7 +109,7 @@ class Cycle:
         slides = np.copysign(1.0, sliding(at, drives, given.radius))
         feeds = np.copysign(1.0, drives * gain(given, at, drives, slides))
         with np.errstate(all="ignore"):
-            return bounded(instant(given, at, drives, slides, feeds))
+            return bounded(Instant(given, at, drives, slides, feeds))
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
@@ -118,7 +118,7 @@ class Cycle:
         """
         with np.errstate(all="ignore"):
             at = contacts(engagement, input_deg)
-            return bounded(instant(self.given, at, stretch.drives, stretch.slides, stretch.feeds))
+            return bounded(Instant(self.given, at, stretch.drives, stretch.slides, stretch.feeds))
 
     def look(self, quantities: Mapping[str, Quantity]) -> None:
         """Search the extremes of each quantity over each motion, without the dwells."""
@@ -144,7 +144,7 @@ class Cycle:
         """Two rows a quantity: it and its negative, whose maxima are its two extremes."""
 
         def rows(at: Contact[Jet], drives: Number, slides: Number, feeds: Number) -> list[Row[Jet]]:
-            found = instant(self.given, at, drives, slides, feeds)
+            found = Instant(self.given, at, drives, slides, feeds)
             out = []
             for quantity in quantities:
                 row = quantity(found)
@@ -167,7 +167,7 @@ class Cycle:
             def rows(
                 x: Array, span: Whole, engagement: Engagement = engagement, signs: Array = signs
             ) -> list[Array]:
-                here = values(instant(self.given, contact(engagement, x), *signs[:, span]))
+                here = values(Instant(self.given, contact(engagement, x), *signs[:, span]))
                 return [f(here) for f in of]
 
             found = integrals(rows, [(p.start, p.end) for p in pieces])

@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.instant import instant, values
+from geneva_cli.analysis.loads.instant import Instant, values
 from geneva_cli.analysis.loads.means import TORQUE, means_of
 from geneva_cli.analysis.loads.stretches import stretches, whole
 from geneva_cli.analysis.loads.zeros import zeros
@@ -84,7 +84,7 @@ def _work(
 
     def torque(x: Array, span: Whole) -> Array:
         at = contact(engagement, x, reactions=False)
-        return values(instant(given, at, *signs[:, of[span]])).input_torque_Nm
+        return values(Instant(given, at, *signs[:, of[span]])).input_torque_Nm
 
     works = integral_of_each(torque, spans)
     return [(work * DEGREE, (b - a) * DEGREE) for work, (a, b) in zip(works, spans, strict=True)]
@@ -101,7 +101,7 @@ def _crossings(cycle: Cycle, engagement: Engagement, samples: Scan, mean: float)
 
     def above(x: Array, span: Whole) -> tuple[Array, Array]:
         at = contact(engagement, x, 1, reactions=False)
-        value, slope = instant(given, at, *signs[:, span]).input_torque_Nm.arrays()
+        value, slope = Instant(given, at, *signs[:, span]).input_torque_Nm.arrays()
         return value - mean, slope * DEGREE
 
     found = samples._replace(value=samples.value - mean)

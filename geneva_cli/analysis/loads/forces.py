@@ -13,6 +13,7 @@ that carries it, rubs along the wall: v = M' . t - d r (rate of that body - rate
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Generic, NamedTuple
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
@@ -117,20 +118,6 @@ class Row(NamedTuple, Generic[V]):
     way: Number = 1.0
 
 
-class Forces(NamedTuple, Generic[V]):
-    """Jets, or their values. Forces have no bound where ``grip`` <= 0, stresses where ``edge`` is.
-
-    There friction alone holds the wheel, or the wall is more sharply curved than the roller.
-    """
-
-    torque: V  # that the wheel needs
-    grip: V  # torque on the wheel over L times the pin force
-    force: V
-    shaft: V  # torque on the input shaft, before the efficiency
-    edge: V | None  # 1 - curvature of the bearing wall's pitch curve times the roller's radius
-    square: V | None  # of the contact stress
-
-
 def value(quantity: V) -> Number:
     """A jet's value; a value as it is."""
     return quantity.c[0] if isinstance(quantity, Jet) else quantity
@@ -159,17 +146,60 @@ def _grip(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
     return at.lever + rub * (at.aside * drives - at.arm * given.radius)
 
 
-def forces(given: Setting, at: Contact[V], drives: Number, slides: Number) -> Forces[V]:
-    """The forces, for a torque of the sign ``drives`` and a sliding of the sign ``slides``."""
-    torque = wheel_torque(given, at)
-    grip, shaft = _grip(given, at, drives, slides), torque * at.velocity
-    force = torque * drives / (grip * given.L)
-    if given.rubs:
-        rub = at.touches * (given.friction * slides)
-        shaft = shaft + force * rub * sliding(at, drives, given.radius) * given.L
-    if given.hertz is None:
-        return Forces(torque, grip, force, shaft, None, None)
-    # R_e of a wall at the roller's radius from its pitch curve, of curvature k towards the wall, is
-    # r (1 - k r): 1/r + k/(1 - k r) = 1/(r (1 - k r)).
-    edge = 1.0 - at.curvature * (drives * given.radius)
-    return Forces(torque, grip, force, shaft, edge, force * at.touches * given.hertz / edge)
+class Forces(Generic[V]):
+    """What acts for a torque of the sign ``drives`` and a sliding of the sign ``slides``.
+
+    Jets, or their values; each is worked out when it is first asked for. Forces have no bound where
+    ``grip`` <= 0, stresses where ``edge`` is: there friction alone holds the wheel, or the wall is
+    more sharply curved than the roller.
+    """
+
+    at: Contact[V]
+
+    def __init__(self, given: Setting, at: Contact[V], drives: Number, slides: Number) -> None:
+        self.given, self.at, self.drives, self.slides = given, at, drives, slides
+
+    @cached_property
+    def torque(self) -> V:
+        """That the wheel needs."""
+        return wheel_torque(self.given, self.at)
+
+    @cached_property
+    def sliding(self) -> V:
+        """Speed at which the roller rubs along the wall, over L, per input radian."""
+        return sliding(self.at, self.drives, self.given.radius)
+
+    @cached_property
+    def grip(self) -> V:
+        """Torque on the wheel over L times the pin force."""
+        return _grip(self.given, self.at, self.drives, self.slides)
+
+    @cached_property
+    def force(self) -> V:
+        """On the pin, along the wall's normal."""
+        return self.torque * self.drives / (self.grip * self.given.L)
+
+    @cached_property
+    def shaft(self) -> V:
+        """Torque on the input shaft, before the efficiency."""
+        shaft = self.torque * self.at.velocity
+        if not self.given.rubs:
+            return shaft
+        rub = self.at.touches * (self.given.friction * self.slides)
+        return shaft + self.force * rub * self.sliding * self.given.L
+
+    @cached_property
+    def edge(self) -> V | None:
+        """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
+        # R_e of a wall at the roller's radius from its pitch curve, of curvature k towards the
+        # wall, is r (1 - k r): 1/r + k/(1 - k r) = 1/(r (1 - k r)).
+        if self.given.hertz is None:
+            return None
+        return 1.0 - self.at.curvature * (self.drives * self.given.radius)
+
+    @cached_property
+    def square(self) -> V | None:
+        """Of the contact stress; None without a face width."""
+        if self.given.hertz is None or self.edge is None:
+            return None
+        return self.force * self.at.touches * self.given.hertz / self.edge

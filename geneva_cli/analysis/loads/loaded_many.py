@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import NEAR, Contact, column, contact, mirrored
 from geneva_cli.analysis.loads.cycle import Quantity
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
-from geneva_cli.analysis.loads.instant import Instant, instant
+from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
 from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
@@ -228,7 +228,7 @@ def look(
     feeds: Number = 1.0
     if "feeds" in kinds:
         feeds = sign("feeds", gain(given, at, drives, slides) * drives)
-    found = instant(given, at, drives, slides, feeds)
+    found = Instant(given, at, drives, slides, feeds)
     if "grip" in kinds:
         sign("grip", found.grip)
     if "edge" in kinds and found.edge is not None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
-from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, forces, setting, sliding
+from geneva_cli.analysis.loads.forces import Forces, Greatest, Row, Setting, setting, sliding
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
@@ -55,7 +55,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> St
     slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
     bound = np.where(torque == 0.0, 0.0, np.inf)
     with np.errstate(all="ignore"):
-        found = forces(given, at, drives, slides)
+        found = Forces(given, at, drives, slides)
         held = found.grip.c[0] > 0.0
         force = np.where(held, found.force.c[0], bound)
         free = np.equal(given.friction, 0.0)
@@ -93,7 +93,7 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
     from geneva_cli.analysis.loads.peaks import maxima
 
     def rows(at: Contact[Jet], drives: Number, slides: Number, _: Number) -> list[Row[Jet]]:
-        found = forces(given, at, drives, slides)
+        found = Forces(given, at, drives, slides)
         grip = found.grip if given.friction else None
         slope = at.aside / at.lever
         out = [
@@ -162,7 +162,7 @@ def _slowness(
     unit = given._replace(inertia_Nm=0.0, resists_Nm=1.0)
 
     def rows(at: Contact[Jet], drives: Number, slides: Number, _: Number) -> list[Row[Jet]]:
-        found = forces(unit, at, drives, slides)
+        found = Forces(unit, at, drives, slides)
         needed = at.acceleration * given.inertia_Nm
         held: list[tuple[float, Jet]] = []
         if force_max:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, is_straight
-from geneva_cli.analysis.loads.forces import forces, setting, sliding
+from geneva_cli.analysis.loads.forces import Forces, setting, sliding
 from geneva_cli.analysis.loads.stretches import Signs, whole
 from geneva_cli.numerics.arrays import all_true, first_of, parameter
 from geneva_cli.numerics.quadrature import integrals
@@ -96,7 +96,7 @@ def turns_back(engagement: Engagement) -> bool:
 
 def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
     """What is integrated over a passage, at places where torque and sliding have these signs."""
-    found = forces(given, at, drives, slides)
+    found = Forces(given, at, drives, slides)
     rubs = abs(sliding(at, drives, given.radius).arrays()[0]) * given.L
     with np.errstate(all="ignore"):
         force = np.where(found.grip.c[0] > 0.0, found.force.c[0], np.inf) * at.touches.c[0]

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import Row, setting
-from geneva_cli.analysis.loads.instant import instant
+from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.peaks import maxima
 from geneva_cli.numerics.arrays import first_of, parameter
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geneva_cli.analysis.loads.contact import Contact
-    from geneva_cli.analysis.loads.instant import Instant
     from geneva_cli.analysis.loads.loaded_many import Wanted
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import N
@@ -137,7 +136,7 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     wanted, known = _wanted(mechanism, ends, loaded).values(), setting(mechanism)
 
     def rows(at: Contact[Jet], *signs: Number) -> list[Row[Jet]]:
-        i = instant(known, at, *signs)
+        i = Instant(known, at, *signs)
         return [one(i, at) for one in wanted]
 
     both, at_deg, most = -1.0, 0.0, 0.0
