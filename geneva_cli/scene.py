@@ -109,7 +109,7 @@ class Push(NamedTuple):
     force_y: tuple[float, ...]
 
 
-class State(NamedTuple):
+class Phase(NamedTuple):
     """What the wheel does over a stretch of the input, in words."""
 
     start: float
@@ -132,6 +132,6 @@ class Scene(NamedTuple):
     rollers: tuple[Place, ...]
     roller_radius: float
     pushes: tuple[Push, ...]
-    states: tuple[State, ...]
+    states: tuple[Phase, ...]
     figure: Figure
     box: Box  # of all that is ever seen

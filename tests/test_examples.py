@@ -13,7 +13,7 @@ import repo
 import geneva_cli
 from geneva_cli import Design, Motion, Spec
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.spec.schema import Table
+from geneva_cli.spec.schema import SpecTable
 
 ROOT = os.path.dirname(geneva_cli.__file__)
 
@@ -32,7 +32,7 @@ def with_examples():
 OFFERED = {name: getattr(geneva_cli, name) for name in geneva_cli.__all__ if name != "__version__"}
 # Classes whose methods are for a user to call, besides what is offered. The methods of drives and
 # wheels are what the machine asks of them.
-CALLED = (Design, Spec, Motion, Table, Law)
+CALLED = (Design, Spec, Motion, SpecTable, Law)
 
 
 def public():
@@ -68,7 +68,9 @@ def test_everything_public_has_an_example(name, monkeypatch):
         assert not doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(example).failed
 
 
-@pytest.mark.parametrize("name", ["Design.peaks", "Design.checks", "Table.replace", "load", "Cam"])
+@pytest.mark.parametrize(
+    "name", ["Design.peaks", "Design.checks", "SpecTable.replace", "load", "Cam"]
+)
 def test_what_is_public_is_found(name):
     assert name in PUBLIC
 

@@ -25,8 +25,8 @@ from geneva_cli.machine.example import Example
 from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
-from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.poses import HalfStep, Pose
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
@@ -155,7 +155,7 @@ class Leaning(Gearing):
         k = math.cos(math.radians(self.lean_deg))
         return 1.0 - l * math.cos(a), d + k * l * math.sin(a)
 
-    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """The arm with which the wheel turns by its step between the two ends."""
         d = self.height_mm / center_distance_mm
         k = math.cos(math.radians(self.lean_deg))
@@ -172,7 +172,7 @@ class Leaning(Gearing):
         first, last = turn(l)
         crossing = -math.asin(d / (k * l))
 
-        def pose(a: float, wheel: float) -> Pose:
+        def pose(a: float, wheel: float) -> PinPose:
             x, y = self.at(a, l, d)
             r = math.hypot(x, y)
             c, s = x / r, y / r
@@ -180,14 +180,16 @@ class Leaning(Gearing):
             p, q = l * math.cos(a), -k * l * math.sin(a)
             across = c * v - s * u if a == crossing else 0.0
             slope, bend = (c * u + s * v, across), (c * p + s * q, c * q - s * p)
-            return Pose(math.degrees(a - crossing), wheel, r, slope, bend)
+            return PinPose(math.degrees(a - crossing), wheel, r, slope, bend)
 
         entry, leave = self.ends(l, d)
         middle = pose(crossing, -0.5 * (first + last))
         poses = (pose(entry, -step.b), middle, pose(leave, step.b))
-        return Place(step, math.degrees(0.5 * (leave - entry)), poses, l)
+        return RollerPlace(step, math.degrees(0.5 * (leave - entry)), poses, l)
 
-    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, Followed]:
         """A groove towards the axis; the two halves of the motion differ."""
         return RadialSlot(path), Followed(path, place.step.b, mirrored=not self.skewed)
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from geneva_cli.machine import registry
 
 
-class Design(NamedTuple):
+class Proportions(NamedTuple):
     """Sign of the gearing, l = R/L, A, and half the motion in radians; numbers or arrays."""
 
     sign: Any
@@ -21,14 +21,14 @@ class Design(NamedTuple):
     half: Any
 
     @classmethod
-    def of(cls, z: int, gearing: str, A: float) -> Design:
+    def of(cls, z: int, gearing: str, A: float) -> Proportions:
         """One design."""
         sign, b = registry.gearing(gearing).SIGN, math.pi / z
         crank = 0.5 * math.pi - sign * b
         return cls(sign, math.sin(b), A, crank + math.asin(A * math.sin(crank)))
 
 
-def _parts(m: Any, d: Design, x: Any, order: int) -> tuple[Any, ...]:
+def _parts(m: Any, d: Proportions, x: Any, order: int) -> tuple[Any, ...]:
     sine, cosine = m.sin(x), m.cos(x)
     half = m.sin(0.5 * x)
     W = (1.0 + d.A) ** 2 - 4.0 * d.A * half * half
@@ -50,13 +50,13 @@ def _parts(m: Any, d: Design, x: Any, order: int) -> tuple[Any, ...]:
     return f1, f2, f3, g1, g2, g3
 
 
-def acceleration(m: Any, d: Design, x: Any) -> Any:
+def acceleration(m: Any, d: Proportions, x: Any) -> Any:
     """Acceleration at x radians from mid-motion (up to the sign of the gearing)."""
     f1, f2, g1, g2 = _parts(m, d, x, 2)
     return g2 * f1 * f1 + g1 * f2
 
 
-def jerk(m: Any, d: Design, x: Any) -> Any:
+def jerk(m: Any, d: Proportions, x: Any) -> Any:
     """Its slope."""
     f1, f2, f3, g1, g2, g3 = _parts(m, d, x, 3)
     return g3 * f1 * f1 * f1 + 3.0 * g2 * f1 * f2 + g1 * f3

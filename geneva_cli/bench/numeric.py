@@ -9,20 +9,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.bench.formulas import Design, acceleration, jerk
+from geneva_cli.bench.formulas import Proportions, acceleration, jerk
 
 
-def size_at(d: Design, x: float) -> float:
+def size_at(d: Proportions, x: float) -> float:
     """|acceleration| at one input angle, radians."""
     return abs(float(acceleration(math, d, x)))
 
 
-def slope_at(d: Design, x: float) -> float:
+def slope_at(d: Proportions, x: float) -> float:
     """The signed slope there."""
     return float(jerk(math, d, x))
 
 
-def grid(d: Design, n: int) -> float:
+def grid(d: Proportions, n: int) -> float:
     """The greatest of n even points."""
     return float(np.abs(acceleration(np, d, np.linspace(0.0, d.half, n))).max())
 
@@ -32,7 +32,7 @@ def vertex(below: Any, middle: Any, above: Any) -> Any:
     return middle + (above - below) ** 2 / (8.0 * (2.0 * middle - below - above))
 
 
-def parabola(d: Design, n: int) -> float:
+def parabola(d: Proportions, n: int) -> float:
     """The same, with a parabola through the greatest and its neighbours."""
     size = np.abs(acceleration(np, d, np.linspace(0.0, d.half, n)))
     i = int(size.argmax())
@@ -41,7 +41,7 @@ def parabola(d: Design, n: int) -> float:
     return float(vertex(size[i - 1], size[i], size[i + 1]))
 
 
-def bounded(d: Design, tolerance: float) -> float:
+def bounded(d: Proportions, tolerance: float) -> float:
     """SciPy's bounded minimiser, and the end."""
     from scipy.optimize import minimize_scalar
 
@@ -54,7 +54,7 @@ def bounded(d: Design, tolerance: float) -> float:
     return max(-float(found.fun), size_at(d, d.half))
 
 
-def brentq(d: Design, tolerance: float, scan: int = 17) -> float:
+def brentq(d: Proportions, tolerance: float, scan: int = 17) -> float:
     """SciPy's brentq on the slope between the points of a scan, and the end."""
     from scipy.optimize import brentq as solve
 
@@ -68,7 +68,7 @@ def brentq(d: Design, tolerance: float, scan: int = 17) -> float:
     return best
 
 
-def colleague(d: Design, degree: int) -> float:
+def colleague(d: Proportions, degree: int) -> float:
     """Chebyshev series of the slope, its roots as eigenvalues of the colleague matrix."""
     from numpy.polynomial import chebyshev
 
@@ -79,7 +79,7 @@ def colleague(d: Design, degree: int) -> float:
     return max(size_at(d, float(x)) for x in places)
 
 
-def closed(d: Design) -> tuple[float, float]:
+def closed(d: Proportions) -> tuple[float, float]:
     """A = 0 outside, as the textbook has it: cos a* = sqrt(q² + 2) - q, q = (1 + l²)/(4 l).
 
     The peak and its angle, which ours gives too.
@@ -96,7 +96,7 @@ class Numeric(NamedTuple):
     """A method that takes any design, and the sizes in which it is shown."""
 
     name: str
-    run: Callable[[Design, Any], float]
+    run: Callable[[Proportions, Any], float]
     sizes: tuple[float, ...]
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, Process, settings, told
+from geneva_cli.commands.options import Format, Given, Output, Process, settings, with_name
 from geneva_cli.errors import clean
 
 EXAMPLES = (
@@ -36,7 +36,9 @@ def run(
     if judged:
         show(checks_table(judged), output, format, [file for v in judged for file in v.files])
     for v in found:
-        for said in [v.error] if v.error else [f"{v.path}: warning: {told(c)}" for c in v.cautions]:
+        for said in (
+            [v.error] if v.error else [f"{v.path}: warning: {with_name(c)}" for c in v.cautions]
+        ):
             print(clean(said), file=sys.stderr)
     if not all(v.passes for v in found):
         raise typer.Exit(2 if len(judged) < len(found) else 1)

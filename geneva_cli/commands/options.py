@@ -81,9 +81,9 @@ def warn(design: Design) -> None:
 def say(path: str, cautions: Iterable[str]) -> None:
     """Cautions about a spec, a line each."""
     for caution in cautions:
-        print(clean(f"{path}: warning: {told(caution)}"), file=sys.stderr)
+        print(clean(f"{path}: warning: {with_name(caution)}"), file=sys.stderr)
 
 
-def told(caution: str) -> str:
+def with_name(caution: str) -> str:
     """A caution with the name by which ``geneva explain`` has it."""
     return f"{caution} [{caution.name}]" if isinstance(caution, Caution) else caution

@@ -78,7 +78,7 @@ class Circle(NamedTuple):
 Shape: TypeAlias = Contour | Circle
 
 
-class Span(NamedTuple):
+class LevelDistance(NamedTuple):
     """A level distance between two points, and the name that it goes by."""
 
     start: Point
@@ -86,13 +86,13 @@ class Span(NamedTuple):
     name: str
 
 
-class Look(NamedTuple):
+class Annotations(NamedTuple):
     """What a drawing that is to be looked at has besides its shapes: distances, and what turns.
 
     Turns are arcs, with an arrow at their end.
     """
 
-    spans: tuple[Span, ...] = ()
+    spans: tuple[LevelDistance, ...] = ()
     turns: tuple[Arc, ...] = ()
 
 
@@ -106,7 +106,7 @@ class Drawing(NamedTuple):
 
     title: str
     shapes: tuple[Shape, ...]
-    look: Look | None = None
+    look: Annotations | None = None
     solid: Part | None = None
     shells: Part | None = None
 

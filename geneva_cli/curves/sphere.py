@@ -52,7 +52,7 @@ class SphereArc(NamedTuple):
         """The direction in which it passes one of its points."""
         return unit(cross(self.axis, point))
 
-    def turned(self, turn: Turn) -> SphereArc:
+    def turned(self, turn: Rotation) -> SphereArc:
         """The same, moved with the sphere."""
         return SphereArc(turn(self.axis), self.angle, turn(self.start), turn(self.end))
 
@@ -67,7 +67,7 @@ class SphereArc(NamedTuple):
         return cross(y, self.axis), y
 
 
-class Turn(NamedTuple):
+class Rotation(NamedTuple):
     """A rotation of the sphere: where its x, y and z go."""
 
     x: Vector
@@ -122,7 +122,7 @@ class Region(NamedTuple):
             second -= (flow + flow.T) / 6.0
         return first, second
 
-    def turned(self, turn: Turn) -> Region:
+    def turned(self, turn: Rotation) -> Region:
         """The same, moved with the sphere."""
         return Region(tuple(arc.turned(turn) for arc in self.boundary), turn(self.middle))
 

@@ -28,7 +28,7 @@ class Path(Protocol):
         """The pin (x, y) with its derivatives by the input angle in radians."""
 
 
-class Axis(NamedTuple):
+class SlotAxis(NamedTuple):
     """A straight slot as the loads see it: its normal's lever about the wheel's axis, and the
     pin's speed along it, both over L.
     """
@@ -37,7 +37,7 @@ class Axis(NamedTuple):
     along: Jet
 
 
-class Body(Protocol):
+class CarrierVelocity(Protocol):
     """Angular velocity of the body that carries the roller, where that is not the crank's arm."""
 
     def __call__(self, tau: Number, order: int) -> Jet:
@@ -97,7 +97,7 @@ class Slot(ABC):
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin in the wheel's frame; on a sphere its polar angle in the flat development."""
 
-    def axis(self, input_deg: Number, order: int = 0) -> Axis | None:
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
         """A straight slot's lever and speed at input angles; None for a curved slot."""
         return None
 
@@ -212,7 +212,7 @@ class Engagement:
         motion: Motion,
         crank_sense: float = 0.0,
         groove: SolvedPath | None = None,
-        body: Body | None = None,
+        body: CarrierVelocity | None = None,
         hub: float = 1.0,
         reactions: Reactions | None = None,
     ) -> None:

@@ -6,7 +6,7 @@ import math
 from decimal import Decimal
 from typing import NamedTuple, TypeAlias, cast
 
-from geneva_cli.machine.roller_path import Path, exactly
+from geneva_cli.machine.roller_path import RollerPath, exactly
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.jet import Jet
 
@@ -24,7 +24,7 @@ class ExactPoint(NamedTuple):
     t: Exact
 
     @staticmethod
-    def of(path: Path, phi: Decimal) -> ExactPoint:
+    def of(path: RollerPath, phi: Decimal) -> ExactPoint:
         """The point at a crank angle in radians."""
         s, c = digits.sin_cos(phi)
         sine, cosine = exactly(s), exactly(c)

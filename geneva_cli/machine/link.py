@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.machine.engagement import Vector, cross
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos
 
@@ -14,7 +14,7 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos
 class LinkTurning(NamedTuple):
     """The angular velocity of the link that carries the roller."""
 
-    path: Path
+    path: RollerPath
     middle: float  # the crank's angle at mid-motion
     sense: float
 
@@ -27,7 +27,7 @@ class LinkTurning(NamedTuple):
 class LinkReactions(NamedTuple):
     """The link's equilibrium: held by the crank's pin at A, and at B along a known line."""
 
-    path: Path
+    path: RollerPath
     middle: float  # the crank's angle at mid-motion
     sense: float
     L: float  # millimetres

@@ -12,7 +12,7 @@ from geneva_cli.machine.engagement import Anchor, Engagement
 from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.machine.link import LinkReactions, LinkTurning
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
-from geneva_cli.machine.roller_path import LONG_PI, Path, PointDisplacement, exactly, rounded
+from geneva_cli.machine.roller_path import LONG_PI, PointDisplacement, RollerPath, exactly, rounded
 from geneva_cli.machine.wheel_for_path import Fit
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
@@ -23,7 +23,7 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine
 ANCHORS = 4  # on either side of the middle: near the wheel the path bends much
 
 
-def engagement_of(path: Path, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
+def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
     """The engagement of a wheel for a path, and the centre distance, mm.
 
     Everything is worked out in 50 digits and rounded once.
@@ -70,7 +70,7 @@ def engagement_of(path: Path, fit: Fit, step: HalfStep) -> tuple[Engagement, flo
     return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, reactions), float(L)
 
 
-def engagement_many(path: Path, found: Fits, step: HalfStep) -> tuple[Engagement, float]:
+def engagement_many(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Engagement, float]:
     """The engagements of wheels for the paths of n designs, and their centre distances, (n, 1).
 
     Everything is worked out in long doubles, where the computer has them, and rounded once.
@@ -117,7 +117,7 @@ def engagement_many(path: Path, found: Fits, step: HalfStep) -> tuple[Engagement
     return path_and_slot.engagement(0.0, anchored, motion, -sense, body, reactions), distance
 
 
-def _alike(path: Path, found: Fits, step: HalfStep) -> tuple[Path, Fits, HalfStep]:
+def _alike(path: RollerPath, found: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:
     """The designs, with the first that has a wheel in place of those that have none.
 
     Those are refused already, and NaN in long doubles takes a hundred times as long.

@@ -32,7 +32,7 @@ from geneva_cli.errors import GenevaError, marking
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.spec.schema import Field, Points, Table, fields, unknown
+from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
@@ -113,14 +113,14 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
     tables: dict[str, dict[str, object]] = {}
     for key, value in values.items():
         tables.setdefault(key.rpartition(".")[0], {})[_field(spec, key).attribute] = value
-    parts: dict[str, Table] = {}
+    parts: dict[str, SpecTable] = {}
     for table, new in tables.items():
         if spec.motion is not None and table == "motion":
             own = {name: v for name, v in new.items() if name in Motion.__dataclass_fields__}
             law = {name: v for name, v in new.items() if name not in own}
             parts[table] = spec.motion.replace(law=spec.motion.law.replace(**law), **own)
         else:
-            part: Table = vars(spec)[attribute(table)]
+            part: SpecTable = vars(spec)[attribute(table)]
             parts[attribute(table)] = part.replace(**new)
     return spec.replace(**parts)
 
@@ -128,7 +128,7 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
 def _field(spec: Spec, key: str) -> Field:
     table, _, name = key.rpartition(".")
     held = vars(spec).get(attribute(table))
-    if not isinstance(held, Table):
+    if not isinstance(held, SpecTable):
         raise GenevaError(f"{key}: this spec has no [{table or key}]", (table, name))
     known = {field.key: field for field in fields(type(held))}
     if isinstance(held, Motion):

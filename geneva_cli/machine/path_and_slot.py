@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Protocol
 from geneva_cli.machine.anchors import anchors_of
 from geneva_cli.machine.engagement import (
     Anchor,
-    Axis,
-    Body,
+    CarrierVelocity,
     ClosedPeaks,
     Engagement,
     Motion,
     PeakValue,
     Reactions,
     Slot,
+    SlotAxis,
     is_mirrored,
 )
 from geneva_cli.machine.wheels import classic
@@ -69,10 +69,10 @@ class RadialSlot(Slot):
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
-    def axis(self, input_deg: Number, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
-        return Axis(Jet(depth.c[:-1]), depth.derivative())
+        return SlotAxis(Jet(depth.c[:-1]), depth.derivative())
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
         x, y = self.path.from_middle(input_deg, order)
@@ -103,10 +103,10 @@ class MeridianSlot(Slot):
         polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
         return polar, polar * 0.0
 
-    def axis(self, input_deg: Number, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """The lever is the pin's distance from the wheel's axis."""
         polar = self(input_deg, order + 1)[0]
-        return Axis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
+        return SlotAxis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
         """The roller's axis passes the sphere's centre, at the polar angle of the pin."""
@@ -230,7 +230,7 @@ def engagement(
     path: AnchoredPath,
     motion: Followed,
     crank_sense: float = 0.0,
-    body: Body | None = None,
+    body: CarrierVelocity | None = None,
     reactions: Reactions | None = None,
 ) -> Engagement:
     """The engagement of a radial slot in a plane."""

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from geneva_cli.machine.path_samples import Points, Samples, joined, points
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
+from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
@@ -27,8 +27,8 @@ BESIDE = 0.5  # of a box's width, by which its pair may lie beside it
 class Side(NamedTuple):
     """An interval of crank angles: the places at both ends, and the turn between them."""
 
-    first: Points
-    last: Points
+    first: PathPoints
+    last: PathPoints
     turn: Array
 
     def taken(self, where: Which) -> Side:
@@ -66,7 +66,7 @@ def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number
     return np.minimum(np.minimum(first * sense, last * sense), middle * sense) <= 0.0
 
 
-def boxes_of(samples: Samples, wanted: Array) -> Boxes:
+def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     """Boxes of neighbouring samples in which there may be a pair."""
     at, angle = samples.at, samples.angle
     count = angle.shape[1] - 1
@@ -108,7 +108,7 @@ def boxes_of(samples: Samples, wanted: Array) -> Boxes:
     return Boxes(samples.which[row], way, one, two, start)
 
 
-def _may_meet_of(at: Points, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
+def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
     """``may_meet`` of boxes between samples."""
     count = at.phi.shape[1]
     numbers = np.stack([x.ravel() for x in _numbers(at)])
@@ -118,7 +118,7 @@ def _may_meet_of(at: Points, width: Array, row: Whole, entry: Whole, exit_: Whol
     return _may_be_zero(corners[0], corners[1], width[row, entry], width[row, exit_])
 
 
-def _numbers(at: Points) -> tuple[Array, ...]:
+def _numbers(at: PathPoints) -> tuple[Array, ...]:
     """Place, unit tangent, speed and turn."""
     return at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn
 
@@ -176,7 +176,7 @@ def _may_be_zero(
     return may
 
 
-class Told(NamedTuple):
+class NewtonSteps(NamedTuple):
     """Whether all corners of a box tell the same of the pair that is nearest, and what."""
 
     alike: Mask
@@ -184,12 +184,12 @@ class Told(NamedTuple):
     phi: Array
 
 
-def told_of(boxes: Boxes, wanted: Array) -> Told:
+def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     """Where a step of Newton leads from each corner: if to one place, the box has one pair."""
     entry, exit_ = boxes.entry, boxes.exit
     wide, high = _width(entry), _width(exit_)
     over = boxes.turn + boxes.sense * wanted[boxes.which]
-    told = []
+    steps = []
     for i, one in enumerate((_numbers(entry.first), _numbers(entry.last))):
         for j, two in enumerate((_numbers(exit_.first), _numbers(exit_.last))):
             away, by_entry, by_exit = _across(one, two)
@@ -198,16 +198,16 @@ def told_of(boxes: Boxes, wanted: Array) -> Told:
             det = by_entry * turn_out + by_exit * turn
             e = (rest * by_exit - away * turn_out) / det
             x = -(rest * by_entry + away * turn) / det
-            told.append((i + e / wide, j + x / high))
-    places = np.array(told)  # corner, side, box; in widths of the box
+            steps.append((i + e / wide, j + x / high))
+    places = np.array(steps)  # corner, side, box; in widths of the box
     middle = places.mean(axis=0)
     apart = np.abs(places - middle).max(axis=(0, 1))
     beside = np.abs(middle - 0.5).max(axis=0) - 0.5
     phi = np.stack((entry.first.phi + middle[0] * wide, exit_.first.phi + middle[1] * high), axis=1)
-    return Told(apart <= ALIKE, beside <= BESIDE, phi)
+    return NewtonSteps(apart <= ALIKE, beside <= BESIDE, phi)
 
 
-def halved(path: Path, boxes: Boxes) -> Boxes:
+def halved(path: RollerPath, boxes: Boxes) -> Boxes:
     """Four boxes of each."""
     halves = []
     for side in (boxes.entry, boxes.exit):
@@ -227,5 +227,5 @@ def halved(path: Path, boxes: Boxes) -> Boxes:
     return halved
 
 
-def _side(first: Points, last: Points) -> Side:
+def _side(first: PathPoints, last: PathPoints) -> Side:
     return Side(first, last, np.angle(last.t * first.t.conj()))

@@ -32,10 +32,10 @@ from geneva_cli.machine.path_boxes import (
     halved,
     may_meet,
     may_turn,
-    told_of,
+    newton_steps,
 )
-from geneva_cli.machine.path_samples import Points, Samples, joined, points
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
+from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
@@ -52,14 +52,14 @@ class Pairs(NamedTuple):
     """Pairs of places of designs, entry first, in two columns."""
 
     which: Whole
-    at: Points
+    at: PathPoints
 
     def taken(self, where: Which) -> Pairs:
         """Some of the pairs."""
         return Pairs(self.which[where], self.at.taken(where))
 
 
-class Found(NamedTuple):
+class FoundPairs(NamedTuple):
     """Pairs; and places where there is none, or where a double root may be."""
 
     pairs: Pairs
@@ -81,18 +81,18 @@ class Residual(NamedTuple):
     sense: Array
 
 
-def pairs(path: Path, samples: Iterable[Samples], b: Array) -> Found:
+def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPairs:
     """All pairs of designs of half an index angle b, (n, 1), from samples of their paths."""
     wanted = math.pi - 2.0 * b[:, 0]
     boxes = joined([boxes_of(some, wanted[some.which]) for some in samples])
     found = []
     for depth in range(HALVINGS + 1):
-        told = told_of(boxes, wanted)
+        steps = newton_steps(boxes, wanted)
         last = depth == HALVINGS
-        tried = np.arange(len(told.near)) if last else np.flatnonzero(told.alike & told.near)
-        ends, close = _solved(path, boxes.taken(tried), told.phi[tried], b)
+        tried = np.arange(len(steps.near)) if last else np.flatnonzero(steps.alike & steps.near)
+        ends, close = _solved(path, boxes.taken(tried), steps.phi[tried], b)
         found.append(ends.taken(close))
-        rest = np.concatenate((np.flatnonzero(~told.alike), tried[~close]))
+        rest = np.concatenate((np.flatnonzero(~steps.alike), tried[~close]))
         if last or not len(rest):
             break
         boxes = halved(path, boxes.taken(rest))
@@ -100,10 +100,10 @@ def pairs(path: Path, samples: Iterable[Samples], b: Array) -> Found:
         boxes = boxes.taken(may_meet(boxes))
     ends = ends.taken(np.flatnonzero(~close))
     near = np.flatnonzero(np.abs(residual(ends, b).excess) < DOUBTFUL)
-    return Found(joined(found), ends.taken(near))
+    return FoundPairs(joined(found), ends.taken(near))
 
 
-def ends_at(path: Path, which: Whole, phi: Array) -> Pairs:
+def ends_at(path: RollerPath, which: Whole, phi: Array) -> Pairs:
     """Places of designs at entry and exit angles, in two columns."""
     return Pairs(which, points(path.roughly(which), phi))
 
@@ -133,7 +133,7 @@ def newton(ends: Pairs, rest: Residual) -> Array:
     return step
 
 
-def _solved(path: Path, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
+def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
     """Newton from places in boxes: where it ends, and whether that is a pair in the box."""
     low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
     high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)

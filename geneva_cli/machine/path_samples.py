@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.arrays import Record, array
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ DEEPEST = 14  # halvings: what is narrower than a crank angle of 1e-5 radians is
 CELLS = 1 << 17  # pairs of samples looked at together: they stay in the processor's cache
 
 
-class Points(NamedTuple):
+class PathPoints(NamedTuple):
     """Places of a path at crank angles ``phi``: place, velocity and acceleration as complex
     numbers, unit tangent, speed and the rate at which the tangent turns.
     """
@@ -41,23 +41,23 @@ class Points(NamedTuple):
     speed: Array
     turn: Array
 
-    def taken(self, where: Where) -> Points:
+    def taken(self, where: Where) -> PathPoints:
         """Some of the points."""
-        return Points._make(part[where] for part in self)
+        return PathPoints._make(part[where] for part in self)
 
 
-class Samples(NamedTuple):
+class PathSamples(NamedTuple):
     """A turn of some designs, a row each: the last column is the first, one turn later.
 
     ``angle`` is the tangent's, without jumps. Rows with fewer samples repeat their last one.
     """
 
     which: Whole  # the designs' numbers
-    at: Points
+    at: PathPoints
     angle: Array
 
 
-def points(path: Path, phi: Array) -> Points:
+def points(path: RollerPath, phi: Array) -> PathPoints:
     """Places of the path; a design's angles are a row."""
     x, y = path.at(phi, 2)
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
@@ -68,10 +68,10 @@ def points(path: Path, phi: Array) -> Points:
     speed = np.abs(v)
     t = np.divide(v, speed, out=np.zeros_like(v), where=speed != 0.0)  # none where the point rests
     turn = (v.real * a.imag - v.imag * a.real) / (speed * speed)
-    return Points(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
+    return PathPoints(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
 
 
-def sampled(path: Path, count: int) -> Iterator[Samples]:
+def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     """All ``count`` designs, in blocks of as many as have about as many samples."""
     step = math.tau / COUNT
     phi = np.broadcast_to((np.arange(COUNT + 1) + FIRST) * step, (count, COUNT + 1))
@@ -94,24 +94,26 @@ def sampled(path: Path, count: int) -> Iterator[Samples]:
             yield _samples(crowded[part], at, _turned(*_neighbours(at)))
 
 
-def _neighbours(at: Points) -> tuple[Points, Points]:
+def _neighbours(at: PathPoints) -> tuple[PathPoints, PathPoints]:
     return at.taken((slice(None), slice(None, -1))), at.taken((slice(None), slice(1, None)))
 
 
-def _turned(left: Points, right: Points) -> Array:
+def _turned(left: PathPoints, right: PathPoints) -> Array:
     """The turn from one sample to the other, less than half a turn."""
     (a, b), (c, d) = ((one.t.real, one.t.imag) for one in (left, right))
     turn: Array = np.arctan2(a * d - b * c, a * c + b * d)
     return turn
 
 
-def _missed(left: Points, right: Points, turned: Array) -> Mask:
+def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
     """Whether the rates at two samples do not foretell the turn from one to the other."""
     half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
     return np.abs(turned - half) > FORETOLD
 
 
-def _between(path: Path, which: Whole, left: Points, right: Points) -> tuple[Whole, Points] | None:
+def _between(
+    path: RollerPath, which: Whole, left: PathPoints, right: PathPoints
+) -> tuple[Whole, PathPoints] | None:
     """What is added between samples of designs, until all is foretold."""
     found = []
     for _ in range(DEEPEST):
@@ -142,7 +144,7 @@ def _blocks(counts: Whole) -> Iterator[slice]:
         start = stop
 
 
-def _padded(rows: Whole, base: Points, whose: Whole, added: Points) -> Points:
+def _padded(rows: Whole, base: PathPoints, whose: Whole, added: PathPoints) -> PathPoints:
     """The samples of some designs with those added, in order."""
     number = np.full(int(whose.max(initial=0)) + 1, -1)
     number[rows] = np.arange(len(rows))
@@ -157,14 +159,14 @@ def _padded(rows: Whole, base: Points, whose: Whole, added: Points) -> Points:
     width = int(counts.max())
     # beyond its own count a row stays at its last sample
     place = starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)
-    return Points._make(part[order][place] for part in parts)
+    return PathPoints._make(part[order][place] for part in parts)
 
 
-def _samples(which: Whole, at: Points, turned: Array) -> Samples:
+def _samples(which: Whole, at: PathPoints, turned: Array) -> PathSamples:
     """Samples with the tangent's angle, which is the sum of the turns."""
     angle = np.zeros(at.phi.shape)
     np.cumsum(turned, axis=1, out=angle[:, 1:])
-    return Samples(which, at, angle)
+    return PathSamples(which, at, angle)
 
 
 def joined(parts: Sequence[Record]) -> Record:

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.path_pairs import FLAT, Pairs, pairs, residual
-from geneva_cli.machine.path_samples import Points, Samples, blocks, joined, points, sampled
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.path_samples import PathPoints, PathSamples, blocks, joined, points, sampled
+from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which, Whole
@@ -72,7 +72,7 @@ class _Wheel(NamedTuple):
     square: Array  # of the distance of entry and exit
     sense: Array
 
-    def course(self, at: Points) -> _Course:
+    def course(self, at: PathPoints) -> _Course:
         """At places of the path, a row a wheel."""
         ray = (at.p - self.centre).conj()
         moment, slope = (self.sense * (ray * x).imag for x in (at.v, at.a))
@@ -83,7 +83,7 @@ class _Wheel(NamedTuple):
         return _Wheel._make(part[where] for part in self)
 
 
-def wheels(path: Path, b: Array) -> Search:
+def wheels(path: RollerPath, b: Array) -> Search:
     """All wheels of designs of half an index angle b, (n, 1)."""
     found = []
     with np.errstate(all="ignore"):
@@ -106,7 +106,7 @@ def wheels(path: Path, b: Array) -> Search:
     return Search(joined(found), doubtful)
 
 
-def followed(path: Path, phi: Array, sense: Array) -> Wheels:
+def followed(path: RollerPath, phi: Array, sense: Array) -> Wheels:
     """Of wheels of one path, entered and left at ``phi``, (n, 2), those that it can drive."""
     with np.errstate(all="ignore"):
         ends = Pairs(np.zeros(len(phi), dtype=int), points(path, phi))
@@ -122,7 +122,7 @@ def _firsts(ends: Pairs, same: float = SAME) -> Whole:
     return order[new]
 
 
-def _followed(path: Path, samples: Samples, ends: Pairs, sense: Array) -> Wheels:
+def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array) -> Wheels:
     """The wheels of those pairs between which the roller keeps to its slot."""
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
@@ -156,7 +156,7 @@ def _followed(path: Path, samples: Samples, ends: Pairs, sense: Array) -> Wheels
 
 
 def _fails(
-    path: Path, wheel: _Wheel, ends: Pairs, nodes: Array, course: _Course, motion: Array
+    path: RollerPath, wheel: _Wheel, ends: Pairs, nodes: Array, course: _Course, motion: Array
 ) -> Mask:
     """Whether the roller leaves its slot between samples ``nodes`` since entry, a row a wheel."""
     bar = [ROUNDING * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
@@ -197,7 +197,7 @@ def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     return least
 
 
-def chosen(path: Path, found: Wheels, wanted: Number | None = None) -> Whole:
+def chosen(path: RollerPath, found: Wheels, wanted: Number | None = None) -> Whole:
     """The numbers of the wheels that are taken, one of each design that has any, in their order.
 
     The gentlest, which has the least peak velocity, or the one entered nearest to ``wanted``
@@ -223,7 +223,7 @@ def chosen(path: Path, found: Wheels, wanted: Number | None = None) -> Whole:
     return order[first]
 
 
-def _peaks(path: Path, found: Wheels) -> Array:
+def _peaks(path: RollerPath, found: Wheels) -> Array:
     """The peak velocities of several wheels a design, as near as it takes to know the least.
 
     Each is looked at at a few places, which bound its peak. Wheels whose bounds leave open which
@@ -259,7 +259,7 @@ class _Velocities(NamedTuple):
     beside: Array
 
 
-def _velocities(path: Path, found: Wheels, between: Array | None = None) -> _Velocities:
+def _velocities(path: RollerPath, found: Wheels, between: Array | None = None) -> _Velocities:
     """Peak velocities between crank angles, (n, 2), from entry to exit without."""
     between = found.phi if between is None else between
     looked: _Velocities = joined(
@@ -271,7 +271,7 @@ def _velocities(path: Path, found: Wheels, between: Array | None = None) -> _Vel
     return looked
 
 
-def _looked(path: Path, phi: Array, between: Array) -> _Velocities:
+def _looked(path: RollerPath, phi: Array, between: Array) -> _Velocities:
     """Peak velocities of a block of wheels, each with its path."""
     ends = points(path, phi)
     (p, q), (t, u) = ends.p.T, ends.t.T

@@ -38,7 +38,7 @@ def exactly(x: Decimal | Long) -> float:
     return cast(float, x)
 
 
-class Path(ABC):
+class RollerPath(ABC):
     """A roller's closed path about the crank's axis, in millimetres.
 
     ``rough`` are its numbers: floats, or arrays (n, 1) of many designs. ``exact`` are the same as
@@ -49,19 +49,19 @@ class Path(ABC):
     rough: tuple[float, ...]
     exact: tuple[float, ...]
 
-    def of(self, which: Which) -> Path:
+    def of(self, which: Which) -> RollerPath:
         """The paths of some of the designs."""
         some = self.roughly(which)
         some.exact = _some(self.exact, which)
         return some
 
-    def roughly(self, which: Which) -> Path:
+    def roughly(self, which: Which) -> RollerPath:
         """The paths of some of the designs, without their exact numbers."""
         some = copy.copy(self)
         some.rough = _some(self.rough, which)
         return some
 
-    def in_long_doubles(self) -> Path:
+    def in_long_doubles(self) -> RollerPath:
         """The path with long doubles for exact numbers, as for many designs."""
         some = copy.copy(self)
         long = (np.longdouble(str(x)) if isinstance(x, Decimal) else x for x in self.exact)

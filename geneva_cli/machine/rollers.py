@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.wheels.classic import refuse_jam
-from geneva_cli.machine.wheels.gearing import Place
+from geneva_cli.machine.wheels.gearing import RollerPlace
 from geneva_cli.machine.wheels.poses import HalfStep
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 ANGLES = ("drive", "roller_angles_deg")
 
 
-def places(spec: Spec) -> list[Place]:
+def places(spec: Spec) -> list[RollerPlace]:
     """The rollers of a machine with straight slots, in the order in which they move the wheel.
 
     Of rollers that move the wheel alike only the first is returned. Raises GenevaError where they
@@ -35,7 +35,7 @@ def places(spec: Spec) -> list[Place]:
     return [one._replace(crank_deg=360.0 * j / m) for j in range(1 if drive.ALIKE else m)]
 
 
-def _at_angles(angles: tuple[float, ...], one: Place) -> list[Place]:
+def _at_angles(angles: tuple[float, ...], one: RollerPlace) -> list[RollerPlace]:
     """Rollers at given angles: each gap must leave room for half of both motions beside it."""
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
         raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES)
@@ -59,7 +59,7 @@ def _too_near(a: float, b: float, motion: float) -> GenevaError:
     )
 
 
-def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[Place]:
+def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[RollerPlace]:
     """Rollers of different arms, R_i = L sin b_i, with equal dwells between their motions."""
     found = []
     for degrees in steps:

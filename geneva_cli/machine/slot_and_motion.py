@@ -13,7 +13,7 @@ import math
 from collections.abc import Sequence
 from functools import cached_property
 
-from geneva_cli.machine.engagement import Axis, Slot
+from geneva_cli.machine.engagement import Slot, SlotAxis
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
@@ -102,10 +102,10 @@ class RadialSlot(Slot):
         rho, _ = self.path.distances(input_deg, order)
         return rho, rho * 0.0
 
-    def axis(self, input_deg: Number, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """The lever is the pin's distance from the wheel's axis."""
         rho, _ = self.path.distances(input_deg, order + 1)
-        return Axis(Jet(rho.c[:-1]), rho.derivative())
+        return SlotAxis(Jet(rho.c[:-1]), rho.derivative())
 
 
 def _stacked(a: Jet, b: Jet) -> Jet:

@@ -14,7 +14,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.rules import FINITE, Range, Words
-from geneva_cli.spec.schema import Table, fields, unknown
+from geneva_cli.spec.schema import SpecTable, fields, unknown
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
     LISTS,
@@ -50,7 +50,7 @@ NEEDED = {
 
 
 @dataclass(frozen=True)
-class Motion(Table):
+class Motion(SpecTable):
     """``[motion]``: present when the motion is given and the slots are solved for.
 
     ``law`` is the wheel's motion over its step; ``alpha0_deg`` lengthens the dwell, degrees, at the
@@ -93,7 +93,7 @@ def attribute(table: str) -> str:
     return table.replace(".", "_")
 
 
-def _refuse_other(of: Table | Spec, name: str, kind: type, example: str) -> None:
+def _refuse_other(of: SpecTable | Spec, name: str, kind: type, example: str) -> None:
     """A Python user may give the word of a file, or a class, for the object that it stands for."""
     given = getattr(of, name)
     if not isinstance(given, kind):
@@ -174,13 +174,13 @@ class Spec:
         assert part is not None, name
         return part.as_dict()
 
-    def _part(self, name: str) -> Table | None:
+    def _part(self, name: str) -> SpecTable | None:
         """A table by its name in the file, ``mass.0`` being the first of a list; None: no such."""
         if name in ("wheel", "drive", "motion"):
-            found: Table | None = vars(self)[name]
+            found: SpecTable | None = vars(self)[name]
             return found
         if name in PLAIN and name not in LISTS:
-            plain: Table = vars(self)[attribute(name)]
+            plain: SpecTable = vars(self)[attribute(name)]
             return plain
         table, _, number = name.partition(".")
         several = vars(self)[table] if table in LISTS else ()

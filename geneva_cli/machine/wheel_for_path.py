@@ -18,7 +18,7 @@ from geneva_cli.machine.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.machine.path_pairs import FLAT
 from geneva_cli.machine.path_samples import joined
 from geneva_cli.machine.path_wheels import Wheels, chosen, followed, wheels
-from geneva_cli.machine.roller_path import Path
+from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
@@ -58,7 +58,7 @@ class _Place(NamedTuple):
     turn: float
 
 
-def fit(path: Path, step: HalfStep, wanted: float | None = None) -> Fit | None:
+def fit(path: RollerPath, step: HalfStep, wanted: float | None = None) -> Fit | None:
     """The wheel of an index angle that the path can drive, if there is one.
 
     Of several the gentlest, or the one entered nearest to ``wanted`` (radians).
@@ -84,7 +84,7 @@ def fit(path: Path, step: HalfStep, wanted: float | None = None) -> Fit | None:
     return Fit(*pair, centre, sense)
 
 
-def _double(path: Path, step: HalfStep, entry: float, exit_: float) -> Wheels | None:
+def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Wheels | None:
     """The wheel of a double root, or of two roots so near that Newton does not part them."""
     pair = _on_family(path, step.b, entry, exit_)
     root = _refined(path, step.b, pair) if pair else None
@@ -98,14 +98,14 @@ def _double(path: Path, step: HalfStep, entry: float, exit_: float) -> Wheels | 
     return found if holds else None
 
 
-def _place(path: Path, phi: float) -> _Place:
+def _place(path: RollerPath, phi: float) -> _Place:
     x, y = path.at(phi, 2)
     p, v, a = (complex(*z) for z in zip(x.derivatives(), y.derivatives(), strict=True))
     speed = abs(v)
     return _Place(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
 
 
-def _on_family(path: Path, b: float, entry: float, exit_: float) -> Pair | None:
+def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair | None:
     """The exit near ``exit_`` that is as far from the meeting point as ``entry``: Newton."""
     one = _place(path, entry)
     for _ in range(40):
@@ -127,7 +127,7 @@ def _on_family(path: Path, b: float, entry: float, exit_: float) -> Pair | None:
     return Pair(entry, exit_, abs(angle) - 2.0 * b, slope)
 
 
-def _refined(path: Path, b: float, pair: Pair) -> tuple[float, float] | None:
+def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | None:
     """From a pair of the family to one with the index angle: a root, or a double root."""
     here, step = pair, STRIDE
     for _ in range(60):
@@ -147,7 +147,7 @@ def _refined(path: Path, b: float, pair: Pair) -> tuple[float, float] | None:
     return (here.entry, here.exit) if abs(here.excess) < ROUGH else None
 
 
-def _stationary(path: Path, b: float, pair: Pair) -> Pair | None:
+def _stationary(path: RollerPath, b: float, pair: Pair) -> Pair | None:
     """Where the index angle is stationary along the family: secant on its slope."""
     before, here = pair, _on_family(path, b, pair.entry + 1e-4, pair.exit - 1e-4)
     for _ in range(40):
@@ -163,7 +163,7 @@ def _stationary(path: Path, b: float, pair: Pair) -> Pair | None:
 
 
 def _polished(
-    path: Path, step: HalfStep, entry: float, exit_: float, sense: float
+    path: RollerPath, step: HalfStep, entry: float, exit_: float, sense: float
 ) -> tuple[Decimal, Decimal] | None:
     """A pair in 50 digits: Newton on what is left of both conditions, its slopes in doubles.
 

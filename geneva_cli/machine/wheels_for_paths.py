@@ -12,7 +12,7 @@ import numpy as np
 
 from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
 from geneva_cli.machine.path_wheels import chosen, wheels
-from geneva_cli.machine.roller_path import LONG_PI, Path, exactly
+from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.jet import Jet
 
@@ -39,7 +39,7 @@ class Fits(NamedTuple):
     alone: Whole
 
 
-def fits_many(path: Path, b: float, wanted: float | None = None) -> Fits:
+def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     """The gentlest wheel of each path, or the one entered nearest to ``wanted`` (radians).
 
     ``path``, half the index angle b and ``wanted`` hold numbers (n, 1), or one for all.
@@ -61,7 +61,7 @@ def fits_many(path: Path, b: float, wanted: float | None = None) -> Fits:
     return Fits(entry, exit_, sense, np.concatenate(alone))
 
 
-def long_point(path: Path, phi: Long) -> tuple[LongComplex, LongComplex]:
+def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:
     """Place and unit tangent at an angle in long doubles, as complex numbers."""
     s, c = exactly(np.sin(phi)), exactly(np.cos(phi))
     found = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
@@ -70,7 +70,7 @@ def long_point(path: Path, phi: Long) -> tuple[LongComplex, LongComplex]:
     return x + 1j * y, v / np.abs(v)
 
 
-def polished(path: Path, found: Fits, step: HalfStep) -> tuple[Long, Long]:
+def polished(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Long, Long]:
     """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles.
 
     Newton's method in two unknowns, from roots that are known to a double's last digits.

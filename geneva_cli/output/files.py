@@ -34,7 +34,7 @@ def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
 
 def write_bytes(path: str, chunks: Iterable[bytes], inputs: Iterable[str] = ()) -> None:
     """The same for bytes."""
-    with told(path):
+    with write_errors(path):
         real, old = place(path, inputs)
         if old is None or stat.S_ISREG(old.st_mode):
             _replace(real, chunks, old)
@@ -44,7 +44,7 @@ def write_bytes(path: str, chunks: Iterable[bytes], inputs: Iterable[str] = ()) 
 
 
 @contextmanager
-def told(path: str) -> Iterator[None]:
+def write_errors(path: str) -> Iterator[None]:
     """What the system says against a file comes out as a GenevaError."""
     try:
         yield

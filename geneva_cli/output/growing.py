@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Self
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.files import place, take_after, told
+from geneva_cli.output.files import place, take_after, write_errors
 
 
 class Closing(ABC):
@@ -48,7 +48,7 @@ class Growing(Closing):
         self, path: str, header: str, key: str, resume: bool, inputs: Iterable[str] = ()
     ) -> None:
         self.path, self.done = path, 0
-        with told(path):
+        with write_errors(path):
             self.real, self.old = place(path, inputs)
             if self.old is not None and not stat.S_ISREG(self.old.st_mode):
                 raise GenevaError(
@@ -103,13 +103,13 @@ class Growing(Closing):
 
     def append(self, text: str) -> None:
         """Whole lines, which are on disk before the next are worked on."""
-        with told(self.path):
+        with write_errors(self.path):
             self.file.write(text)
             self.file.flush()
 
     def finish(self, made: str = "") -> None:
         """The rows become the file, or another file that was ``made`` of them does."""
-        with told(self.path):
+        with write_errors(self.path):
             self.file.close()
             with open(made or self.partial, "rb") as whole:
                 if self.old is not None:

@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape
 
 from geneva_cli.curves.measure import Box, at, bounds, mapped
 from geneva_cli.curves.pieces import SUFFIX, UNITS
-from geneva_cli.curves.shapes import Arc, Contour, Look, Point, Span
+from geneva_cli.curves.shapes import Annotations, Arc, Contour, LevelDistance, Point
 from geneva_cli.output.inks import inks
 from geneva_cli.output.letters import width
 from geneva_cli.output.strokes import DARK, LIGHT
@@ -44,7 +44,7 @@ def style(layers: tuple[str, ...], frame: Box, margin: float) -> str:
     )
 
 
-def notes(look: Look, box: Box, title: str, mm: float, units: str) -> tuple[list[str], Box]:
+def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tuple[list[str], Box]:
     """Lines, arrows and texts beside the shapes, and the box around all.
 
     Distances stand below the shapes, below them the scale bar and then the title.
@@ -104,19 +104,19 @@ def notes(look: Look, box: Box, title: str, mm: float, units: str) -> tuple[list
     ], Box(left, low, right, high)
 
 
-def _ends(span: Span, unit: float) -> tuple[float, float]:
+def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
     a, b = sorted((span.start[0] / unit, span.end[0] / unit))
     return a, b
 
 
-def _shown(span: Span, units: str) -> str:
+def _shown(span: LevelDistance, units: str) -> str:
     """The name and the length, to four decimals in an inch and three in a millimetre."""
     a, b = _ends(span, UNITS[units])
     value = f"{b - a:.{4 if units == 'inch' else 3}f}".rstrip("0").rstrip(".")
     return f"{span.name} = {value} {SUFFIX[units]}"
 
 
-def _span(span: Span, unit: float, low: float, gap: float) -> list[str]:
+def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[str]:
     """The line of a distance, and from its ends down to it."""
     (a, b) = _ends(span, unit)
     found = [f"M {point((a, low))} L {point((b, low))}"]

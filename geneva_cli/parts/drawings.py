@@ -15,15 +15,15 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.measure import mapped, turned
 from geneva_cli.curves.plates import Group, Member
 from geneva_cli.curves.shapes import (
+    Annotations,
     Arc,
     Circle,
     Contour,
     Drawing,
+    LevelDistance,
     Line,
-    Look,
     Segment,
     Shape,
-    Span,
     about,
     closed,
     joined,
@@ -101,7 +101,7 @@ def assembly(found: Outlines, tolerance: float, curves: str) -> Drawing:
             *bars.joined,
         ),
     )
-    look = Look((Span((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
+    look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
     return Drawing(_title(found, ""), tuple(once(shapes)), look, solid)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 
-class Range(NamedTuple):
+class SizeRange(NamedTuple):
     """Nominal sizes up to one, in mm, and what belongs to them, in micrometres."""
 
     up_to: float
@@ -23,7 +23,7 @@ class Range(NamedTuple):
 # ISO 286-1:2010: grades IT6 and IT7 by its table 1, the fundamental deviations g, f and p by
 # its tables 4 and 5.
 ISO_286 = [
-    Range(*row)
+    SizeRange(*row)
     for row in (
         (3, 6, 10, 2, 6, 6),
         (6, 8, 12, 4, 10, 12),

@@ -9,7 +9,7 @@ from geneva_cli.curves.shapes import Circle, Line, Shape, about, closed
 from geneva_cli.errors import GenevaError
 
 
-class Key(NamedTuple):
+class ParallelKey(NamedTuple):
     """A parallel key for shafts above one diameter and up to another, all in mm."""
 
     above: float
@@ -22,7 +22,7 @@ class Key(NamedTuple):
 
 # DIN 6885-1 (ISO/R 773 has the same): parallel keys, deep pattern.
 DIN_6885_1 = [
-    Key(*row)
+    ParallelKey(*row)
     for row in (
         (6, 8, 2, 2, 1.2, 1.0),
         (8, 10, 3, 3, 1.8, 1.4),
@@ -50,7 +50,7 @@ BORES = {"crank": "crank_bore_mm or arm_bore_mm", "wheel": "wheel_bore_mm"}
 TABLES = {"DIN 6885-1": DIN_6885_1}
 
 
-def key(standard: str | None, radius: float, part: str = "crank") -> Key | None:
+def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey | None:
     """The key of a part's bore by a standard's name; None for no standard.
 
     Raises GenevaError for a bore that the table does not have.
@@ -72,7 +72,7 @@ def key(standard: str | None, radius: float, part: str = "crank") -> Key | None:
     )
 
 
-def bore(layer: str, radius: float, fitted: Key | None, direction: float) -> Shape:
+def bore(layer: str, radius: float, fitted: ParallelKey | None, direction: float) -> Shape:
     """A bore about the origin, with its keyway in a direction, radians, where it has one."""
     if fitted is None:
         return Circle(layer, (0.0, 0.0), radius)

@@ -58,7 +58,7 @@ class Field(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True)
-class Table:
+class SpecTable:
     """A table of the spec. Raises GenevaError, naming table and key, for a value it cannot have."""
 
     TABLE: ClassVar[str] = ""  # its name in the file
@@ -104,17 +104,17 @@ class Table:
         return dataclasses.replace(self, **changes)
 
 
-def fields(table: type[Table]) -> tuple[Field, ...]:
+def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """The keys of a table, in their order."""
     if table not in _FIELDS:
         _FIELDS[table] = _fields(table)
     return _FIELDS[table]
 
 
-_FIELDS: dict[type[Table], tuple[Field, ...]] = {}
+_FIELDS: dict[type[SpecTable], tuple[Field, ...]] = {}
 
 
-def _fields(table: type[Table]) -> tuple[Field, ...]:
+def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
     hints = get_type_hints(table, include_extras=True)
     out = []
     for one in dataclasses.fields(table):
@@ -221,7 +221,7 @@ def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
     )
 
 
-def require(table: type[Table], given: Sequence[str], why: str = "") -> None:
+def require(table: type[SpecTable], given: Sequence[str], why: str = "") -> None:
     """Raise GenevaError where a key without a default is not given."""
     for field in fields(table):
         if field.default is REQUIRED and field.key not in given:

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import NOT_NEGATIVE, POSITIVE, OneOf, Range
-from geneva_cli.spec.schema import Table
+from geneva_cli.spec.schema import SpecTable
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -19,7 +19,7 @@ Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
 
 
 @dataclass(frozen=True)
-class Size(Table):
+class Size(SpecTable):
     """``[size]``.
 
     Lengths in mm, diameters where a key says so. What is left out follows from the rest.
@@ -163,7 +163,7 @@ class Size(Table):
 
 
 @dataclass(frozen=True)
-class Load(Table):
+class Load(SpecTable):
     """``[load]``.
 
     >>> Design(External(6), load=Load(torque_Nm=15.0)).loads["input_torque_Nm"].max
@@ -192,7 +192,7 @@ class Load(Table):
 
 
 @dataclass(frozen=True)
-class Mass(Table):
+class Mass(SpecTable):
     """One ``[[mass]]``: a body that the wheel carries, or several alike.
 
     >>> Mass("disc", mass_kg=2.0, diameter_mm=300.0).count
@@ -250,7 +250,7 @@ class Mass(Table):
 
 
 @dataclass(frozen=True)
-class Support(Table):
+class Support(SpecTable):
     """``[support]``: the bearing of the table that the wheel turns, and the gears to it.
 
     >>> Support(friction=0.01, radius_mm=80.0).gear_ratio
@@ -269,7 +269,7 @@ class Support(Table):
 
 
 @dataclass(frozen=True)
-class Motor(Table):
+class Motor(SpecTable):
     """``[motor]``: what is behind the input shaft.
 
     >>> Motor(gear_ratio=20.0, gear_efficiency=0.9).service_factor
@@ -290,7 +290,7 @@ class Motor(Table):
 
 
 @dataclass(frozen=True)
-class Shaft(Table):
+class Shaft(SpecTable):
     """``[shaft]``: the shafts of wheel and crank, and what is elastic between wheel and load.
 
     >>> Shaft(wheel_diameter_mm=25.0, wheel_overhang_mm=30.0).damping_ratio
@@ -320,7 +320,7 @@ class Shaft(Table):
 
 
 @dataclass(frozen=True)
-class Material(Table):
+class Material(SpecTable):
     """What a part is made of; steel where nothing is said."""
 
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
@@ -360,7 +360,7 @@ class RollerMaterial(Material):
 
 
 @dataclass(frozen=True)
-class Tolerance(Table):
+class Tolerance(SpecTable):
     """``[tolerance]``: the dimensions' deviations, each plus or minus.
 
     >>> Tolerance(center_distance_mm=0.02).distribution
@@ -382,7 +382,7 @@ class Tolerance(Table):
 
 
 @dataclass(frozen=True)
-class Limits(Table):
+class Limits(SpecTable):
     """``[limits]``: what ``geneva check`` holds the design against.
 
     >>> strict = Design(External(6), limits=Limits(velocity_max=0.8))
@@ -407,7 +407,7 @@ class Limits(Table):
 
 # The tables that every spec may have, whatever its machine, in the order of a file; each is a field
 # of ``Spec``, a dot being an underscore there. Of those in LISTS there may be several.
-PLAIN: dict[str, type[Table]] = {
+PLAIN: dict[str, type[SpecTable]] = {
     "size": Size,
     "load": Load,
     "mass": Mass,

@@ -15,7 +15,7 @@ from typing import Any
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
-from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, Table, fields
+from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import GEARING, KIND, LAW
 
@@ -60,7 +60,7 @@ def _table(keys: tuple[Field, ...]) -> Schema:
     return {**_closed({key.key: {**_told(key), **_value(key)} for key in keys}), **more}
 
 
-def _of_kinds(word: Field, kinds: Mapping[str, type[Table]]) -> Schema:
+def _of_kinds(word: Field, kinds: Mapping[str, type[SpecTable]]) -> Schema:
     """A table whose keys depend on a word in it; without the word it is of the default kind."""
     keys = {name: fields(kind) for name, kind in kinds.items()}
     return _cases(word, keys, (), keys[word.default], has_default=True)

@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Words
-from geneva_cli.spec.schema import LIST, REQUIRED, Field, Table, fields
+from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import GEARING, KIND, LAW, quoted
 
@@ -108,7 +108,7 @@ def words_of(name: str) -> tuple[str, ...]:
     if name in words:
         return tuple(words[name])
     table, _, key = name.rpartition(".")
-    kinds: list[type[Table]] = [
+    kinds: list[type[SpecTable]] = [
         *map(registry.gearing, registry.GEARINGS),
         *map(registry.drive, registry.DRIVES),
         *map(registry.law, registry.LAWS),
@@ -164,7 +164,7 @@ def _plain() -> Iterator[Key]:
             yield _key(name, field)
 
 
-def _of_kinds(table: str, word: str, kinds: Mapping[str, type[Table]]) -> Iterator[Key]:
+def _of_kinds(table: str, word: str, kinds: Mapping[str, type[SpecTable]]) -> Iterator[Key]:
     """The keys of several kinds: one that all have is of any, others say of which."""
     having: dict[Field, list[str]] = {}
     for name, kind in kinds.items():

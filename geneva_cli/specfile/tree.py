@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, clean, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.spec.rules import Csv
-from geneva_cli.spec.schema import REQUIRED, Points, Table, fields, require, shown, unknown
+from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.points import read_pairs
 
@@ -103,7 +103,9 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
     return out
 
 
-def _one(cls: type[Table], name: str, i: int, given: dict[str, Any], files: _Files) -> Table:
+def _one(
+    cls: type[SpecTable], name: str, i: int, given: dict[str, Any], files: _Files
+) -> SpecTable:
     """The i-th table of a list; its number stands in its errors."""
     try:
         return cls(**_values(cls, given, files))
@@ -158,7 +160,7 @@ def _motion(given: dict[str, Any], files: _Files) -> Motion | None:
     return Motion(law, **_values(Motion, given, files, also=("law", *own)))
 
 
-def _laws() -> Iterator[tuple[str, type[Table]]]:
+def _laws() -> Iterator[tuple[str, type[SpecTable]]]:
     return ((f'law = "{name}"', registry.law(name)) for name in registry.LAWS)
 
 
@@ -178,10 +180,10 @@ def _refuse_lawless(given: dict[str, Any]) -> None:
 
 def _refuse_foreign(
     given: dict[str, Any],
-    cls: type[Table],
+    cls: type[SpecTable],
     table: str,
     of: str,
-    kinds: Callable[[], Iterator[tuple[str, type[Table]]]],
+    kinds: Callable[[], Iterator[tuple[str, type[SpecTable]]]],
 ) -> None:
     """Remove other kinds' keys that are at their defaults; raise GenevaError for the others."""
     own = {field.key for field in fields(cls)}
@@ -196,7 +198,7 @@ def _refuse_foreign(
 
 
 def _values(
-    cls: type[Table],
+    cls: type[SpecTable],
     given: dict[str, Any],
     files: _Files,
     why: str = "",

@@ -10,7 +10,7 @@ from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
-from geneva_cli.spec.schema import Field, Points, Table, fields
+from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 
 # The words that name a kind, each in its table.
@@ -68,7 +68,7 @@ def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
     return [{**words.get(table, {}), **_own(vars(spec)[attribute(table)])}]
 
 
-def _own(table: Table) -> dict[str, Any]:
+def _own(table: SpecTable) -> dict[str, Any]:
     return {k: v.file if isinstance(v, Points) else v for k, v in table.as_dict().items()}
 
 

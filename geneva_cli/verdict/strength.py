@@ -65,7 +65,9 @@ class Strength(Life):
         on = shafts.on_driven_crank if self.spec.drive.CRANKED else shafts.on_crank
         return self._shaft("crank", shafts.crank_shaft(self.spec.shaft), on)
 
-    def _shaft(self, which: str, ends: shafts.Ends, loaded: shafts.On) -> shafts.Turned | None:
+    def _shaft(
+        self, which: str, ends: shafts.GivenShaft, loaded: shafts.On
+    ) -> shafts.Turned | None:
         name = f"{which}_shaft_stress_MPa"
         placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")
         thick = (ends.diameter_mm is not None, f"{which}_diameter_mm in [shaft]")

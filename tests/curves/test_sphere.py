@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.curves.plates import Shell
-from geneva_cli.curves.sphere import Region, SphereArc, Turn, cross, place, unit
+from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, place, unit
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi
@@ -68,7 +68,7 @@ def test_turned():
     """Moved anywhere, a region keeps its area; its moments turn with it."""
     z = place(0.9, 2.0)
     x = unit(cross((1.0, 0.0, 0.0), z))
-    turn = Turn(x, cross(z, x), z)
+    turn = Rotation(x, cross(z, x), z)
     one = triangle(place(0.3, 0.1), place(1.0, -0.4), place(1.2, 0.9))
     moved = one.turned(turn)
     assert moved.area == pytest.approx(one.area, abs=CLOSE)
@@ -79,7 +79,10 @@ def test_turned():
 
 def test_a_shell():
     """A whole cap's frustum of a cone between two spheres, and a hollow ball's 2/5."""
-    two = [cap(math.pi / 2.0), cap(math.pi / 2.0).turned(Turn((1, 0, 0), (0, -1, 0), (0, 0, -1)))]
+    two = [
+        cap(math.pi / 2.0),
+        cap(math.pi / 2.0).turned(Rotation((1, 0, 0), (0, -1, 0), (0, 0, -1))),
+    ]
     ball = Shell("ball", "WHEEL", tuple(two), 3.0, 5.0)
     assert ball.volume == pytest.approx(4.0 / 3.0 * math.pi * (125.0 - 27.0), rel=1e-14)
     wanted = 0.4 * ball.volume * (5.0**5 - 3.0**5) / (5.0**3 - 3.0**3)

@@ -18,7 +18,7 @@ from geneva_cli.output import animate, moving_gif, page, still_svg
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.scene import value_at
 from geneva_cli.study.animation.scene import scene
-from geneva_cli.study.animation.turn import Turn
+from geneva_cli.study.animation.turn import MachineTurn
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(design.stem for design in repo.DESIGNS.glob("*.toml"))
@@ -49,7 +49,7 @@ def script(name):
 
 def wheel_by_core(design, at):
     """The wheel's angle at shown input angles, from the rows of `geneva motion`."""
-    turn = Turn(design.mechanism)
+    turn = MachineTurn(design.mechanism)
     out, turned = np.zeros(len(at)), 0.0
     first = turn.passages[0].engagement.half_step
     for one in turn.passages:
@@ -66,7 +66,7 @@ def wheel_by_core(design, at):
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)
     engine, data = script(name)
-    turn = Turn(design.mechanism)
+    turn = MachineTurn(design.mechanism)
     at = np.sort(np.random.default_rng(14).uniform(0.0, data["turn"], 60))
     asked = json.dumps(at.tolist())
     wheel = json.loads(
@@ -88,7 +88,7 @@ def test_the_roller_runs_in_the_slot_that_is_drawn(name):
     """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
     design = design_of(name)
     engine, _ = script(name)
-    for one in Turn(design.mechanism).passages[:1]:
+    for one in MachineTurn(design.mechanism).passages[:1]:
         e = one.engagement
         if not (design.spec.wheel.FLAT and design.spec.drive.OUTLINED):
             continue
@@ -228,7 +228,7 @@ def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
 def test_links_turn_as_they_are_cut(name):
     """Holes for pins stay on the joints that the drive states, at any angle of the turn."""
     found, design = scene(design_of(name)), design_of(name)
-    turn = Turn(design.mechanism)
+    turn = MachineTurn(design.mechanism)
     plates = [bar for bar in found.bars if bar.plates]
     assert plates
     for t in (0.0, 77.0, 200.0, 301.0):

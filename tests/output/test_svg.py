@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from test_dxf import MANY, TINY, bow, of, smooth
 
 from geneva_cli.curves.measure import extent
-from geneva_cli.curves.shapes import Circle, Cubic, Line, Look, about, closed
+from geneva_cli.curves.shapes import Annotations, Circle, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
@@ -99,7 +99,7 @@ def test_true_size_and_layers(units, suffix, unit):
 def test_the_scale_bar(size, units):
     suffix, unit = {"mm": ("mm", 1.0), "inch": ("in", 25.4)}[units]
     drawing = of(Circle("WHEEL", (size, 0.0), 0.5 * size), title="A title\x1b of <40>\nletters")
-    svg = root(drawing._replace(look=Look()), units)
+    svg = root(drawing._replace(look=Annotations()), units)
     (path,) = (p for p in svg.iter(f"{NAME}path") if p.get("id") == "SCALE_BAR")
     numbers = [float(n) for n in re.findall(r"-?\d+\.\d+", path.get("d"))]
     xs, ys = numbers[::2], numbers[1::2]
@@ -114,7 +114,7 @@ def test_the_scale_bar(size, units):
     assert share - 1e-9 <= 0.2 * math.sqrt(2.5)
     assert title.text == "A title  of <40> letters"
     # outside the shapes, inside the view
-    left, right, bottom, _ = view(drawing._replace(look=Look()), units)
+    left, right, bottom, _ = view(drawing._replace(look=Annotations()), units)
     lowest = -0.5 * size / unit
     assert all(bottom < -y < lowest for y in ys)
     assert all(left < x < right for x in xs)
@@ -138,7 +138,7 @@ def test_round_lengths(length, rounded):
 
 @pytest.mark.parametrize("units", ["mm", "inch"])
 def test_decimals_are_fixed(units):
-    written = text(TINY._replace(look=Look(), title=""), units)
+    written = text(TINY._replace(look=Annotations(), title=""), units)
     body = re.sub(
         r"<text.*?</text>|<style>.*?</style>|<\?xml.*?\?>|version=\"1.1\"|/2000/|#\w+",
         "",

@@ -8,7 +8,7 @@ import tomli
 from geneva_cli import GenevaError, load
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion
-from geneva_cli.spec.schema import REQUIRED, Table, fields
+from geneva_cli.spec.schema import REQUIRED, SpecTable, fields
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.specfile.template import KINDS, template
 
@@ -22,7 +22,7 @@ def words(kind: str) -> tuple[str, str]:
     return tree["wheel"].get("gearing", "external"), tree["drive"].get("kind", "crank")
 
 
-def tables(kind: str) -> list[type[Table]]:
+def tables(kind: str) -> list[type[SpecTable]]:
     """The classes whose fields are the keys of a template, all laws among them."""
     gearing, drive = words(kind)
     return [registry.gearing(gearing), registry.drive(drive), *LAWS, Motion, Size, Load, Limits]

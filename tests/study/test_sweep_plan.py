@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.study.sweep.plan import BLOCK, plan, shard
-from geneva_cli.study.sweep.values import Axis, axis
+from geneva_cli.study.sweep.values import VariedKey, axis
 
 GRID = [axis("wheel.z=3..7"), axis("drive.A=0,0.3"), axis("motion.law=cycloidal,3-4-5")]
 
@@ -22,7 +22,7 @@ def test_a_grid_is_the_product_in_order():
 
 
 def test_a_cloud_fills_its_box_and_takes_words_alike():
-    axes = [Axis("drive.A", (-0.5, 0.9), span=True), axis("wheel.z=3..6")]
+    axes = [VariedKey("drive.A", (-0.5, 0.9), span=True), axis("wheel.z=3..6")]
     rows = plan(axes, 4096, 7).rows(0, 4096)
     A = np.array([a for a, _ in rows])
     assert -0.5 <= A.min() < -0.49 and 0.89 < A.max() <= 0.9
@@ -31,7 +31,9 @@ def test_a_cloud_fills_its_box_and_takes_words_alike():
 
 
 def test_a_cloud_is_the_same_wherever_it_is_cut():
-    found = plan([Axis("drive.A", (0.0, 1.0), span=True), axis("wheel.z=3,4")], 2 * BLOCK + 9, 3)
+    found = plan(
+        [VariedKey("drive.A", (0.0, 1.0), span=True), axis("wheel.z=3,4")], 2 * BLOCK + 9, 3
+    )
     whole = found.rows(0, len(found))
     assert found.rows(BLOCK - 5, BLOCK + 5) == whole[BLOCK - 5 : BLOCK + 5]
     assert found.rows(len(found) - 3, len(found)) == whole[-3:]
@@ -39,7 +41,7 @@ def test_a_cloud_is_the_same_wherever_it_is_cut():
 
 
 def test_another_seed_is_another_cloud():
-    axes = [Axis("drive.A", (0.0, 1.0), span=True)]
+    axes = [VariedKey("drive.A", (0.0, 1.0), span=True)]
     assert plan(axes, 8, 1).rows(0, 8) != plan(axes, 8, 2).rows(0, 8)
 
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.study.sweep.values import Axis, axis
+from geneva_cli.study.sweep.values import VariedKey, axis
 
 
 @pytest.mark.parametrize(
@@ -37,7 +37,7 @@ def test_a_range_is_its_decimals(low, count, digits):
 
 
 def test_a_span_is_for_random_draws_only():
-    assert axis("drive.A=0:0.9", random=True) == Axis("drive.A", (0.0, 0.9), span=True)
+    assert axis("drive.A=0:0.9", random=True) == VariedKey("drive.A", (0.0, 0.9), span=True)
     with pytest.raises(GenevaError, match="a range is LOW:HIGH:STEP"):
         axis("drive.A=0:0.9")
 

@@ -18,7 +18,7 @@ from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.reading import SPANS, read_wish, span
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.shown import for_people
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.table import synthesis_table
 
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
@@ -48,7 +48,7 @@ def rows(**options):
 )
 def test_spans(text, low, high):
     rule, _, _ = SPANS["dwell_s"]
-    assert span("--dwell-s", text, rule) == Span(low, high)
+    assert span("--dwell-s", text, rule) == Interval(low, high)
 
 
 def test_wishes_for_times_leave_motions_and_cycles():

@@ -12,7 +12,7 @@ from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.numerics.angles import radians
 
 
-class Load(NamedTuple):
+class ShaftLoad(NamedTuple):
     """What the wheel's shaft carries: kg m², N m; and the service factor fc on all of it."""
 
     inertia: float
@@ -35,13 +35,13 @@ class MakersForm(NamedTuple):
 
 
 def makers_form(
-    factors: CamFactors, step_deg: float, motion_deg: float, n_rpm: float, load: Load
+    factors: CamFactors, step_deg: float, motion_deg: float, n_rpm: float, load: ShaftLoad
 ) -> MakersForm:
     """The form for a wheel's step in an input angle at a speed: alpha = Am step / t2².
 
     A maker's example: six stops in 270 degrees at 80 rpm, modified trapezoid.
 
-    >>> turret = Load(inertia=0.319, friction=4.49, work=0.0, service_factor=2.0)
+    >>> turret = ShaftLoad(inertia=0.319, friction=4.49, work=0.0, service_factor=2.0)
     >>> found = makers_form(CamFactors(4.89, 2.0, 1.655), 60.0, 270.0, 80.0, turret)
     >>> round(found.alpha, 3), round(found.Ti, 2), round(found.Tc, 2)
     (16.184, 5.16, 7.1)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
 from geneva_cli.analysis.loads.fluctuation import fluctuation_J, flywheel_kgm2
-from geneva_cli.analysis.loads.makers_form import Load, MakersForm, makers_form
+from geneva_cli.analysis.loads.makers_form import MakersForm, ShaftLoad, makers_form
 from geneva_cli.analysis.loads.means import DRIVEN, TORQUE, means_of
 from geneva_cli.analysis.loads.quantities import KINETIC, ends_of, ends_of_each
 from geneva_cli.analysis.peaks import velocity_peak
@@ -118,7 +118,7 @@ def greatest_form(
     invariants.
     """
     spec = mechanism.spec
-    load = Load(
+    load = ShaftLoad(
         inertia_kgm2(spec),
         support_torque_Nm(spec),
         spec.load.torque_Nm,

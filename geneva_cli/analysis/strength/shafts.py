@@ -49,7 +49,7 @@ class Turned(NamedTuple):
     twist_deg: float | None  # over overhang and span, greatest
 
 
-class Ends(NamedTuple):
+class GivenShaft(NamedTuple):
     """One shaft as ``[shaft]`` gives it."""
 
     diameter_mm: float | None
@@ -57,14 +57,14 @@ class Ends(NamedTuple):
     span_mm: float | None
 
 
-def wheel_shaft(given: Shaft) -> Ends:
+def wheel_shaft(given: Shaft) -> GivenShaft:
     """The wheel's."""
-    return Ends(given.wheel_diameter_mm, given.wheel_overhang_mm, given.wheel_span_mm)
+    return GivenShaft(given.wheel_diameter_mm, given.wheel_overhang_mm, given.wheel_span_mm)
 
 
-def crank_shaft(given: Shaft) -> Ends:
+def crank_shaft(given: Shaft) -> GivenShaft:
     """The crank's."""
-    return Ends(given.crank_diameter_mm, given.crank_overhang_mm, given.crank_span_mm)
+    return GivenShaft(given.crank_diameter_mm, given.crank_overhang_mm, given.crank_span_mm)
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -126,7 +126,7 @@ class Torque(NamedTuple):
         return Row(torque * torque, i.grip)
 
 
-def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
+def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
     """A shaft under the force and torque of a cycle; None without an overhang or without a load.
 
     Moments are infinite where the force has no bound.
@@ -150,7 +150,7 @@ def shaft(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
     return Turned(moment, at_deg, *rest)
 
 
-def shaft_of_many(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None:
+def shaft_of_many(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
     """The same of m designs; None where none has an overhang or a load."""
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
@@ -159,7 +159,7 @@ def shaft_of_many(mechanism: Mechanism, ends: Ends, loaded: On) -> Turned | None
     return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
 
 
-def _wanted(mechanism: Mechanism, ends: Ends, loaded: On) -> dict[str, Wanted]:
+def _wanted(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> dict[str, Wanted]:
     """The squares of the equivalent moment and of the torque."""
     given = mechanism.spec.shaft
     assert ends.overhang_mm is not None
@@ -168,7 +168,7 @@ def _wanted(mechanism: Mechanism, ends: Ends, loaded: On) -> dict[str, Wanted]:
 
 
 def _turned(
-    mechanism: Mechanism, ends: Ends, square: Array, at_deg: Number, torque_squared: Number
+    mechanism: Mechanism, ends: GivenShaft, square: Array, at_deg: Number, torque_squared: Number
 ) -> Turned:
     """From the greatest squares of moment and torque, (m,)."""
     given, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm

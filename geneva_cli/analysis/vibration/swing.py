@@ -136,18 +136,18 @@ def _integral(shape: Shape, order: int, swing: Swing) -> Complex:
     return total
 
 
-class Product(NamedTuple):
+class Pairing(NamedTuple):
     """How numbers of oscillators and of panels go together: each with each, or in pairs."""
 
     spread: Callable[..., Complex]  # of oscillators, against panels
     sum: Callable[..., Complex]  # (terms, oscillators), (panels, terms) -> sums over terms
 
 
-GRID = Product(lambda x: x[:, None], lambda a, b: a.T @ b.T)
-PAIRS = Product(lambda x: x, lambda a, b: np.einsum("tp,pt->p", a, b))
+GRID = Pairing(lambda x: x[:, None], lambda a, b: a.T @ b.T)
+PAIRS = Pairing(lambda x: x, lambda a, b: np.einsum("tp,pt->p", a, b))
 
 
-def by_powers(reduced: Array | Complex, unit: complex, series: Array, by: Product) -> Complex:
+def by_powers(reduced: Array | Complex, unit: complex, series: Array, by: Pairing) -> Complex:
     """Integrals of f e^(q (x - 1)), q the oscillators' and f the panels', by powers of q."""
     q = by.spread(reduced * unit)
     total: Complex = q * 0.0 * series[:, 0]
@@ -157,7 +157,7 @@ def by_powers(reduced: Array | Complex, unit: complex, series: Array, by: Produc
     return total
 
 
-def by_recurrence(reduced: Array | Complex, unit: complex, series: Array, by: Product) -> Complex:
+def by_recurrence(reduced: Array | Complex, unit: complex, series: Array, by: Pairing) -> Complex:
     """The same by modified spherical Bessel functions i_n(q) = unit^n y_n, scaled by their sum.
 
     q = unit times ``reduced``; the sum of (2 n + 1) i_n(q) is e^q.
@@ -186,7 +186,7 @@ def by_recurrence(reduced: Array | Complex, unit: complex, series: Array, by: Pr
 
 
 def by_ends(
-    reduced: Array | Complex, unit: complex, series: Array, by: Product
+    reduced: Array | Complex, unit: complex, series: Array, by: Pairing
 ) -> tuple[Complex, Complex]:
     """What the panels' left and right ends add, times p.
 

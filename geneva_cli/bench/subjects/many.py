@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from geneva_cli.bench.formulas import Design, acceleration, jerk
+from geneva_cli.bench.formulas import Proportions, acceleration, jerk
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.numeric import NUMERIC, vertex
 from geneva_cli.bench.truth import acceleration_peak, relative
@@ -33,17 +33,17 @@ class Designs:
         sign, b = np.where(self.internal, -1.0, 1.0), np.pi / self.z
         crank = 0.5 * np.pi - sign * b
         half = crank + np.arcsin(self.A * np.sin(crank))
-        self.arrays = Design(sign, np.sin(b), self.A, half)
+        self.arrays = Proportions(sign, np.sin(b), self.A, half)
 
-    def one(self, i: int) -> Design:
+    def one(self, i: int) -> Proportions:
         """A design for the methods that take one."""
-        return Design(*[float(v[i]) for v in self.arrays])
+        return Proportions(*[float(v[i]) for v in self.arrays])
 
-    def blocks(self, method: Callable[[Design], Any]) -> Any:
+    def blocks(self, method: Callable[[Proportions], Any]) -> Any:
         """A vectorised method, a block at a time so that it stays in the cache."""
         return np.concatenate(
             [
-                method(Design(*[v[i : i + BLOCK] for v in self.arrays]))
+                method(Proportions(*[v[i : i + BLOCK] for v in self.arrays]))
                 for i in range(0, len(self.A), BLOCK)
             ]
         )
@@ -61,7 +61,7 @@ class Designs:
         )
 
 
-def grid(d: Design, n: int) -> Any:
+def grid(d: Proportions, n: int) -> Any:
     """The greatest of n points, running over the points."""
     best = np.zeros(len(d.half))
     for i in range(1, n):
@@ -69,7 +69,7 @@ def grid(d: Design, n: int) -> Any:
     return best
 
 
-def parabola(d: Design, n: int) -> Any:
+def parabola(d: Proportions, n: int) -> Any:
     """A parabola through the greatest of n points and its neighbours."""
     size = np.array([np.abs(acceleration(np, d, d.half * (i / (n - 1)))) for i in range(n)])
     i, every = size.argmax(axis=0), np.arange(len(d.half))
@@ -78,7 +78,7 @@ def parabola(d: Design, n: int) -> Any:
     return np.where(i == inner, top, size[i, every])
 
 
-def find_root(d: Design, n: int) -> Any:
+def find_root(d: Proportions, n: int) -> Any:
     """SciPy's vectorised bracketing solver between the points of a scan."""
     from scipy.optimize.elementwise import find_root as solve
 
@@ -86,9 +86,9 @@ def find_root(d: Design, n: int) -> Any:
     nodes = [d.half * (i / (n - 1)) for i in range(n)]
     slopes = np.array([jerk(np, d, x) for x in nodes])
     left, which = np.nonzero(slopes[:-1] * slopes[1:] < 0.0)
-    part = Design(*[v[which] for v in d])
+    part = Proportions(*[v[which] for v in d])
     a, b = part.half * (left / (n - 1)), part.half * ((left + 1) / (n - 1))
-    found = solve(lambda x, *args: jerk(np, Design(*args), x), (a, b), args=tuple(part))
+    found = solve(lambda x, *args: jerk(np, Proportions(*args), x), (a, b), args=tuple(part))
     np.maximum.at(best, which, np.abs(acceleration(np, part, found.x)))
     return best
 
@@ -99,7 +99,7 @@ def _has_find_root() -> bool:
 
 
 # The registry of vectorised methods: name, function of a block of designs, sizes.
-VECTORISED: list[tuple[str, Callable[[Design, int], Any], tuple[int, ...]]] = [
+VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]] = [
     ("vectorised grid", grid, (33, 101, 1001)),
     ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
     ("vectorised scan + SciPy find_root", find_root, (17, 33)),
@@ -151,11 +151,11 @@ def subject(quick: bool) -> Subject:
     )
 
 
-def _sized(method: Callable[[Design, int], Any], n: int, d: Design) -> Any:
+def _sized(method: Callable[[Proportions, int], Any], n: int, d: Proportions) -> Any:
     return method(d, n)
 
 
 def _loop(
-    designs: Designs, method: Callable[[Design, Any], float], size: float, sample: int
+    designs: Designs, method: Callable[[Proportions, Any], float], size: float, sample: int
 ) -> list[float]:
     return [method(designs.one(i), size) for i in range(sample)]

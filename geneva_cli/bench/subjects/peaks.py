@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from geneva_cli.analysis.peaks import acceleration_peak as program
-from geneva_cli.bench.formulas import Design, acceleration
+from geneva_cli.bench.formulas import Proportions, acceleration
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.numeric import NUMERIC, closed
 from geneva_cli.bench.truth import acceleration_peak, relative
@@ -31,7 +31,7 @@ def subject(quick: bool) -> Subject:
 
 
 def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
-    d = Design.of(z, gearing, A)
+    d = Proportions.of(z, gearing, A)
     methods = [
         Method(numeric.name, size, partial(_run, numeric.run, d, size))
         for numeric in NUMERIC
@@ -64,5 +64,5 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
     )
 
 
-def _run(method: Callable[[Design, Any], float], d: Design, size: float) -> float:
+def _run(method: Callable[[Proportions, Any], float], d: Proportions, size: float) -> float:
     return method(d, int(size) if size >= 1.0 else size)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves.fit.arcs import fitted_arcs
 from geneva_cli.curves.fit.cubics import fitted_cubics
-from geneva_cli.curves.fit.path import Path
+from geneva_cli.curves.fit.path import CurvePath
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
@@ -27,7 +27,7 @@ def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]
 
     Raises GenevaError for a tolerance that double precision cannot show.
     """
-    return fitted_arcs(Path(curve, a, b, tolerance))
+    return fitted_arcs(CurvePath(curve, a, b, tolerance))
 
 
 def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
@@ -37,7 +37,7 @@ def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
 
     Raises GenevaError for a tolerance that double precision cannot show.
     """
-    return fitted_cubics(Path(curve, a, b, tolerance))
+    return fitted_cubics(CurvePath(curve, a, b, tolerance))
 
 
 # what curves may become

@@ -16,7 +16,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.fit.path import PIECES_MAX, TARGET, Path, inside, peaks, points_of, respread
+from geneva_cli.curves.fit.path import (
+    PIECES_MAX,
+    TARGET,
+    CurvePath,
+    inside,
+    peaks,
+    points_of,
+    respread,
+)
 from geneva_cli.curves.shapes import Arc, Line
 from geneva_cli.numerics.linear import gram, inverse2, product
 
@@ -54,7 +62,7 @@ class Knots(NamedTuple):
     tilt: Array  # (n + 1,) of the tangent, radians
 
 
-def fitted_arcs(path: Path) -> list[Arc | Line]:
+def fitted_arcs(path: CurvePath) -> list[Arc | Line]:
     """Arcs with common tangents along a path, the ends' tangents being the curve's."""
     rate = np.abs(np.diff(path.curvature()))
     bent = rate * (0.5 * (path.step[1:] + path.step[:-1])) ** 2
@@ -86,7 +94,7 @@ def _even(number: float) -> int:
     return 2 * int(np.ceil(0.5 * float(number)))
 
 
-def _attempt(path: Path, places: Array, target: float) -> tuple[Biarcs | None, float]:
+def _attempt(path: CurvePath, places: Array, target: float) -> tuple[Biarcs | None, float]:
     """Biarcs that serve, or None; and the least error of those that were tried."""
     nothing = np.zeros(len(places) // 2 + 1)
     knots = Knots(places, nothing, nothing)
@@ -116,7 +124,7 @@ def _attempt(path: Path, places: Array, target: float) -> tuple[Biarcs | None, f
     return None, least
 
 
-def _biarcs(path: Path, knots: Knots, samples: int) -> Biarcs:
+def _biarcs(path: CurvePath, knots: Knots, samples: int) -> Biarcs:
     z, tangent = path.at(inside(knots.places, samples))
     knot, ahead = np.append(z[:, 0], z[-1, -1]), np.append(tangent[:, 0], tangent[-1, -1])
     point = knot[::2] + 1j * knots.offset * ahead[::2]

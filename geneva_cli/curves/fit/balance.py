@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from geneva_cli.curves.fit.path import PIECES_MAX, TARGET, Path, respread
+from geneva_cli.curves.fit.path import PIECES_MAX, TARGET, CurvePath, respread
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -29,7 +29,7 @@ Fit = TypeVar("Fit")
 
 
 def balanced(
-    path: Path,
+    path: CurvePath,
     errors: Callable[[Array], Array],
     proof: Callable[[Array], Fit | None],
     order: float,
@@ -68,7 +68,7 @@ def balanced(
 
 
 def _spread(
-    path: Path, errors: Callable[[Array], Array], order: float, places: Array, last: bool
+    path: CurvePath, errors: Callable[[Array], Array], order: float, places: Array, last: bool
 ) -> tuple[Array, Array]:
     """The places with errors as alike as they get, and the weights: 1 where an error just does.
 

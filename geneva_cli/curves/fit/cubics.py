@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.fit.balance import balanced
-from geneva_cli.curves.fit.path import Path, inside, peaks, points_of
+from geneva_cli.curves.fit.path import CurvePath, inside, peaks, points_of
 from geneva_cli.curves.shapes import Cubic
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ SHORTEST, LONGEST = 1e-4, 1.0  # handles, in lengths of the piece: none is lost,
 ORDER = 6.0
 
 
-class Wanted(NamedTuple):
+class FitTargets(NamedTuple):
     """What cubics are to go through, moved to their start and scaled by the curve's length."""
 
     length: Array  # (n,) mm
@@ -37,24 +37,24 @@ class Wanted(NamedTuple):
     behind: Array
 
 
-class State(NamedTuple):
+class FitState(NamedTuple):
     """Handles in lengths of the piece, the samples' places on the cubics, what is left, squared."""
 
     handles: Array  # (n, 2)
     v: Array  # (n, samples + 1)
     left: Array  # (n,)
 
-    def better(self, other: State) -> State:
+    def better(self, other: FitState) -> FitState:
         """In each row the one with less left."""
         mine = (self.left < other.left)[:, None]
-        return State(
+        return FitState(
             np.where(mine, self.handles, other.handles),
             np.where(mine, self.v, other.v),
             np.minimum(self.left, other.left),
         )
 
 
-def fitted_cubics(path: Path) -> list[Cubic]:
+def fitted_cubics(path: CurvePath) -> list[Cubic]:
     """Cubics with common tangents along a path, the ends' tangents being the curve's."""
     known = np.empty((0, 2))  # handles: the last ones are near the next ones
 
@@ -79,14 +79,14 @@ def fitted_cubics(path: Path) -> list[Cubic]:
     return balanced(path, errors, proof, ORDER, np.ones(len(path.step)))
 
 
-def _wanted(path: Path, places: Array, samples: int) -> Wanted:
+def _wanted(path: CurvePath, places: Array, samples: int) -> FitTargets:
     z, tangent = path.at(inside(places, samples))
     length = np.abs(np.diff(z, axis=1)).sum(axis=1)
     points = (z - z[:, :1]) / length[:, None]
-    return Wanted(length, points, tangent[:, :1], tangent[:, -1:])
+    return FitTargets(length, points, tangent[:, :1], tangent[:, -1:])
 
 
-def _handles(wanted: Wanted, known: Array) -> Array:
+def _handles(wanted: FitTargets, known: Array) -> Array:
     """The handles of the nearest cubics, from ``known`` ones if there are as many of them.
 
     Least squares in two unknowns a piece (Levenberg and Marquardt's), no root of one variable.
@@ -105,7 +105,7 @@ def _handles(wanted: Wanted, known: Array) -> Array:
     return state.handles
 
 
-def _misses(wanted: Wanted, handles: Array) -> Array:
+def _misses(wanted: FitTargets, handles: Array) -> Array:
     """How far the samples lie from the cubics, mm; the length, where that proves nothing."""
     v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     for _ in range(FEET):
@@ -117,7 +117,7 @@ def _misses(wanted: Wanted, handles: Array) -> Array:
     return out
 
 
-def _bezier(wanted: Wanted, handles: Array, v: Array) -> tuple[Array, Array, Array]:
+def _bezier(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array, Array]:
     """Points of the scaled cubics and their first two derivatives, complex."""
     end = wanted.points[:, -1:]
     first, second = handles[:, :1] * wanted.ahead, end - handles[:, 1:] * wanted.behind
@@ -130,7 +130,7 @@ def _bezier(wanted: Wanted, handles: Array, v: Array) -> tuple[Array, Array, Arr
     )
 
 
-def _first_handles(wanted: Wanted, v: Array) -> Array:
+def _first_handles(wanted: FitTargets, v: Array) -> Array:
     """The handles with which the cubics are nearest to the samples at given parameters."""
     u = 1.0 - v
     fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
@@ -151,7 +151,7 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
     return solved
 
 
-def _projected(wanted: Wanted, handles: Array, v: Array) -> Array:
+def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
     """The places on the cubics nearest to the samples, one step of Newton's closer.
 
     Not to the last bit and in no bracket, as ``numerics.roots_many`` would: a few steps serve, with
@@ -166,15 +166,15 @@ def _projected(wanted: Wanted, handles: Array, v: Array) -> Array:
     return out
 
 
-def _seen(wanted: Wanted, handles: Array, v: Array) -> State:
+def _seen(wanted: FitTargets, handles: Array, v: Array) -> FitState:
     """The samples' places on these cubics, from places on others, and what is left."""
     for _ in range(2):
         v = _projected(wanted, handles, v)
     off = wanted.points - _bezier(wanted, handles, v)[0]
-    return State(handles, v, (np.abs(off) ** 2).sum(axis=1))
+    return FitState(handles, v, (np.abs(off) ** 2).sum(axis=1))
 
 
-def _improved(wanted: Wanted, state: State, damping: Array | float) -> Array:
+def _improved(wanted: FitTargets, state: FitState, damping: Array | float) -> Array:
     """Handles with smaller squares of the distances along the normals.
 
     On a short piece both handles bow it in the same way, and their difference matters much less:

@@ -24,7 +24,7 @@ TARGET = 0.995  # of the tolerance: what lies between samples is allowed for
 LEAST_TURN = 0.1  # radians; below, the places on a curve are told by its length alone
 
 
-class Path:
+class CurvePath:
     """A curve between two parameters, told by its place w from 0 to 1.
 
     Equal steps of w are equal parts of the length and of the turning alike: the parameter's own

@@ -12,7 +12,7 @@ from geneva_cli.machine.engagement import Displacement, Engagement
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout, Link
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
-from geneva_cli.spec.schema import Table
+from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
@@ -55,7 +55,7 @@ class FirstWheel(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drive(Table):
+class Drive(SpecTable):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
     TABLE: ClassVar[str] = "drive"

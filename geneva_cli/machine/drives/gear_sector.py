@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.drives.transmission import Carried, same
-from geneva_cli.machine.engagement import Anchor, Axis, Engagement, Motion, Path, Slot
+from geneva_cli.machine.drives.transmission import PinTravel, same
+from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, SlotAxis
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
@@ -197,11 +197,11 @@ class SectorSlot(Slot):
         """The pin runs along the slot's straight axis."""
         return self.inner(self.motion.slot_deg(input_deg), order)
 
-    def axis(self, input_deg: Number, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """The slot's lever and speed; in the gears the pitch radius L/(1+u), and no sliding."""
         lever, along = self.inner.axis(self.motion.slot_deg(input_deg), order)
         slot = self.touches(input_deg)
-        return Axis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
+        return SlotAxis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
 
     def touches(self, input_deg: Number) -> Number:
         """0 while the gears drive, else 1."""
@@ -240,7 +240,7 @@ def _slot(b: float) -> tuple[Engagement, RadialSlot]:
         step = poses.HalfStep(degrees, 180)
 
     entry, middle, exit_ = (
-        Anchor(pose.crank_deg, pose.wheel, pose.along, Carried(pose, same))
+        Anchor(pose.crank_deg, pose.wheel, pose.along, PinTravel(pose, same))
         for pose in poses.radial(1.0, step)
     )
     path = AnchoredPath((entry, middle, exit_))

@@ -134,7 +134,7 @@ class FirstRoller(Pushed):
 class FirstTurning(NamedTuple):
     """The first wheel, which carries the second crank, about a pose of its own roller."""
 
-    pose: poses.Pose
+    pose: poses.PinPose
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of its angle d since then, ``tau`` input radians later."""
@@ -163,7 +163,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
     return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
 
 
-def _running(middle: poses.Pose, a: float) -> poses.Pose:
+def _running(middle: poses.PinPose, a: float) -> poses.PinPose:
     """The first crank's pin at an angle a (radians) from mid-motion, in its own ray's frame."""
     m = library(a, middle.along)
     l, s, c = middle.bend[0], m.sin(a), m.cos(a)
@@ -172,4 +172,4 @@ def _running(middle: poses.Pose, a: float) -> poses.Pose:
     u, v = x / rho, y / rho
     slope = (l * (s * u + c * v), l * (c * u - s * v))
     bend = (l * (c * u - s * v), -l * (s * u + c * v))
-    return poses.Pose(m.degrees(a), m.atan2(y, x), rho, slope, bend)
+    return poses.PinPose(m.degrees(a), m.atan2(y, x), rho, slope, bend)

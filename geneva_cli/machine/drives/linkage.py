@@ -26,7 +26,7 @@ from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.link import LinkReactions
 from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
-from geneva_cli.machine.roller_path import LONG_PI, Path, rounded
+from geneva_cli.machine.roller_path import LONG_PI, RollerPath, rounded
 from geneva_cli.machine.wheel_for_path import fit
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels_for_paths import fits_many
@@ -63,7 +63,7 @@ class Linkage(PinPath):
 
     @property
     @abstractmethod
-    def roller_path(self) -> Path:
+    def roller_path(self) -> RollerPath:
         """The roller's path about the crank's axis."""
 
     def plan(self, spec: Spec) -> Plan:
@@ -199,7 +199,7 @@ def refuse_proportions(**lengths: float) -> None:
     refuse(reduce(larger, lengths.values()) > limit, error)
 
 
-class RodPath(Path):
+class RodPath(RollerPath):
     """The path of a point of the link that the crank's pin A carries: a coupler, a connecting rod.
 
     Its numbers are the lengths, the crank's a first, and last the point's coordinates along the

@@ -22,7 +22,7 @@ from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
-from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
@@ -110,7 +110,7 @@ class NoncircularGears(Transmission):
         assert self.ratio is not None  # one of the two is
         return _through(_turned(self.ratio.pairs), crank_deg)
 
-    def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """The peaks of the side-crank that has this ratio; None for a ratio by points."""
         return None if self.A is None else whitworth.closed_peaks(self.A, wheel, place)
 

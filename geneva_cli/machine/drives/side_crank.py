@@ -15,7 +15,7 @@ from geneva_cli.machine.drives.transmission import About, Transmission
 from geneva_cli.machine.engagement import ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import POSITIVE, Range
@@ -90,8 +90,8 @@ class SideCrank(Transmission):
         """The block on the input crank pushes across the coulisse."""
         if self.input_crank_mm is None:
             return None
-        return whitworth.Block(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
+        return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
-    def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """The peak acceleration of plain wheels."""
         return whitworth.closed_peaks(self.A, wheel, place)

@@ -23,8 +23,8 @@ from geneva_cli.machine.path_and_motion import MiddlePath
 from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
-from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.poses import Pose, middle
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.machine.wheels.poses import PinPose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
@@ -48,10 +48,10 @@ def same(tau: Number, order: int) -> tuple[Jet, Jet]:
     return sine_versine(Jet.variable(tau, order))
 
 
-class Carried(NamedTuple):
+class PinTravel(NamedTuple):
     """The displacement of a crank's pin from a pose, by the input angle."""
 
-    pose: Pose
+    pose: PinPose
     advance: Displacement
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
@@ -75,7 +75,7 @@ class Transmission(Drive):
         """The greatest crank angle from mid-motion at which the crank may move the wheel."""
         return 180.0
 
-    def closed_peaks(self, wheel: Gearing, place: Place) -> ClosedPeaks | None:
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """Peaks behind this transmission for which no general search is needed; None if none."""
         return None
 
@@ -110,7 +110,7 @@ class Transmission(Drive):
         """
         return None
 
-    def _follows(self, wheel: Gearing, place: Place, L: float) -> Engagement:
+    def _follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
         """The engagement of a straight slot with one of the rollers."""
         here = self.about(place.crank_deg)
         first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
@@ -134,11 +134,11 @@ class Transmission(Drive):
         """Whether crank angle and input angle are equal: then the classic closed forms hold."""
         return False
 
-    def _anchor(self, pose: Pose, crank_deg: float) -> Anchor:
+    def _anchor(self, pose: PinPose, crank_deg: float) -> Anchor:
         """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
         here = self.about(crank_deg + pose.crank_deg)
         from_mid = here.input_deg - self.about(crank_deg).input_deg
-        return Anchor(from_mid, pose.wheel, pose.along, Carried(pose, here.advance))
+        return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance))
 
     def _curved(self, spec: Spec, motion: Motion) -> Plan:
         """Curved slots, solved for from a law and the crank's circle."""

@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About
 from geneva_cli.machine.engagement import PeakValue, Vector
-from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.side_crank_peaks import (
     acceleration_peak,
     acceleration_peaks,
@@ -60,7 +60,7 @@ class SideCrankPeak(NamedTuple):
         return PeakValue(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
-def closed_peaks(A: float, wheel: Gearing, place: Place) -> SideCrankPeak | None:
+def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:
     """The peak of a wheel with closed forms and equal steps, at its first roller; else None."""
     closed = wheel.closed_form(place)
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
@@ -104,7 +104,7 @@ class Coulisse(NamedTuple):
         return sine_versine_of(rate, y, x, order)
 
 
-class Block(Pushed):
+class SlidingBlock(Pushed):
     """The block at the end of an input crank of length ``r`` over L, in the coulisse's slot."""
 
     def __init__(self, A: float, r: float, sign: float, mid: float) -> None:

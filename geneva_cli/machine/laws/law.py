@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
-from geneva_cli.spec.schema import Table
+from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.spline import Doubt
 
 
 @dataclass(frozen=True)
-class Law(Table):
+class Law(SpecTable):
     """A motion law; its fields are the keys that it adds to ``[motion]``."""
 
     TABLE: ClassVar[str] = "motion"

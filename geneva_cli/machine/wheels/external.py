@@ -11,7 +11,7 @@ from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels import classic, poses
-from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.offset_slot import OffsetFollowed, OffsetSlot
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels.skew import room, skew
@@ -97,12 +97,12 @@ class External(Gearing):
         """How far its slots miss the wheel's axis."""
         return (Dimension("slots' axes beside the wheel's", self.offset_mm, "mm"),)
 
-    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """A roller's passage; GenevaError where an offset slot cannot be entered without shock."""
         half = self.half_motion_deg(step)
         e = self.offset_mm / center_distance_mm
         if isinstance(e, float) and not e:
-            return Place(step, half, poses.radial(self.SIGN, step), step.sin_cos[0])
+            return RollerPlace(step, half, poses.radial(self.SIGN, step), step.sin_cos[0])
 
         def error() -> GenevaError:
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
@@ -116,16 +116,18 @@ class External(Gearing):
         spare = room(step, e)
         refuse(spare <= 0.0, error)
         slot = skew(step, e, spare)
-        return Place(step, half, slot.poses, slot.poses[2].slope[0], slot)
+        return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
 
-    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, Followed]:
         """A radial slot, or one beside the wheel's centre."""
         if place.skew is None:
             return super().follow(path, place, turn)
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetFollowed(path, place.step.b, place.skew)
 
-    def closed_form(self, place: Place) -> tuple[float, float, float] | None:
+    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
         """The closed forms of radial slots; None for others."""
         if place.skew is not None:
             return None

@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
-from geneva_cli.machine.wheels.poses import HalfStep, Pose
+from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
-from geneva_cli.spec.schema import Table
+from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Body, Displacement, Slot
+    from geneva_cli.machine.engagement import CarrierVelocity, Displacement, Slot
 
 
-class Place(NamedTuple):
+class RollerPlace(NamedTuple):
     """A roller on the crank, and its passage through a straight slot.
 
     ``crank_deg`` is the crank angle at which it crosses the line of centres; ``poses`` are entry,
@@ -32,7 +32,7 @@ class Place(NamedTuple):
 
     step: HalfStep
     half_motion_deg: float
-    poses: tuple[Pose, Pose, Pose]
+    poses: tuple[PinPose, PinPose, PinPose]
     ratio: float
     skew: Skew | None = None
     crank_deg: float = 0.0
@@ -47,7 +47,7 @@ class Place(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Gearing(Table):
+class Gearing(SpecTable):
     """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
 
     TABLE: ClassVar[str] = "wheel"
@@ -106,29 +106,31 @@ class Gearing(Table):
         """Crank angle from entry to the line of centres, for a slot entered without shock."""
 
     @abstractmethod
-    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """A roller's passage through a straight slot. Raises GenevaError where there is none."""
 
     def rest(self, ratio: float) -> float:
         """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
         return 1.0 - self.SIGN * ratio
 
-    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, Followed]:
         """The straight slot for a roller's path, and the motion that the two give.
 
         ``turn`` is the crank's angle from mid-motion, as its sine and versine.
         """
         return RadialSlot(path), Followed(path, place.step.b)
 
-    def body(self, place: Place, turn: Displacement) -> Body | None:
+    def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """The body that carries the roller; None for the crank's arm in the wheel's plane."""
         return None
 
-    def hub(self, place: Place) -> float:
+    def hub(self, place: RollerPlace) -> float:
         """Distance from the wheel's axis to the point about which the crank's arm turns, over L."""
         return 1.0
 
-    def closed_form(self, place: Place) -> tuple[float, float, float] | None:
+    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
         """Sign, l and 1 - l of the closed forms of a plain crank; None where there are none."""
         return None
 

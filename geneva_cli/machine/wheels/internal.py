@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.wheels import classic, poses
-from geneva_cli.machine.wheels.gearing import Gearing, Place
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
 
@@ -33,12 +33,12 @@ class Internal(Gearing):
         """Crank angle from entry to the line of centres: 90° + b."""
         return classic.half_motion_deg(self.SIGN, *step)
 
-    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """A roller's passage through a radial slot."""
         all_three = poses.radial(self.SIGN, step)
-        return Place(step, self.half_motion_deg(step), all_three, step.sin_cos[0])
+        return RollerPlace(step, self.half_motion_deg(step), all_three, step.sin_cos[0])
 
-    def closed_form(self, place: Place) -> tuple[float, float, float] | None:
+    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
         """The closed forms of radial slots."""
         return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
 

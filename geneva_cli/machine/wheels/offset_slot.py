@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from geneva_cli.machine.engagement import Anchor, Axis, Slot
+from geneva_cli.machine.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import are_designs, chosen, library
@@ -22,10 +22,10 @@ class OffsetSlot(Slot):
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
 
-    def axis(self, input_deg: Number, order: int = 0) -> Axis:
+    def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
-        return Axis(Jet(depth.c[:-1]), depth.derivative())
+        return SlotAxis(Jet(depth.c[:-1]), depth.derivative())
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
         return _depth(self.skew, self.path.middle.displacement_at(input_deg, order)[0])[0]

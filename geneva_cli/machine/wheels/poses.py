@@ -22,7 +22,7 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.jet import Jet
 
 
-class Pose(NamedTuple):
+class PinPose(NamedTuple):
     """One moment of the pin's turn on its circle; vectors are (along the ray, across it)."""
 
     crank_deg: float
@@ -58,17 +58,17 @@ class HalfStep(NamedTuple):
         return sin_cos_pi(self.p, self.q)
 
 
-def middle(sign: float, l: float, gap: float) -> Pose:
+def middle(sign: float, l: float, gap: float) -> PinPose:
     """The pin on the line of centres, ``gap`` from the wheel's, for a crank of any radius l."""
-    return Pose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
+    return PinPose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
 
 
-def radial(sign: float, step: HalfStep) -> tuple[Pose, Pose, Pose]:
+def radial(sign: float, step: HalfStep) -> tuple[PinPose, PinPose, PinPose]:
     """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
     l, cos_b = step.sin_cos
     half = half_motion_deg(sign, *step)
     return (
-        Pose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
+        PinPose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
         middle(sign, l, gap(sign, *step)),
-        Pose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
+        PinPose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
     )

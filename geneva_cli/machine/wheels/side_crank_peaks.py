@@ -149,7 +149,7 @@ def _wheels(z: Array, internal: Mask, A: Array) -> Wheel[Array]:
 OfAngle: TypeAlias = "Callable[[Library, Wheel[Array], Array], tuple[Array, Array]]"
 
 
-class Search(NamedTuple):
+class PeakSearch(NamedTuple):
     """A quantity: what is zero where it may be greatest, that with its slope, and its value."""
 
     zero: Callable[[Library, Wheel[Array], Array], Array]  # of cos f
@@ -159,8 +159,8 @@ class Search(NamedTuple):
     only_rising: bool = False  # where it falls through zero, the quantity is least
 
 
-ACCELERATION = Search(acceleration_slope_sign, acceleration_slopes, acceleration)
-VELOCITY = Search(velocity_fall, velocity_fall_slope, velocity, 1e-11, True)
+ACCELERATION = PeakSearch(acceleration_slope_sign, acceleration_slopes, acceleration)
+VELOCITY = PeakSearch(velocity_fall, velocity_fall_slope, velocity, 1e-11, True)
 
 
 class Brackets(NamedTuple):
@@ -173,7 +173,7 @@ class Brackets(NamedTuple):
     falling: Mask
 
 
-def _compete(w: Wheel[Array], size: Array, at: Array, search: Search) -> None:
+def _compete(w: Wheel[Array], size: Array, at: Array, search: PeakSearch) -> None:
     """Puts greater sizes, with their places, where ``size`` and ``at`` have less.
 
     Designs go through in blocks; the few that Newton is not soon done with wait for each other.
@@ -192,7 +192,7 @@ def _compete(w: Wheel[Array], size: Array, at: Array, search: Search) -> None:
         _refined(w, (size, at), search, joined, STEPS)
 
 
-def _scanned(w: Wheel[Array], search: Search) -> Brackets:
+def _scanned(w: Wheel[Array], search: PeakSearch) -> Brackets:
     """The changes of sign between the places of a scan."""
     import numpy as np
 
@@ -231,7 +231,7 @@ def _take(w: Wheel[Array], which: Which) -> Wheel[Array]:
 
 
 def _refined(
-    w: Wheel[Array], best: tuple[Array, Array], search: Search, found: Brackets, steps: int
+    w: Wheel[Array], best: tuple[Array, Array], search: PeakSearch, found: Brackets, steps: int
 ) -> Brackets:
     """Newton in each bracket, so many steps; what it found is put in ``best``, the rest returned.
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.machine.wheels.classic import gap, half_motion_deg
-from geneva_cli.machine.wheels.poses import HalfStep, Pose, middle
+from geneva_cli.machine.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.angles import cos_squared_less, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 
@@ -23,7 +23,7 @@ class Skew(NamedTuple):
     e: float
     tilt: float  # d, radians: the slot against the line of centres, half-way through the step
     deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
-    poses: tuple[Pose, Pose, Pose]
+    poses: tuple[PinPose, PinPose, PinPose]
     # at both ends in the slot's own frame, whose axis runs at -e beside the ray from the wheel's
     # centre; in the middle in that of the line of centres
 
@@ -55,7 +55,7 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     mid = middle(1.0, l, least)
     gentle = e > 0.0  # at entry
     poses = (
-        Pose(
+        PinPose(
             choose(gentle, -long, -short),
             -step.b,
             choose(gentle, wide, narrow),
@@ -63,7 +63,7 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
             (0.0, l),
         ),
         mid._replace(wheel=choose(gentle, turn, -turn)),
-        Pose(
+        PinPose(
             choose(gentle, short, long), step.b, choose(gentle, narrow, wide), (l, 0.0), (0.0, -l)
         ),
     )

@@ -9,8 +9,8 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
-from geneva_cli.machine.wheels.gearing import Gearing, Place
-from geneva_cli.machine.wheels.poses import HalfStep, Pose
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, turning
@@ -69,12 +69,12 @@ class Spherical(Gearing):
         """Crank angle from entry to mid-motion."""
         return sphere(step, self.axes_deg).half_motion_deg
 
-    def place(self, step: HalfStep, center_distance_mm: float) -> Place:
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """A roller's passage through a meridian slot; its arm is over the sphere's radius."""
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
         fall = ball.sin_S * ball.sin_th
-        return Place(
+        return RollerPlace(
             step,
             ball.half_motion_deg,
             poses(step, ball),
@@ -83,21 +83,23 @@ class Spherical(Gearing):
             cone=ball.cos_th,
         )
 
-    def follow(self, path: AnchoredPath, place: Place, turn: Displacement) -> tuple[Slot, Followed]:
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, Followed]:
         """The meridian slot, with the pin's coordinate along the wheel's axis."""
         assert place.height is not None  # it is a place on a sphere
         return MeridianSlot(path, Height(*place.height, turn)), Followed(path, place.step.b)
 
-    def body(self, place: Place, turn: Displacement) -> Cone:
+    def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
         """The crank, whose axis is not the roller's."""
-        return Cone(turn, place.cone)
+        return CrankCone(turn, place.cone)
 
-    def hub(self, place: Place) -> float:
+    def hub(self, place: RollerPlace) -> float:
         """The arm turns in a plane square to the crank's axis, cos th from the sphere's centre."""
         return sin_cos_deg(self.axes_deg)[0] * place.cone
 
 
-class Cone(NamedTuple):
+class CrankCone(NamedTuple):
     """The crank of a sphere, which carries its roller on a cone: its turning about the roller."""
 
     turn: Displacement
@@ -155,7 +157,7 @@ def sphere(step: HalfStep, axes_deg: float) -> Sphere:
     return Sphere(sin_S, cos_S, sin_th, cos_th, sin_b * cos_S / cos_th, cos_b / cos_th)
 
 
-def poses(step: HalfStep, ball: Sphere) -> tuple[Pose, Pose, Pose]:
+def poses(step: HalfStep, ball: Sphere) -> tuple[PinPose, PinPose, PinPose]:
     """Entry, middle and exit of a spherical wheel's pin, in its projection along the wheel's axis.
 
     Lengths are in units of the sphere's radius.
@@ -173,7 +175,7 @@ def poses(step: HalfStep, ball: Sphere) -> tuple[Pose, Pose, Pose]:
     positive = (ball.sin_S * cos_b) ** 2 / (far + abs(across))
     middle_ = choose(across > 0.0, positive, far - across)
     return (
-        Pose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
-        Pose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),
-        Pose(half, step.b, mouth, (slope, 0.0), (inward, -aside)),
+        PinPose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
+        PinPose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),
+        PinPose(half, step.b, mouth, (slope, 0.0), (inward, -aside)),
     )

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from geneva_cli.curves.measure import bounds, extent, mapped
-from geneva_cli.curves.shapes import Arc, Contour, Drawing, Look, Point, Shape
+from geneva_cli.curves.shapes import Annotations, Arc, Contour, Drawing, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.pdf_file import number, outline, point
@@ -76,7 +76,7 @@ def _lines(made: Drawing, placed: Move) -> Iterator[str]:
     yield "[] 0 d\n"
 
 
-def _look(look: Look, at: Put, placed: Move, bottom: float) -> Iterator[str]:
+def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[str]:
     """Arrows of rotation, and distances below the shapes."""
     yield f"{SOFT} RG {THIN} w\n"
     for turn in look.turns:

@@ -21,7 +21,7 @@ UP = (0.0, 0.0, 1.0)
 AHEAD = (1.0, 0.0, 0.0)
 
 
-class Corner(NamedTuple):
+class ShellCorner(NamedTuple):
     """Where arcs meet: a vertex on either sphere, and the edge between them."""
 
     low: str
@@ -29,7 +29,7 @@ class Corner(NamedTuple):
     edge: str
 
 
-class Side(NamedTuple):
+class ShellEdges(NamedTuple):
     """An arc's edges on both spheres, and whether it runs as they do."""
 
     low: str
@@ -54,8 +54,8 @@ class _Shell:
 
     def __init__(self, file: Entities, shell: Shell) -> None:
         self.file, self.shell = file, shell
-        self.corners: dict[Vector, Corner] = {}
-        self.sides: dict[tuple[Vector, Vector, Vector], Side] = {}
+        self.corners: dict[Vector, ShellCorner] = {}
+        self.sides: dict[tuple[Vector, Vector, Vector], ShellEdges] = {}
 
     def faces(self) -> list[str]:
         arcs = {_key(arc) for region in self.shell.regions for arc in region.boundary}
@@ -73,7 +73,7 @@ class _Shell:
             ]
         return found
 
-    def _side(self, arc: SphereArc) -> Side:
+    def _side(self, arc: SphereArc) -> ShellEdges:
         """The edges over an arc, which may be there already, from the region beside it."""
         back = self.sides.get(_key(_back(arc)))
         if back is not None:
@@ -83,19 +83,19 @@ class _Shell:
             edge(self.file, ends[0][upper], ends[1][upper], self._circle(arc, radius), True)
             for upper, radius in ((0, self.shell.inner), (1, self.shell.outer))
         )
-        self.sides[_key(arc)] = made = Side(low, high, True)
+        self.sides[_key(arc)] = made = ShellEdges(low, high, True)
         return made
 
-    def _corner(self, at: Vector) -> Corner:
+    def _corner(self, at: Vector) -> ShellCorner:
         if at not in self.corners:
             low, high = (self._point(at, r) for r in (self.shell.inner, self.shell.outer))
             ends = [self.file.add(f"VERTEX_POINT('',{point})") for point in (low, high)]
             way = self.file.shared(f"VECTOR('',{self.file.direction(*at)},1.)")
             rise = edge(self.file, ends[0], ends[1], f"LINE('',{low},{way})", True)
-            self.corners[at] = Corner(ends[0], ends[1], rise)
+            self.corners[at] = ShellCorner(ends[0], ends[1], rise)
         return self.corners[at]
 
-    def _wall(self, arc: SphereArc, side: Side) -> str:
+    def _wall(self, arc: SphereArc, side: ShellEdges) -> str:
         """Bounded, from outside, by the inner edge, up at its end, the outer one back, and down."""
         start, end = self.corners[arc.start], self.corners[arc.end]
         bound = loop(

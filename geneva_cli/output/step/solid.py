@@ -26,7 +26,7 @@ from geneva_cli.output.step.entities import (
 from geneva_cli.output.step.splines import Piece, Spline, pieces
 
 
-class Wall(NamedTuple):
+class WallFace(NamedTuple):
     """The face over one piece of a contour, and its edges in the plate's lower and upper face."""
 
     face: str
@@ -35,7 +35,7 @@ class Wall(NamedTuple):
     along: bool  # whether the edges run as the contour does
 
 
-class Place(NamedTuple):
+class SolidCorner(NamedTuple):
     """A corner of a contour: its lower and upper vertex, and the edge between them."""
 
     low: str
@@ -76,20 +76,22 @@ def _level(file: Entities, z: float) -> str:
     return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
 
 
-def _walls(file: Entities, plate: Plate, contour: Contour) -> list[Wall]:
+def _walls(file: Entities, plate: Plate, contour: Contour) -> list[WallFace]:
     found = pieces(contour.segments)
     places = [_place(file, plate, piece.start) for piece in found]
     pairs = zip(places, [*places[1:], places[0]], strict=True)
     return [_wall(file, plate, piece, *ends) for piece, ends in zip(found, pairs, strict=True)]
 
 
-def _place(file: Entities, plate: Plate, at: Point) -> Place:
+def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
     points = [file.point(at, z) for z in (plate.low, plate.high)]
     low, high = (file.add(f"VERTEX_POINT('',{point})") for point in points)
-    return Place(low, high, edge(file, low, high, f"LINE('',{points[0]},{file.rise})", True))
+    return SolidCorner(low, high, edge(file, low, high, f"LINE('',{points[0]},{file.rise})", True))
 
 
-def _wall(file: Entities, plate: Plate, piece: Piece, start: Place, end: Place) -> Wall:
+def _wall(
+    file: Entities, plate: Plate, piece: Piece, start: SolidCorner, end: SolidCorner
+) -> WallFace:
     curves = [_curve(file, piece, z) for z in (plate.low, plate.high)]
     along = not isinstance(piece, Arc) or piece.bulge > 0.0
     low = edge(file, start.low, end.low, curves[0], along)
@@ -97,10 +99,10 @@ def _wall(file: Entities, plate: Plate, piece: Piece, start: Place, end: Place) 
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal leads away from its axis, and that of the rest to the right
     wall = face(file, [sides], _surface(file, piece, plate), along)
-    return Wall(wall, low, high, True)
+    return WallFace(wall, low, high, True)
 
 
-def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> Wall:
+def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallFace:
     """The wall of a whole circle, cut open along a seam."""
     (x, y), r = circle.centre, circle.radius
     seam = _place(file, plate, (x + r, y))
@@ -110,7 +112,7 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> Wall:
     )
     sides = [(low, outside), (seam.edge, True), (high, not outside), (seam.edge, False)]
     surface = _cylinder(file, circle.centre, r, plate.low)
-    return Wall(face(file, [loop(file, sides)], surface, outside), low, high, outside)
+    return WallFace(face(file, [loop(file, sides)], surface, outside), low, high, outside)
 
 
 def _curve(file: Entities, piece: Piece, z: float) -> str:

@@ -17,7 +17,7 @@ ROW = 5.0  # mm: of tables
 NARROW = 60.0  # mm: text above a table is broken to this at least
 
 
-class Format(NamedTuple):
+class PaperSize(NamedTuple):
     """A trimmed sheet, mm; A4 is upright."""
 
     name: str
@@ -26,10 +26,10 @@ class Format(NamedTuple):
 
 
 FORMATS = (
-    Format("A4", 210.0, 297.0),
-    Format("A3", 420.0, 297.0),
-    Format("A2", 594.0, 420.0),
-    Format("A1", 841.0, 594.0),
+    PaperSize("A4", 210.0, 297.0),
+    PaperSize("A3", 420.0, 297.0),
+    PaperSize("A2", 594.0, 420.0),
+    PaperSize("A1", 841.0, 594.0),
 )
 # ISO 5455, with its powers of ten
 SCALES = [1.0 * n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
@@ -51,7 +51,7 @@ def smaller(scale: float, times: float) -> float:
     return max(s for s in SCALES if s <= scale / times * (1.0 + 1e-9))
 
 
-def frame(paper: Format) -> list[Shape]:
+def frame(paper: PaperSize) -> list[Shape]:
     """The frame, with marks at the middle of its sides."""
     w, h = paper.width, paper.height
     shapes: list[Shape] = [rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)]

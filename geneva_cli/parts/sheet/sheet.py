@@ -32,7 +32,7 @@ from geneva_cli.parts.sheet.paper import (
     LEFT,
     MARGIN,
     SCALES,
-    Format,
+    PaperSize,
     frame,
     scale_name,
     smaller,
@@ -117,7 +117,7 @@ def _arm(found: Outlines) -> CrankArm | None:
 
 def _composed(
     found: Outlines,
-    paper: Format,
+    paper: PaperSize,
     scale: float,
     rows: list[dict[str, Any]],
     blocks: list[Block],

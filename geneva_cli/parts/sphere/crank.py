@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.sphere import Region, SphereArc, Turn, Vector, cross, opposite, place
+from geneva_cli.curves.sphere import Region, Rotation, SphereArc, Vector, cross, opposite, place
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
@@ -83,11 +83,11 @@ def rollers(found: Ball) -> list[Region]:
     return [cap(place(found.arm, azimuth), found.roller) for azimuth in found.rollers]
 
 
-def at_mid_motion(found: Ball) -> Turn:
+def at_mid_motion(found: Ball) -> Rotation:
     """The crank's frame in the wheel's, with the first roller at mid-motion."""
     axis = found.crank_axis(0.0)
     ahead = place(found.axes - QUARTER, 0.0)
-    return Turn(ahead, cross(axis, ahead), axis)
+    return Rotation(ahead, cross(axis, ahead), axis)
 
 
 def swept(found: Ball) -> float:

@@ -10,7 +10,7 @@ import math
 from geneva_cli.curves.measure import bounds, mapped
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
 from geneva_cli.curves.shapes import Contour, Drawing, Line, Point, Segment, Shape, closed, joined
-from geneva_cli.curves.sphere import Region, Turn
+from geneva_cli.curves.sphere import Region, Rotation
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.crank import at_mid_motion, locked, rollers, sectors
@@ -128,7 +128,7 @@ def wheel_shell(found: Ball) -> Shell:
     return Shell("wheel", "WHEEL", tuple(wheel_regions(found)), *found.span_mm)
 
 
-def crank_shells(found: Ball, locks: list[Region], turn: Turn | None = None) -> list[Shell]:
+def crank_shells(found: Ball, locks: list[Region], turn: Rotation | None = None) -> list[Shell]:
     """Locking sectors and rollers in the crank's frame, or turned out of it."""
     parts = [("locking sector", "CRANK", region) for region in locks]
     parts += [("roller", "ROLLER", region) for region in rollers(found)]

@@ -20,7 +20,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.walls.joint import Place, joint, point, runs
+from geneva_cli.parts.walls.joint import WallPlace, joint, point, runs
 from geneva_cli.parts.walls.ways import Wall, walls
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class _Rim:
         out: Array = self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
         return out
 
-    def crossings(self, wall: Wall) -> Iterator[tuple[Place, float]]:
+    def crossings(self, wall: Wall) -> Iterator[tuple[WallPlace, float]]:
         """Where a wall enters the wheel: the first sample inside, and the parameter itself."""
         depth = self.depth(wall.points)
         inside = (depth > -self.close) & wall.free
@@ -95,9 +95,9 @@ class _Rim:
                     continue
                 at_end = before == -1
                 if at_end and depth[i] < self.close < depth[i + way]:
-                    yield Place(wall, i, way), float(wall.t[i])
+                    yield WallPlace(wall, i, way), float(wall.t[i])
                 elif not at_end and depth[before] <= -self.close:
-                    yield Place(wall, i, way), self.crossing(wall, wall.t[before], wall.t[i])
+                    yield WallPlace(wall, i, way), self.crossing(wall, wall.t[before], wall.t[i])
 
     def crossing(self, wall: Wall, outside: float, inside: float) -> float:
         """The parameter at which a wall crosses the rim."""
@@ -109,7 +109,7 @@ class _Rim:
         return boundary_by_sections(within, float(inside), float(outside))
 
 
-def _run(rim: _Rim, place: Place) -> tuple[Place, float | None]:
+def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
     """A wall's last free sample from a place on; at the rim, the parameter where it leaves."""
     wall, i, way = place
     depth = rim.depth(wall.points)
@@ -117,15 +117,15 @@ def _run(rim: _Rim, place: Place) -> tuple[Place, float | None]:
         after = i + way
         if not 0 <= after < len(wall.t):
             leaves = float(wall.t[i]) if depth[i] < rim.close and i != place.i else None
-            return Place(wall, i, way), leaves
+            return WallPlace(wall, i, way), leaves
         if depth[after] <= -rim.close:
-            return Place(wall, i, way), rim.crossing(wall, wall.t[after], wall.t[i])
+            return WallPlace(wall, i, way), rim.crossing(wall, wall.t[after], wall.t[i])
         if not wall.free[after]:
-            return Place(wall, i, way), None
+            return WallPlace(wall, i, way), None
         i = after
 
 
-def _next(around: list[Wall], last: Place) -> Place:
+def _next(around: list[Wall], last: WallPlace) -> WallPlace:
     """The wall that continues where one ends: the nearest free one other than itself."""
     here = last.wall.points[last.i]
     travel = last.way * last.wall.curve(last.wall.t[last.i : last.i + 1])[1][0]
@@ -144,7 +144,7 @@ def _next(around: list[Wall], last: Place) -> Place:
             # Not back where it came from: walls that run into each other end in one point.
             back = way * along < BACK
             if rest_of_run and not back and (best is None or score < best):
-                best, found = score, Place(wall, i, way)
+                best, found = score, WallPlace(wall, i, way)
     if found is None:
         raise _lost()
     return found

@@ -19,7 +19,7 @@ PARALLEL = 1e-7  # the sine below which two walls do not cross but run into each
 MET = 1e-7  # of a point's distance: nearer points are one
 
 
-class Place(NamedTuple):
+class WallPlace(NamedTuple):
     """A sample on a wall, and the direction of travel: 1 with rising index, or -1."""
 
     wall: Wall
@@ -27,7 +27,7 @@ class Place(NamedTuple):
     way: int
 
 
-def joint(last: Place, following: Place) -> tuple[float, float]:
+def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
     """The parameters on both walls of the point where they meet."""
     a, b = float(last.wall.t[last.i]), float(following.wall.t[following.i])
     at_ends = all(p.i in (0, len(p.wall.t) - 1) for p in (last, following))
@@ -46,13 +46,13 @@ def joint(last: Place, following: Place) -> tuple[float, float]:
     return a, b
 
 
-def _free_run(place: Place) -> tuple[float, float]:
+def _free_run(place: WallPlace) -> tuple[float, float]:
     """The parameters at both ends of the free stretch that a sample is in."""
     start, end = next((a, b) for a, b in runs(place.wall) if a <= place.i <= b)
     return float(place.wall.t[start]), float(place.wall.t[end])
 
 
-def _crossing(last: Place, following: Place) -> tuple[float, float] | None:
+def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | None:
     """The parameters on both walls of their crossing near these samples; None if none."""
     start = _polylines_cross(last, following)
     if start is None:
@@ -71,7 +71,7 @@ def _crossing(last: Place, following: Place) -> tuple[float, float] | None:
     return (a, b) if math.hypot(x, y) < MET * math.hypot(*p) else None
 
 
-def _polylines_cross(last: Place, following: Place) -> tuple[Place, Place] | None:
+def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, WallPlace] | None:
     """The samples before the crossing of two walls: the last on the one, the first on the other."""
     one = _window(last, -WINDOW, REACH)
     two = _window(following, -REACH, WINDOW)
@@ -89,14 +89,14 @@ def _polylines_cross(last: Place, following: Place) -> tuple[Place, Place] | Non
     return last._replace(i=int(one[i[best]])), following._replace(i=int(two[j[best]]))
 
 
-def _window(place: Place, behind: int, ahead: int) -> NDArray[np.intp]:
+def _window(place: WallPlace, behind: int, ahead: int) -> NDArray[np.intp]:
     """Indices of samples around one, in the direction of travel."""
     indices = place.i + place.way * np.arange(behind, ahead + 1)
     out: NDArray[np.intp] = indices[(indices >= 0) & (indices < len(place.wall.t))]
     return out
 
 
-def _within(place: Place, t: float) -> float:
+def _within(place: WallPlace, t: float) -> float:
     """A parameter kept to the neighbourhood of a sample."""
     grid, i = place.wall.t, place.i
     return min(max(t, float(grid[max(i - REACH, 0)])), float(grid[min(i + REACH, len(grid) - 1)]))
@@ -112,7 +112,7 @@ def point(wall: Wall, t: float) -> tuple[float, float]:
     return _at(wall, t)[0]
 
 
-def _speed(place: Place, t: float) -> float:
+def _speed(place: WallPlace, t: float) -> float:
     """How fast a wall's point moves with its parameter."""
     step = 1e-6 * float(place.wall.t[-1] - place.wall.t[0])
     low, high = _within(place, t - step), _within(place, t + step)

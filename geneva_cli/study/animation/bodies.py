@@ -14,7 +14,7 @@ from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.scene import Body, Track
 from geneva_cli.study.animation.tracks import still
-from geneva_cli.study.animation.turn import Turn
+from geneva_cli.study.animation.turn import MachineTurn
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -24,7 +24,7 @@ HOLLOW = "HOLLOW"  # what is cut out of a plate, with the plate's edge
 GEAR = 241  # points of a gear's pitch curve
 
 
-def bodies(design: Design, turn: Turn) -> Iterator[Body]:
+def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove, gears: those that the machine has."""
     L, wheel, crank = turn.L, turn.wheel(), turn.crank()
     # what is only laid flat does not turn so
@@ -58,7 +58,7 @@ def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
     )
 
 
-def _slots(turn: Turn) -> tuple[Shape, ...]:
+def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
     """A wheel that is not drawn, as a disc with a line along each slot."""
     spec, one = turn.mechanism.spec, turn.passages[0]
     x, y = turn.pin(one, np.linspace(one.entry, one.exit, 181)).T
@@ -74,14 +74,14 @@ def _at(r: float, a: float) -> tuple[float, float]:
     return float(r * math.cos(a)), float(r * math.sin(a))
 
 
-def _mark(shapes: tuple[Shape, ...], turn: Turn) -> Shape:
+def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
     """A dot behind the first slot's end, by which the slots can be told apart."""
     one = turn.passages[0]
     least = float(np.hypot(*turn.pin(one, np.linspace(one.entry, one.exit, 181)).T).min())
     return Circle(PITCH, (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
 
 
-def _gears(design: Design, turn: Turn) -> Iterator[Body]:
+def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """Both pitch curves: the driven one is fast on the crank, the driver beyond it."""
     table = design.part_table("gears", samples=GEAR).to_dict()
     sign = turn.mechanism.spec.wheel.SIGN

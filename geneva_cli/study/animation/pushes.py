@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.scene import Push
-from geneva_cli.study.animation.turn import Passage, Turn
+from geneva_cli.study.animation.turn import MachineTurn, Passage
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -18,7 +18,7 @@ PLACES = 73  # of a motion
 INSIDE = 1e-6  # of a motion, from its ends
 
 
-def pushes(cycle: Cycle, turn: Turn) -> Iterator[Push]:
+def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
     """The force of each passage over a turn; none without a load."""
     if not cycle.is_loaded:
         return
@@ -42,7 +42,7 @@ def pushes(cycle: Cycle, turn: Turn) -> Iterator[Push]:
         yield Push(*(tuple(column.tolist()) for column in columns))
 
 
-def _normals(one: Passage, local: Array, turn: Turn) -> Array:
+def _normals(one: Passage, local: Array, turn: MachineTurn) -> Array:
     """Unit normals of the slot in the fixed frame, of either sign; a sphere's in projection."""
     if turn.mechanism.spec.wheel.FLAT:
         x, y = one.engagement.slot(local, 2)

@@ -12,11 +12,11 @@ from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.scene import Bar, Body, Box, Place, Scene, State, pose
+from geneva_cli.scene import Bar, Body, Box, Phase, Place, Scene, pose
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
-from geneva_cli.study.animation.turn import Turn
+from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def scene(design: Design) -> Scene:
     (['wheel', 'crank'], 360.0, 2)
     """
     mechanism = design.mechanism
-    turn = Turn(mechanism)
+    turn = MachineTurn(mechanism)
     made = [body for body in bodies(design, turn) if body.shapes]
     found = None
     with suppress(GenevaError):  # no flat parts
@@ -78,16 +78,16 @@ def _figure(design: Design) -> Figure:
     return design.figure(SHOWN if loaded else SHOWN[:2])
 
 
-def _states(design: Design, turn: Turn) -> Iterator[State]:
+def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     held = _held(design)
     last = turn.passages[-1]
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
         a, b = one.entry - turn.start, one.exit - turn.start
-        yield State(a, b, True, f"{which} moves the wheel")
+        yield Phase(a, b, True, f"{which} moves the wheel")
         end = after.entry - turn.start if after else turn.whole
         if end > b + 1e-9:
-            yield State(b, end, False, held)
+            yield Phase(b, end, False, held)
     assert last.exit <= turn.end + 1e-9
 
 

@@ -45,7 +45,7 @@ class Passage(NamedTuple):
         return self.mid + self.engagement.exit_deg
 
 
-class Turn:
+class MachineTurn:
     """A machine's whole turn: input angles from the first entry on."""
 
     def __init__(self, mechanism: Mechanism) -> None:

@@ -17,7 +17,7 @@ from geneva_cli.study.sweep.values import Value
 TRIED = 20  # designs of a group, one of which must be a spec, to know its kinds
 
 
-class Group:
+class Batch:
     """Designs that differ in numbers alone: their own numbers, and the values that they share."""
 
     def __init__(self, rows: Sequence[Sequence[Value]], members: list[int]) -> None:
@@ -38,12 +38,12 @@ class Group:
         return many(spec, varied)
 
 
-def groups(rows: Sequence[Sequence[Value]], wide: Sequence[int]) -> Iterator[Group]:
+def groups(rows: Sequence[Sequence[Value]], wide: Sequence[int]) -> Iterator[Batch]:
     """Groups of rows that differ only in the keys numbered ``wide``, which may be arrays."""
     apart: dict[tuple[Value, ...], list[int]] = {}
     for i, row in enumerate(rows):
         apart.setdefault(tuple(v for k, v in enumerate(row) if k not in wide), []).append(i)
-    yield from (Group(rows, members) for members in apart.values())
+    yield from (Batch(rows, members) for members in apart.values())
 
 
 def wide_keys(spec: Spec, keys: Sequence[str], rows: Sequence[Sequence[Value]]) -> list[int]:

@@ -66,7 +66,7 @@ def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner
     It is refined over those of its keys that were given as spans. Raises GenevaError, saying how
     near the designs come, where none keeps the bounds.
     """
-    search = Search(found, asked)
+    search = SweepSearch(found, asked)
     tally = Tally(search)
     for rows in every:
         tally.add(rows)
@@ -81,7 +81,7 @@ def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner
     return Winner(numbers, found.machine(search.keys(best)), tally.tried, tally.feasible, binding)
 
 
-class Search:
+class SweepSearch:
     """The rows of a sweep as an optimiser sees them: shares of the free keys' spans."""
 
     def __init__(self, found: Sweep, asked: Asked) -> None:
@@ -150,7 +150,7 @@ class Tally:
     that is nearest to keeping it, or farthest inside.
     """
 
-    def __init__(self, search: Search) -> None:
+    def __init__(self, search: SweepSearch) -> None:
         self.search = search
         self.tried = self.feasible = 0
         self.first: list[Row] = []

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 Columns: TypeAlias = "Mapping[str, Number | None]"  # (m,) each, or one number for all
 
 
-class Group(NamedTuple):
+class QuantityGroup(NamedTuple):
     """Quantities of one table that are had together, and what gives those that are asked for."""
 
     names: tuple[str, ...]
@@ -91,7 +91,7 @@ def _crank_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
     return _shaft(machine, shafts.crank_shaft(spec.shaft), on)
 
 
-def _shaft(machine: Mechanism, ends: shafts.Ends, on: shafts.On) -> Columns:
+def _shaft(machine: Mechanism, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
     found = shafts.shaft_of_many(machine, ends, on)
     if found is None:
         return {}
@@ -194,18 +194,18 @@ LIFE = (
 )
 SLOT = ("not_driven_share", "branch_gap_mm", "branch_gap_at_deg")
 GROUPS = {
-    "strength.pin": Group(PIN, _pin),
-    "strength.wheel_shaft": Group(SHAFT, _wheel_shaft),
-    "strength.crank_shaft": Group(SHAFT, _crank_shaft),
-    "life": Group(LIFE, _life),
-    "vibration": Group(Vibrations._fields, _vibration),
-    "shock.entry": Group(Blow._fields, _entry),
-    "shock.reversal": Group((*Blow._fields, "drag_Nm"), _reversal),
-    "sizing": Group(SIZING, _sizing),
-    "slot": Group(SLOT, _slot),
+    "strength.pin": QuantityGroup(PIN, _pin),
+    "strength.wheel_shaft": QuantityGroup(SHAFT, _wheel_shaft),
+    "strength.crank_shaft": QuantityGroup(SHAFT, _crank_shaft),
+    "life": QuantityGroup(LIFE, _life),
+    "vibration": QuantityGroup(Vibrations._fields, _vibration),
+    "shock.entry": QuantityGroup(Blow._fields, _entry),
+    "shock.reversal": QuantityGroup((*Blow._fields, "drag_Nm"), _reversal),
+    "sizing": QuantityGroup(SIZING, _sizing),
+    "slot": QuantityGroup(SLOT, _slot),
     # what the random machines of a study tell is told of each design alone
-    "tolerance.motion_play": Group(("worst_deg", "rss_deg"), _play),
-    "tolerance.entry_jump": Group(("worst",), _jump),
+    "tolerance.motion_play": QuantityGroup(("worst_deg", "rss_deg"), _play),
+    "tolerance.entry_jump": QuantityGroup(("worst",), _jump),
 }
 
 

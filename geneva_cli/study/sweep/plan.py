@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.study.sweep.values import POINTS_MAX, Axis, Value
+from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -16,13 +16,13 @@ DIMENSIONS_MAX = 100  # keys that are drawn at once
 BLOCK = 4096  # designs that are worked on together; a power of two, for the Sobol sequence
 
 
-class Plan(NamedTuple):
+class SweepPlan(NamedTuple):
     """The designs of a sweep, numbered from 0; the last key runs fastest in a grid.
 
     ``random`` is how many are drawn, 0 for the whole grid, and ``seed`` what they are drawn with.
     """
 
-    axes: tuple[Axis, ...]
+    axes: tuple[VariedKey, ...]
     random: int = 0
     seed: int = 0
 
@@ -47,7 +47,7 @@ class Plan(NamedTuple):
             yield tuple(_at(a, x) for a, x in zip(self.axes, point, strict=True))
 
 
-def _at(axis: Axis, x: float) -> Value:
+def _at(axis: VariedKey, x: float) -> Value:
     """The value of a key at a share of its range, or of its list."""
     if axis.span:
         low, high = (float(v) for v in axis.values)
@@ -70,7 +70,7 @@ def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
     return points[start - first : stop - first]
 
 
-def plan(axes: Sequence[Axis], random: int | None, seed: int) -> Plan:
+def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
     """The plan of a sweep. Raises GenevaError, naming the option, where there is none."""
     keys = [a.key for a in axes]
     twice = next((k for k in keys if keys.count(k) > 1), None)
@@ -84,7 +84,7 @@ def plan(axes: Sequence[Axis], random: int | None, seed: int) -> Plan:
         raise GenevaError(f"--random with {len(axes)} keys; at most {DIMENSIONS_MAX}")
     if not 0 <= seed < 2**32:
         raise GenevaError(f"--seed {cut(seed)}: it must be at least 0 and below 2**32")
-    found = Plan(tuple(axes), random or 0, seed)
+    found = SweepPlan(tuple(axes), random or 0, seed)
     size = math.prod(len(a.values) for a in axes)
     if not random and size > POINTS_MAX:
         raise GenevaError(

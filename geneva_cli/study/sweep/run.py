@@ -16,8 +16,8 @@ from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep import batch, columns
-from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Plan, Shard
-from geneva_cli.study.sweep.values import Axis, Value
+from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
+from geneva_cli.study.sweep.values import Value, VariedKey
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 CHECKED = ("checks.passes", "checks.failed")
@@ -30,7 +30,7 @@ class Sweep(NamedTuple):
     """The designs of one spec with some keys varied, and the quantities to work out for each."""
 
     text: Text
-    plan: Plan
+    plan: SweepPlan
     pick: Pick
     shard: Shard = WHOLE
 
@@ -89,7 +89,7 @@ class Sweep(NamedTuple):
 
 def sweep(
     text: Text,
-    plan: Plan,
+    plan: SweepPlan,
     picks: Sequence[str] = DEFAULT,
     check: bool = False,
     shard: Shard = WHOLE,
@@ -105,7 +105,7 @@ def sweep(
     return Sweep(text, plan, pick(asked, _first(text, plan), options=options), shard)
 
 
-def _first(text: Text, plan: Plan) -> Mechanism:
+def _first(text: Text, plan: SweepPlan) -> Mechanism:
     """The first design that can be built."""
     said = ""
     for some in plan.rows(0, min(TRIED, len(plan))):
@@ -118,13 +118,13 @@ def _first(text: Text, plan: Plan) -> Mechanism:
     raise GenevaError(f"{count} can be built: {said}")
 
 
-def with_values(text: Text, axes: Sequence[Axis], some: Sequence[Value]) -> Text:
+def with_values(text: Text, axes: Sequence[VariedKey], some: Sequence[Value]) -> Text:
     """The spec with the values of the keys set over its own."""
     changes = tuple(_changed(a.key, v) for a, v in zip(axes, some, strict=True))
     return text._replace(given=(*text.given, *changes))
 
 
-def _machine(text: Text, plan: Plan, some: Sequence[Value]) -> Mechanism:
+def _machine(text: Text, plan: SweepPlan, some: Sequence[Value]) -> Mechanism:
     text = with_values(text, plan.axes, some)
     spec = text.spec()
     with text.located():

@@ -17,7 +17,7 @@ _WHOLE = r"\s*([+-]?\d{1,99})\s*"
 _RANGE = re.compile(rf"{_WHOLE}\.\.{_WHOLE}")
 
 
-class Axis(NamedTuple):
+class VariedKey(NamedTuple):
     """A varied key, and its values in order; a ``span`` has two, and all between them."""
 
     key: str  # table.key, as in the spec
@@ -25,7 +25,7 @@ class Axis(NamedTuple):
     span: bool = False
 
 
-def axis(text: str, random: bool = False) -> Axis:
+def axis(text: str, random: bool = False) -> VariedKey:
     """What ``KEY=VALUES`` varies; ``random`` where values are drawn, and LOW:HIGH is a span.
 
     Raises GenevaError, naming the option, for what is none.
@@ -40,19 +40,19 @@ def axis(text: str, random: bool = False) -> Axis:
     return _axis(key.strip(), values.strip().strip('"'), said, random)
 
 
-def _axis(key: str, text: str, said: str, random: bool) -> Axis:
+def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:
     whole = _RANGE.fullmatch(text)
     if whole:
         low, high = int(whole[1]), int(whole[2])
         _refuse_many(said, high - low + 1)
-        return Axis(key, _some(said, range(low, high + 1)))
+        return VariedKey(key, _some(said, range(low, high + 1)))
     if ":" in text:
         ends = [_decimal(part, said) for part in text.split(":")]
         if len(ends) == 3:
             first, last, step = ends
-            return Axis(key, _steps(first, last, step, said))
+            return VariedKey(key, _steps(first, last, step, said))
         if len(ends) == 2 and random and ends[0] < ends[1]:
-            return Axis(key, tuple(map(float, ends)), span=True)
+            return VariedKey(key, tuple(map(float, ends)), span=True)
         raise GenevaError(
             f"{said}: a range is LOW:HIGH:STEP" + (", or LOW:HIGH with LOW below" if random else "")
         )
@@ -61,7 +61,7 @@ def _axis(key: str, text: str, said: str, random: bool) -> Axis:
             f"{said}: LOW..HIGH is of whole numbers; other ranges are LOW:HIGH:STEP"
             + (" or LOW:HIGH" if random else "")
         )
-    return Axis(key, tuple(_one(part, said) for part in text.split(",")))
+    return VariedKey(key, tuple(_one(part, said) for part in text.split(",")))
 
 
 def _one(text: str, said: str) -> Value:

@@ -52,7 +52,7 @@ def best(
     chosen = {id(f): search.found.get(i, NONE) for i, f in enumerate(free)}
     out = []
     for f in families:
-        place = chosen.get(id(f), Place(0.0, 0.0, f.low))
+        place = chosen.get(id(f), Candidate(0.0, 0.0, f.low))
         known = abs(place.x - f.known) <= SAME * (f.high - f.low)
         spec = None if known or place.broken >= FORGIVEN else _made(f, place.x)
         if spec is not None:
@@ -66,7 +66,7 @@ def _first(f: Family) -> list[float]:
     return [*(f.low + _step(f) * j for j in range(PLACES)), f.high, *plain]
 
 
-class Place(NamedTuple):
+class Candidate(NamedTuple):
     """A machine of a family: by how much it breaks the bounds, how far it is from the best that
     could be (what is to be the least, or its distance from the plain crank), and where it is.
     """
@@ -76,7 +76,7 @@ class Place(NamedTuple):
     x: float
 
 
-NONE = Place(math.inf, math.inf, math.nan)
+NONE = Candidate(math.inf, math.inf, math.nan)
 
 
 class _Search:
@@ -91,7 +91,7 @@ class _Search:
     ) -> None:
         self.families, self.bounds, self.nearest = families, bounds, nearest
         self.least, self.sign = least.lstrip("-") or PEAK, -1.0 if least[:1] == "-" else 1.0
-        self.found: dict[int, Place] = {}
+        self.found: dict[int, Candidate] = {}
         # of each family all places looked at, in order, with the room that the bounds leave there
         self.rooms: list[list[tuple[float, float]]] = [[] for _ in families]
 
@@ -150,7 +150,7 @@ class _Search:
             plain = self.families[i].plain
             far = abs(x - plain) if self.nearest and plain == plain else self.sign * row[0]
             broken, room = self._broken(row[1:])
-            self.found[i] = min(self.found.get(i, NONE), Place(broken, far, x))
+            self.found[i] = min(self.found.get(i, NONE), Candidate(broken, far, x))
             insort(self.rooms[i], (x, room))
 
     def _broken(self, values: Sequence[float]) -> tuple[float, float]:

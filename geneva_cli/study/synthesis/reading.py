@@ -11,7 +11,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import constraint, refuse_contradictions
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import GEARINGS, SPACE, Wish
 
 WHEELS_MAX = 200  # numbers of slots in one call: each costs some hundredths of a second
@@ -151,19 +151,19 @@ def _stepped(step: str, degrees: float, slots: tuple[int, ...], z_given: bool) -
     return (z,)
 
 
-def span(option: str, text: str, rule: Range) -> Span:
+def span(option: str, text: str, rule: Range) -> Interval:
     """What an option's text asks for. Raises GenevaError, naming the option, for anything else.
 
     >>> span("--dwell-s", "0.8..", Range(0.0))
-    Span(low=0.8, high=inf)
+    Interval(low=0.8, high=inf)
     """
     low, dots, high = text.partition("..")
     if not dots:
         x = number(option, text, rule)
-        return Span(x, x)
+        return Interval(x, x)
     if not (low.strip() or high.strip()):
         raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
-    found = Span(
+    found = Interval(
         number(option, low, rule) if low.strip() else -math.inf,
         number(option, high, rule) if high.strip() else math.inf,
     )

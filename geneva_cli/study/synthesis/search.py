@@ -25,14 +25,14 @@ from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 
 
-class Found(NamedTuple):
+class FoundRows(NamedTuple):
     """Rows in their order, and the names of the quantities beside those of every row."""
 
     rows: list[Row]
     names: tuple[str, ...] = ()
 
 
-def search(wish: Wish) -> Found:
+def search(wish: Wish) -> FoundRows:
     """The machines that grant the wish in their order; no part has been turned yet.
 
     Raises GenevaError, saying what is within reach, where there is none.
@@ -52,7 +52,7 @@ def search(wish: Wish) -> Found:
     if wanted.pick:
         found = bounded(wanted, found)
     found.sort(key=lambda row: _rank(wish, wanted, row))
-    return Found(found, wanted.names)
+    return FoundRows(found, wanted.names)
 
 
 def _asked(wish: Wish) -> Asked:

@@ -51,7 +51,7 @@ DESCRIBED = (  # columns that the machine's description stands for
 )
 
 
-class Column(NamedTuple):
+class ShownColumn(NamedTuple):
     """A column for people: where it comes from, its head and its cells."""
 
     source: str
@@ -84,23 +84,25 @@ def for_people(table: Table) -> Table:
     return Table(tuple(c.head for c in kept), cells, title=title)
 
 
-def _columns(rows: list[dict[str, Any]], names: tuple[str, ...], several: bool) -> Iterator[Column]:
+def _columns(
+    rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
+) -> Iterator[ShownColumn]:
     """All columns in their order."""
     known = {*HEADS, *DESCRIBED}
     for source in ORDER:
         if source == "machine":
-            yield Column(source, source, [_machine(row, several) for row in rows])
+            yield ShownColumn(source, source, [_machine(row, several) for row in rows])
         elif source == "asked":
             for name in names:
                 if name not in known:
-                    yield Column(source, name.replace(".", "_"), [row[name] for row in rows])
+                    yield ShownColumn(source, name.replace(".", "_"), [row[name] for row in rows])
         elif source == "parts":
-            yield Column(source, source, [_said(row["parts"]) for row in rows])
+            yield ShownColumn(source, source, [_said(row["parts"]) for row in rows])
         else:
             cells = [row[source] for row in rows]
             if source == "gearing":  # ext, int, sph
                 cells = [word[:3] for word in cells]
-            yield Column(source, HEADS[source], cells)
+            yield ShownColumn(source, HEADS[source], cells)
 
 
 def _machine(row: dict[str, Any], several: bool) -> str:
@@ -124,7 +126,7 @@ def _links(row: dict[str, Any]) -> str:
     return " ".join(f"{x:.3g}" for x in lengths)
 
 
-def _fitting(columns: list[Column]) -> list[Column]:
+def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
     """As many columns as stand side by side, the dearest dropped first."""
     rank = {source: i for i, source in enumerate(HEADS)}
     kept = list(columns)
@@ -133,7 +135,7 @@ def _fitting(columns: list[Column]) -> list[Column]:
     return kept
 
 
-def _shortened(column: Column) -> Column:
+def _shortened(column: ShownColumn) -> ShownColumn:
     return column._replace(cells=[_short(v) for v in column.cells])
 
 

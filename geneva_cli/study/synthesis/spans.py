@@ -8,7 +8,7 @@ from typing import NamedTuple
 SAME = 1e-9  # share by which two exact wishes for one quantity may differ and be the same
 
 
-class Span(NamedTuple):
+class Interval(NamedTuple):
     """All numbers from ``low`` to ``high``, both included; one number where they are equal."""
 
     low: float = -math.inf
@@ -24,30 +24,30 @@ class Span(NamedTuple):
         """Whether no number is in it."""
         return not self.low <= self.high
 
-    def over(self, other: Span) -> Span:
+    def over(self, other: Interval) -> Interval:
         """The span of a/b, for positive a of this one and b of the other."""
         low = self.low / other.high if math.isfinite(other.high) else 0.0
         high = self.high / other.low if other.low > 0.0 else math.inf
-        return Span(max(low, 0.0), high)
+        return Interval(max(low, 0.0), high)
 
-    def mirrored(self, whole: float) -> Span:
+    def mirrored(self, whole: float) -> Interval:
         """The span of ``whole`` less a number."""
-        return Span(whole - self.high, whole - self.low)
+        return Interval(whole - self.high, whole - self.low)
 
-    def times(self, factor: float) -> Span:
+    def times(self, factor: float) -> Interval:
         """The span of a positive multiple."""
-        return Span(self.low * factor, self.high * factor)
+        return Interval(self.low * factor, self.high * factor)
 
-    def within(self, other: Span) -> Span:
+    def within(self, other: Interval) -> Interval:
         """What both hold: of one number each, which differ by rounding only, that of this one.
 
-        >>> Span(1.0, 3.0).within(Span(2.0, 4.0))
-        Span(low=2.0, high=3.0)
+        >>> Interval(1.0, 3.0).within(Interval(2.0, 4.0))
+        Interval(low=2.0, high=3.0)
         """
         low, high = max(self.low, other.low), min(self.high, other.high)
         if low > high and math.isclose(low, high, rel_tol=SAME):
-            return self if self.exact else other if other.exact else Span(low, low)
-        return Span(low, high)
+            return self if self.exact else other if other.exact else Interval(low, low)
+        return Interval(low, high)
 
     def words(self, what: str, unit: str = "") -> str:
         """A wish in words: ``a dwell of at least 0.8 s``."""

@@ -10,7 +10,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.parts import MAYBE, YES
 from geneva_cli.study.synthesis.rows import Candidate, Row
-from geneva_cli.study.synthesis.search import Found, search
+from geneva_cli.study.synthesis.search import FoundRows, search
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
 
@@ -19,7 +19,7 @@ TURNED = 20  # rows whose parts are turned where nothing is said
 
 
 def synthesis_table(
-    wish: Wish, count: int = TURNED, buildable: bool = False, found: Found | None = None
+    wish: Wish, count: int = TURNED, buildable: bool = False, found: FoundRows | None = None
 ) -> Table:
     """One row a machine, numbered from 1, as ``turned`` gives them."""
     found = found or search(wish)
@@ -47,7 +47,7 @@ class Numbered(NamedTuple):
 
 
 def turned(
-    wish: Wish, found: Found, count: int = TURNED, buildable: bool = False
+    wish: Wish, found: FoundRows, count: int = TURNED, buildable: bool = False
 ) -> Iterator[Numbered]:
     """The rows, the first ``count`` of them turned; ``buildable``: the first so many that pass.
 
@@ -64,13 +64,15 @@ def turned(
         maybe = one.row.candidate.parts == MAYBE
         if buildable and (passed >= count or not maybe):
             continue
-        row = told(one.row, next(shown)) if maybe and (buildable or one.no <= count) else one.row
+        row = one.row
+        if maybe and (buildable or one.no <= count):
+            row = with_result(row, next(shown))
         passed += row.candidate.parts == YES
         if not buildable or row.candidate.parts == YES:
             yield Numbered(one.no, row)
 
 
-def told(row: Row, result: Built) -> Row:
+def with_result(row: Row, result: Built) -> Row:
     """A row whose parts were turned."""
     said = f"no: {result.trouble}" if result.trouble else YES
     return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=said))

@@ -18,12 +18,12 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
-ANY = Span(0.0, math.inf)
+ANY = Interval(0.0, math.inf)
 PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take where nothing is said
 
@@ -39,7 +39,7 @@ class Wish(NamedTuple):
     gearings: tuple[str, ...] = GEARINGS
     rollers: int | None = None
     laws: tuple[str, ...] = ("modified-sine",)
-    spans: dict[str, Span] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
+    spans: dict[str, Interval] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
     acceleration_max: float | None = None
     frame: Spec | None = None
     sort: str = ""  # a quantity of a design; with a minus sign the greatest first
@@ -68,16 +68,16 @@ class Wish(NamedTuple):
         """Whether a peak acceleration is all that is asked of the motion."""
         return self.any_motion and not self.bounds
 
-    def cycle_s(self, m: int) -> Span:
+    def cycle_s(self, m: int) -> Interval:
         """The cycle times that are wished for; with a frame and no other wish its own."""
         if "cycle" in self.spans:
             return self.spans["cycle"]
         if self.frame is not None:
             own = 60.0 / (m * self.frame.drive.n_rpm)
-            return Span(own, own)
+            return Interval(own, own)
         return ANY
 
-    def demands(self, m: int) -> Iterator[tuple[str, Span]]:
+    def demands(self, m: int) -> Iterator[tuple[str, Interval]]:
         """What each wish asks of the motion angle of m rollers, with the words for it."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
         said = {name: f"--{name.replace('_', '-')} {_typed(s)}" for name, s in spans.items()}
@@ -86,9 +86,9 @@ class Wish(NamedTuple):
             yield said["motion_deg"], spans["motion_deg"]
         if "tau" in spans:
             low, high = spans["tau"]
-            yield said["tau"], Span(360.0 * low / m, 360.0 * high / m)
+            yield said["tau"], Interval(360.0 * low / m, 360.0 * high / m)
         if "k" in spans:
-            yield said["k"], Span(*(360.0 * _tau(k) / m for k in spans["k"]))
+            yield said["k"], Interval(*(360.0 * _tau(k) / m for k in spans["k"]))
         if "dwell_deg" in spans:
             yield said["dwell_deg"], spans["dwell_deg"].mirrored(turn)
         if "motion_s" in spans and beside:
@@ -99,19 +99,19 @@ class Wish(NamedTuple):
         if "motion_s" in spans and "dwell_s" in spans:
             k = spans["motion_s"].over(spans["dwell_s"])
             words = f"{said['motion_s']} with {said['dwell_s']}"
-            yield words, Span(*(turn * _tau(x) for x in k))
+            yield words, Interval(*(turn * _tau(x) for x in k))
 
     def asks_nothing(self, m: int) -> bool:
         """Whether any motion angle will do."""
         return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
 
-    def motion_for(self, m: int) -> Span | None:
+    def motion_for(self, m: int) -> Interval | None:
         """The motion angles that the wish leaves m rollers; None where it asks for none.
 
         It may be empty, or reach to 0 or to a whole turn over m, where nothing is left to move
         or to rest.
         """
-        found = Span(0.0, 360.0 / m)
+        found = Interval(0.0, 360.0 / m)
         if self.asks_nothing(m):
             return None
         for _, asked in self.demands(m):
@@ -155,16 +155,16 @@ def _tau(k: float) -> float:
     return k / (1.0 + k) if k < math.inf else 1.0
 
 
-def _typed(s: Span) -> str:
+def _typed(s: Interval) -> str:
     ends = ("" if abs(x) == math.inf else f"{x:.7g}" for x in s)
     return f"{s.low:.7g}" if s.exact else "..".join(ends)
 
 
-def _angles(s: Span, m: int) -> str:
+def _angles(s: Interval, m: int) -> str:
     """What a wish leaves of the motion, for a message."""
     whole = 360.0 / m
     if s.high <= 0.0 or s.low >= whole:
         return "no time to move" if s.high <= 0.0 else "no dwell"
-    return Span(s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf).words(
-        "a motion of", " deg"
-    )
+    return Interval(
+        s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf
+    ).words("a motion of", " deg")

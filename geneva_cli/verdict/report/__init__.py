@@ -42,7 +42,7 @@ def report(
     proof = proof or Proof(mechanism)
     rows = judged(mechanism, proof) if rows is None else rows
     cycle = cycle_of(mechanism)
-    told = (
+    warnings = (
         *cautions(mechanism),
         *load_cautions(mechanism),
         *cycle_cautions(cycle, summaries(cycle)),
@@ -59,8 +59,8 @@ def report(
     }
     for section in SECTIONS:
         values |= section.values(proof)
-    values["warnings"] = told
-    return Report(record_table(values, title, words(mechanism)), passes, told)
+    values["warnings"] = warnings
+    return Report(record_table(values, title, words(mechanism)), passes, warnings)
 
 
 def _said(check: Check) -> str:

@@ -74,7 +74,7 @@ def _lock(of: Strength) -> Values:
     }
 
 
-def _shaft(of: Strength, found: shafts.Turned | None, ends: shafts.Ends) -> Values:
+def _shaft(of: Strength, found: shafts.Turned | None, ends: shafts.GivenShaft) -> Values:
     allowed = of.spec.shaft.shear_stress_max_MPa
     return {
         "diameter_mm": ends.diameter_mm,

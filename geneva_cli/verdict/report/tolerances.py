@@ -29,5 +29,5 @@ def tolerances(proof: Proof) -> Values:
         return {f"tolerance.{name}": None for name in NAMES}
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-    told = tolerance_table(proof.mechanism, proof, SAMPLES, 0).to_dict()
-    return {f"tolerance.{name}": told[name] for name in NAMES}
+    answers = tolerance_table(proof.mechanism, proof, SAMPLES, 0).to_dict()
+    return {f"tolerance.{name}": answers[name] for name in NAMES}

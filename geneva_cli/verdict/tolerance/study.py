@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 SAMPLES_MAX = 10_000_000
 
 
-class Entry(NamedTuple):
+class EntryJumps(NamedTuple):
     """Sizes of the jump at entry over the input's speed; 0 for a machine that misses the axis."""
 
     worst: float
@@ -48,7 +48,7 @@ class Study(NamedTuple):
     dwell: Spread | None
     motion: Spread | None
     motion_at_deg: float | None
-    entry: Entry | None
+    entry: EntryJumps | None
     clearances: Needed
     jams: float | None  # share of the machines that do not go together
     warnings: tuple[Caution, ...]
@@ -112,7 +112,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
                 )
             )
         mean, deviation = float(jump.mean()), float(jump.std())
-        entry = Entry(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
+        entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
         warnings.append(
             Caution(

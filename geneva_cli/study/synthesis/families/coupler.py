@@ -29,7 +29,7 @@ HALF_WALL = 1.0 / 400.0  # of the centre distance: half of what must stand betwe
 TOUCH = 1e-6  # of a mouth's distance: a roller that leaves its slot stands this near to it
 
 
-class Links(NamedTuple):
+class FourBarLinks(NamedTuple):
     """Crank, ground, coupler and rocker; the coupler on the positive side. Shapes (n, 1)."""
 
     a: Array
@@ -37,9 +37,9 @@ class Links(NamedTuple):
     b: Array
     c: Array
 
-    def taken(self, which: Any) -> Links:
+    def taken(self, which: Any) -> FourBarLinks:
         """Some of the linkages."""
-        return Links(*(x[which] for x in self))
+        return FourBarLinks(*(x[which] for x in self))
 
 
 class Linked(NamedTuple):
@@ -51,7 +51,7 @@ class Linked(NamedTuple):
     along: list[Complex]
 
 
-class Drive(NamedTuple):
+class CouplerDrive(NamedTuple):
     """What drives the wheel: entry and motion in radians, the wheel's sense, the roller's place."""
 
     entry: Array
@@ -72,7 +72,7 @@ class Judged(NamedTuple):
     reach: Array
 
 
-def linked(links: Links, phi: Array, order: int) -> Linked:
+def linked(links: FourBarLinks, phi: Array, order: int) -> Linked:
     """The linkage for crank angles in radians: as ``CouplerPath`` says it."""
     a, g, b, c = links
     sine, cosine = sin_cos(Jet.variable(phi, order))
@@ -88,7 +88,9 @@ def _complex(x: Jet, y: Jet) -> list[Complex]:
     return [np.asarray(p + 1j * q) for p, q in zip(x.c, y.c, strict=True)]
 
 
-def driving(links: Links, entry: Array, motion: Array, b: float, sense: Array) -> Drive:
+def driving(
+    links: FourBarLinks, entry: Array, motion: Array, b: float, sense: Array
+) -> CouplerDrive:
     """The roller's place that makes the motion, (n, 1); not a number where there is none."""
     one, two = (linked(links, phi, 1) for phi in (entry, entry + motion))
     turn = np.exp(1j * sense * (0.5 * math.pi - b))
@@ -107,10 +109,12 @@ def driving(links: Links, entry: Array, motion: Array, b: float, sense: Array) -
     way, foot = D.conj() / np.abs(D), -1j * E / D
     at_rest = ((-v / u - foot) * way.conj()).real
     total = -(2.0 * A * (foot * way.conj()).real + (d * way).imag) / A
-    return Drive(entry, motion, sense, foot + (total - at_rest) * way)
+    return CouplerDrive(entry, motion, sense, foot + (total - at_rest) * way)
 
 
-def judged(links: Links, drive: Drive, b: float, roller: float, order: int, places: int) -> Judged:
+def judged(
+    links: FourBarLinks, drive: CouplerDrive, b: float, roller: float, order: int, places: int
+) -> Judged:
     """What becomes of the wheels, looked at in so many places of the motion and of the way back,
     for a roller of that share of the centre distance, and derivatives up to that order.
     """

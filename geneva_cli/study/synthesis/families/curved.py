@@ -30,7 +30,7 @@ from geneva_cli.study.synthesis.families.family import (
     wanted,
 )
 from geneva_cli.study.synthesis.parts import suited
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
 ROUNDING = 2e-15  # share of the natural motion: what a difference of two angles may be off by
@@ -55,14 +55,17 @@ def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 
 
 def _of_law(
-    wish: Wish, wheel: Gearing, make: Callable[[int, float], Spec], reached: Callable[[Span], Span]
+    wish: Wish,
+    wheel: Gearing,
+    make: Callable[[int, float], Spec],
+    reached: Callable[[Interval], Interval],
 ) -> Iterator[Family]:
     """``make`` makes the machine of so many rollers and such a motion; ``reached`` says which
     motions of a span it makes.
     """
     natural = natural_deg(wheel)
 
-    def motions(m: int) -> Span | None:
+    def motions(m: int) -> Interval | None:
         asked = closed_span(wanted(wish, m, natural), m)
         return reached(asked) if asked else None
 
@@ -71,7 +74,7 @@ def _of_law(
         if free is None:
             continue
         own = holds(free, natural)
-        motion = Span(natural, natural) if own and free.exact else free
+        motion = Interval(natural, natural) if own and free.exact else free
         yield _free(wish, partial(make, m), motion, natural)
         if own:
             yield only(make(m, natural))
@@ -82,10 +85,10 @@ def _of_law(
 
     for spec in more_rollers(wish, natural, longest):
         m = spec.drive.rollers
-        yield _free(wish, partial(make, m), motions(m) or Span(natural, natural), natural)
+        yield _free(wish, partial(make, m), motions(m) or Interval(natural, natural), natural)
 
 
-def _free(wish: Wish, make: Callable[[float], Spec], motion: Span, natural: float) -> Family:
+def _free(wish: Wish, make: Callable[[float], Spec], motion: Interval, natural: float) -> Family:
     """The machines of some motions, or the one of the longest where only its peak counts."""
     low = motion.low if wish.bounds or wish.sort else motion.high
     return Family(make, low, motion.high, plain=natural)
@@ -95,11 +98,11 @@ def _grooved(make: Callable[[int, float], Spec], m: int, motion: float) -> Spec:
     return cam(make(m, motion))
 
 
-def _until_parallel(wheel: Gearing, motion: Span) -> Span:
+def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
     """Of a range the motions after which crank and slot are not yet parallel, where there are."""
     parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
     inside = not motion.exact and motion.low < parallel
-    return Span(motion.low, min(motion.high, parallel)) if inside else motion
+    return Interval(motion.low, min(motion.high, parallel)) if inside else motion
 
 
 def cam(spec: Spec) -> Spec:

@@ -11,7 +11,7 @@ from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
 EXACT = 1e-6  # share of the motion angle by which the plain crank may miss the wish
@@ -61,28 +61,28 @@ def natural_deg(wheel: Gearing) -> float:
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
-def wanted(wish: Wish, m: int, natural: float) -> Span:
+def wanted(wish: Wish, m: int, natural: float) -> Interval:
     """The motion angles for m rollers; without a wish for one any, or the plain crank's own."""
     found = wish.motion_for(m)
     if found is None:
-        return Span(0.0, 360.0 / m) if wish.any_motion else Span(natural, natural)
+        return Interval(0.0, 360.0 / m) if wish.any_motion else Interval(natural, natural)
     return found
 
 
-def holds(motion: Span, natural: float) -> bool:
+def holds(motion: Interval, natural: float) -> bool:
     """Whether a motion angle is wished for, but for what the plain crank may miss it by."""
     slack = EXACT * natural
     return motion.low - slack <= natural <= motion.high + slack
 
 
-def closed_span(motion: Span, m: int) -> Span | None:
+def closed_span(motion: Interval, m: int) -> Interval | None:
     """A wished span of which an open end is taken near its limit; None where nothing is in it."""
     whole = 360.0 / m
     low = motion.low if motion.low > 0.0 else SHORTEST * whole
     high = motion.high if motion.high < whole else (1.0 - SHORTEST) * whole
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
-    return Span(min(low, high), high) if not motion.exact else motion
+    return Interval(min(low, high), high) if not motion.exact else motion
 
 
 def rollers(wish: Wish, natural: float) -> range:

@@ -13,9 +13,9 @@ import numpy as np
 
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.families.coupler import Drive, Links, driving, judged
+from geneva_cli.study.synthesis.families.coupler import CouplerDrive, FourBarLinks, driving, judged
 from geneva_cli.study.synthesis.families.coupler_costs import Costs, order
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class Goal(NamedTuple):
 
     wish: Wish
     wheel: Gearing
-    motion: Span
+    motion: Interval
     roller: float  # of the centre distance: the roller that must have room
     bounds: tuple[Constraint, ...]
     least: str
@@ -51,8 +51,8 @@ class Pool(NamedTuple):
     """Places in the unit cube, and what becomes of them."""
 
     unit: Array  # (n, DIMENSIONS)
-    links: Links
-    drive: Drive
+    links: FourBarLinks
+    drive: CouplerDrive
     broken: Array  # by how much the bounds are; infinite where there is no machine
     cost: Array  # what is to be the least
     distance: Array
@@ -116,7 +116,7 @@ def _pool(goal: Goal, unit: Array, sense: Array, places: int) -> Pool:
     longest = np.minimum(
         np.minimum(np.minimum(g, b), c), g + b + c - 2.0 * np.maximum(np.maximum(g, b), c)
     )
-    links = Links(longest * (CRANK[0] + (CRANK[1] - CRANK[0]) * u[2]), g, b, c)
+    links = FourBarLinks(longest * (CRANK[0] + (CRANK[1] - CRANK[0]) * u[2]), g, b, c)
     # the gentlest is often at an end of a range: a sixth of all places is at either
     share = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     degrees = motion.low + (motion.high - motion.low) * share

@@ -33,7 +33,7 @@ from geneva_cli.study.synthesis.families.family import (
     wanted,
 )
 from geneva_cli.study.synthesis.families.four_bar_search import OTHERS, Goal, Pool, searched
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import PEAK, Wish
 
 ROLLER = 0.025  # of the centre distance: the roller that has room, half the usual one,
@@ -67,7 +67,7 @@ def four_bars(wish: Wish, wheel: Gearing) -> Iterator[Family]:
                 return
 
 
-def _found(wish: Wish, wheel: Gearing, free: Span, natural: float) -> Pool:
+def _found(wish: Wish, wheel: Gearing, free: Interval, natural: float) -> Pool:
     """The best four-bars. Where any motion will do and nothing is to be least, the gentlest that
     move for as long as the plain crank; where none of these keeps the bounds, of any motion.
     """
@@ -84,7 +84,7 @@ def _found(wish: Wish, wheel: Gearing, free: Span, natural: float) -> Pool:
         return searched(goal._replace(least=least, sign=sign) if is_known(least) else goal)
     if not wish.any_motion:
         return searched(goal)
-    same = searched(goal._replace(motion=Span(natural, natural)))
+    same = searched(goal._replace(motion=Interval(natural, natural)))
     return same if len(same.cost) else searched(goal)
 
 

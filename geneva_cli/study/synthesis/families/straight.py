@@ -31,7 +31,7 @@ from geneva_cli.study.synthesis.families.family import (
     rollers,
     wanted,
 )
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
 ASIDE = 0.1  # of L, by which offset slots miss the wheel's centre
@@ -101,7 +101,7 @@ def driven(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         yield from _inclined(wish, wheel)
 
 
-def _in_front(wish: Wish, wheel: Gearing, natural: float, motion: Span) -> Iterator[Family]:
+def _in_front(wish: Wish, wheel: Gearing, natural: float, motion: Interval) -> Iterator[Family]:
     yield from _between(partial(side_crank, wish, wheel), closed.side_crank, natural, motion)
     yield from _between(partial(gears, wish, wheel), closed.eccentricity, natural, motion)
 
@@ -110,7 +110,7 @@ def _between(
     make: Callable[[float], Spec],
     inverse: Callable[[float, float], float],
     natural: float,
-    motion: Span,
+    motion: Interval,
 ) -> Iterator[Family]:
     """A drive whose parameter rises with its motion, as far as it goes."""
     low, high = (inverse(natural, x) for x in motion)
