@@ -105,14 +105,11 @@ def _on_mouth(
     return [mouth_contacts(engagement, *error, roller, room) for error in errors]
 
 
-def mouth_jumps(mechanism: Mechanism, engagement: Engagement) -> Array | None:
-    """Jumps on the mouth's corners at the ends of the tolerances; NaN where the roller has room.
-
-    None where it is not known how the roller meets the mouth.
-    """
-    found = _on_mouth(mechanism, engagement, 1.0)
-    jumps = [one.jump for one in found if one is not None]
-    return np.concatenate((*jumps, [np.nan])) if len(jumps) == len(found) else None
+def mouth_jump_worst(mechanism: Mechanism) -> float:
+    """The size of the worst jump on a mouth's corner; 0 where the roller has room in each."""
+    every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
+    sizes = [float(np.nan_to_num(abs(one.jump)).max()) for one in every if one is not None]
+    return max(sizes, default=0.0)
 
 
 def clearance_mm(mechanism: Mechanism) -> float:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 STEPS = 64  # halvings, every half an octave, in which a crossing is bracketed
-_SHARES = 0.5 ** (0.5 * np.arange(STEPS, -1, -1))
+SHARES = 0.5 ** (0.5 * np.arange(STEPS, -1, -1))
 
 
 class FirstContact(NamedTuple):
@@ -57,8 +57,11 @@ class SlotAxis(NamedTuple):
     along: float  # and how far along it
 
     @staticmethod
-    def of(engagement: Engagement) -> SlotAxis:
-        """The axis of an engagement's straight slot."""
+    def of(engagement: Engagement) -> SlotAxis | None:
+        """The axis of an engagement's straight slot; None of slots that are solved for."""
+        engagement = engagement.through
+        if engagement.motion.entry is None:
+            return None
         x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # a straight slot: anywhere
         (px, u), (py, v) = x.c, y.c
         m = library(px)
@@ -75,7 +78,7 @@ class SlotAxis(NamedTuple):
     def anchor(self) -> Anchor:
         """The true entry."""
         anchor = self.engagement.motion.entry
-        assert anchor is not None  # ``first_contacts`` asks for it
+        assert anchor is not None  # ``of`` asks for it
         return anchor
 
     def distance(self, tau: Array) -> tuple[Array, Array]:
@@ -113,9 +116,9 @@ def first_contacts(
     engagement: Engagement, crank: float, center: float = 0.0
 ) -> FirstContacts | None:
     """The first contacts of m designs, or for m errors; None for slots that are solved for."""
-    if engagement.motion.entry is None:
-        return None
     axis = SlotAxis.of(engagement)
+    if axis is None:
+        return None
     tau = contact_after(axis, np.atleast_2d(axis.aside(crank, center)))
     at_deg, jump = engagement.entry_deg + tau / DEGREE, axis.jump(tau, crank, center)
     return FirstContacts(np.ravel(at_deg), np.ravel(jump))
@@ -132,7 +135,7 @@ def contact_after(axis: SlotAxis, aside: Array) -> Array:
     aside = aside + 0.0 * before
     with np.errstate(all="ignore"):
         way = np.where(aside * before > 0.0, -1.0, np.where(aside > 0.0, 1.0, np.nan))
-        far = span * way * _SHARES
+        far = span * way * SHARES
         passed = abs(axis.distance(far)[0]) >= abs(aside)
     there, first = np.flatnonzero(passed.any(axis=1)), np.argmax(passed, axis=1)
     far = np.hstack((np.zeros((len(far), 1)), far))

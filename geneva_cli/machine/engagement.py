@@ -78,6 +78,17 @@ class Turning(NamedTuple):
         return Jet((tau * 0.0 + self.rate, *[0.0] * order))
 
 
+class Level(Protocol):
+    """A pin's place along the wheel's axis, as the input turns."""
+
+    @property
+    def hub(self) -> float:
+        """The middle of the pin's circle."""
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """``tau`` input radians after mid-motion."""
+
+
 class Slot(ABC):
     """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve."""
 
@@ -87,6 +98,8 @@ class Slot(ABC):
     relieved = False
     # e: by how much a straight slot's axis misses the wheel's centre
     offset: float = 0.0
+    # on a sphere, whose path is a projection: the pin's place along the wheel's axis
+    height: Level | None = None
 
     @property
     def walls_flat(self) -> bool:

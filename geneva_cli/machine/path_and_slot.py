@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from geneva_cli.machine.anchors import anchors_of
 from geneva_cli.machine.engagement import (
@@ -11,6 +11,7 @@ from geneva_cli.machine.engagement import (
     CarrierVelocity,
     ClosedPeaks,
     Engagement,
+    Level,
     Motion,
     PeakValue,
     Reactions,
@@ -79,13 +80,6 @@ class RadialSlot(Slot):
         return sqrt(x * x + y * y)
 
 
-class Level(Protocol):
-    """A coordinate along the wheel's axis, as the input turns."""
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """``tau`` input radians after mid-motion."""
-
-
 class MeridianSlot(Slot):
     """A spherical wheel's slot, a meridian; the path is the pin's projection along that axis.
 
@@ -95,12 +89,12 @@ class MeridianSlot(Slot):
 
     def __init__(self, path: AnchoredPath, height: Level) -> None:
         self.path = path
-        self.height = height  # input angle, radians -> the pin's place along the wheel's axis
+        self.level = self.height = height
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin's polar angle on the wheel, in radians: arc length over the sphere's radius."""
         x, y = self.path(input_deg, order)
-        polar = atan2(sqrt(x * x + y * y), self.height(radians(input_deg), order))
+        polar = atan2(sqrt(x * x + y * y), self.level(radians(input_deg), order))
         return polar, polar * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:

@@ -8,7 +8,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
+from geneva_cli import Design, External, GearSector, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance import random_machines
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
@@ -333,7 +333,7 @@ def test_machines_that_do_not_go_together_are_counted():
     found = told(Design(External(6), tolerance=Tolerance(roller_diameter_mm=0.01)), 1 << 14)
     assert found["clearances.jam_share"] == pytest.approx(0.5, abs=1e-3)
     assert found["clearances.turns"] is False
-    assert "slot_clearance_mm must be at least 0.005" in found["warnings"][-1]
+    assert "slot_clearance_mm must be at least 0.005" in found["warnings"][0]
 
 
 # Clearances ----------------------------------------------------------------------------------
@@ -381,7 +381,22 @@ def test_a_loose_machine_that_does_not_find_its_slot_is_said():
     design = Design(External(6), size=loose, tolerance=Tolerance(slot_width_mm=1.9))
     found = told(design)
     assert found["clearances.turns"] is False
-    assert "smallest roller" in found["warnings"][-1] or "largest" in found["warnings"][-1]
+    assert "smallest roller" in found["warnings"][0] or "largest" in found["warnings"][0]
+
+
+@pytest.mark.parametrize("axes_deg", [60.0, 90.0, 120.0])
+def test_the_clearance_of_a_slot_on_a_sphere(axes_deg):
+    """The arm is square to crank's axis and path; what of it is across the slot lies level."""
+    given = Tolerance(crank_radius_mm=0.02, slot_width_mm=0.03, slot_angle_deg=0.01)
+    found = told(Design(Spherical(6, axes_deg=axes_deg), tolerance=given), 64)
+    S, b = math.radians(axes_deg), math.pi / 6
+    th = math.asin(math.sin(S) * math.sin(b))
+    half = math.acos(math.tan(th) / math.tan(S))
+    x, y = -math.cos(S) * math.cos(half), math.sin(half)  # the arm's direction at entry
+    rim = math.hypot(math.sin(S) * math.cos(th) + math.sin(th) * x, math.sin(th) * y)
+    across = abs(x * math.sin(b)) + abs(y * math.cos(b))
+    needed = 0.015 + 0.02 * across + 100.0 * rim * math.sin(math.radians(0.01))
+    assert found["clearances.slot_needed_mm"] == pytest.approx(needed, rel=1e-12)
 
 
 # What does not apply, and bad input ----------------------------------------------------------
@@ -389,19 +404,32 @@ def test_a_loose_machine_that_does_not_find_its_slot_is_said():
 
 def test_what_does_not_apply_is_null_and_said():
     angle = Tolerance(slot_angle_deg=0.01, center_distance_mm=0.01, crank_radius_mm=0.01)
-    curved = told(Design(External(6), None, Motion(Cycloidal()), tolerance=angle))
+    bent = Design(External(6), None, Motion(Cycloidal()), tolerance=angle)
+    curved = told(bent)
     assert curved["motion_play.worst_deg"] is None
     assert curved["entry_jump.mean"] is None
     assert curved["dwell_position.worst_deg"] > 0.01
+    assert curved["warnings"][-1] == "micrometres of dwell_position: need --radius"
+    curved_at_100 = told(bent, radius_mm=100.0)
     sphere = told(Design(Spherical(6), tolerance=angle))
     assert sphere["dwell_position.rss_deg"] is None
     assert sphere["clearances.turns"] is None
     assert sphere["motion_play.worst_deg"] > 0.01
+    # its mouth strikes harder than the axis, as there is no clearance at all
+    assert sphere["entry_jump.mouth_worst"] > sphere["entry_jump.worst"] > 0.0
     assert "shafts meet" in sphere["warnings"][0]
+    assert sphere["warnings"][-1] == "micrometres of motion_play: need --radius"
+    assert not any("micrometres" in text for text in curved_at_100["warnings"])
+    assert curved_at_100["dwell_position.worst_um"] > 0.0
     linkage = load(str(ROOT / "designs" / "four-bar-z4.toml")).with_("tolerance.crank_radius_mm", 1)
     found = told(linkage)
     assert "crank_radius_mm is left out" in found["warnings"][0]
     assert found["motion_play.rss_deg"] == 0.0
+    # slots that are a six-slot wheel's are entered as those are
+    gears = told(Design(External(3), GearSector(sector_deg=60), tolerance=angle))
+    plain = told(Design(External(6), tolerance=angle))
+    for name in ("entry_jump.mean", "entry_jump.worst", "entry_jump.mouth_worst"):
+        assert gears[name] == pytest.approx(plain[name], rel=1e-12) != 0.0
     names = [set(one) for one in (curved, sphere, found, told(MACHINES[0]))]
     assert all(one == names[0] for one in names)
     json.dumps(found["warnings"], allow_nan=False)

@@ -13,7 +13,6 @@ import numpy as np
 from geneva_cli.analysis.blows import arm_mm
 from geneva_cli.analysis.shock import SlotAxis
 from geneva_cli.analysis.tolerance.dimensions import Deviations
-from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
@@ -72,23 +71,23 @@ def entry_jumps(mechanism: Mechanism) -> list[EntryJumps]:
     L = mechanism.center_distance_mm
     out = []
     for engagement in mechanism.engagements:
-        if engagement.motion.entry is not None:
-            axis, arm = SlotAxis.of(engagement), arm_mm(mechanism, engagement)
-            out.append(EntryJumps(axis, L, arm, tuple(_branches(engagement))))
+        axis = SlotAxis.of(engagement)
+        if axis is not None:
+            arm = arm_mm(mechanism, engagement)
+            out.append(EntryJumps(axis, L, arm, tuple(_branches(axis))))
     return out
 
 
-def _branches(engagement: Engagement) -> list[Branch]:
+def _branches(axis: SlotAxis) -> list[Branch]:
     """The path before the true entry, and after it where it crosses the axis there."""
-    before = _branch(engagement, -1.0)
-    after = _branch(engagement, 1.0)
+    before = _branch(axis, -1.0)
+    after = _branch(axis, 1.0)
     return [before] if before.side == after.side else [before, after]
 
 
-def _branch(engagement: Engagement, way: float) -> Branch:
-    anchor = engagement.motion.entry
-    assert anchor is not None  # ``entry_jumps`` takes no others
-    span = 0.5 * engagement.motion_deg * DEGREE
+def _branch(axis: SlotAxis, way: float) -> Branch:
+    anchor = axis.anchor
+    span = 0.5 * axis.engagement.motion_deg * DEGREE
     tau = way * span * np.geomspace(FIRST, 1.0, PLACES)
     along, across = anchor.displacement(tau, 1)
     off, slope = across.arrays()

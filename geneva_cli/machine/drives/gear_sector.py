@@ -54,6 +54,7 @@ class GearSector(PinPath):
         },
     )
     OUTLINED: ClassVar[bool] = False
+    ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle that the gears drive, D"]
     gear_ratio: Annotated[
         float | str,

@@ -124,6 +124,11 @@ class Height(NamedTuple):
         out: Jet = self.top - self.turn(tau, order)[1] * self.fall
         return out
 
+    @property
+    def hub(self) -> float:
+        """The middle of the pin's circle."""
+        return self.top - self.fall
+
 
 class Sphere(NamedTuple):
     """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.

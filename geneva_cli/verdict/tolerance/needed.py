@@ -82,10 +82,11 @@ def _across(
     most = 0.0
     for at in (engagement.entry_deg, engagement.exit_deg):
         x, y = engagement.path(at, 1)
-        # there the roller runs along the slot, whose normal this is
         (px, vx), (py, vy) = x.scalars(), y.scalars()
-        speed = math.hypot(vx, vy)
-        nx, ny = -vy / speed, vx / speed
+        # there the roller runs along the slot, whose normal this is; on a sphere to the meridian
+        tx, ty = (vx, vy) if engagement.slot.height is None else (px, py)
+        far = math.hypot(tx, ty)
+        nx, ny = -ty / far, tx / far
         of_arm = abs(nx * (px - engagement.hub) + ny * py) * L * share
         of_distance = abs(nx) * sizes["center_distance_mm"]
         lever = abs(ny * px - nx * py) * L

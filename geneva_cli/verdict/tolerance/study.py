@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import mouth_jumps
+from geneva_cli.analysis.blows import mouth_jump_worst
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import (
     Deviations,
@@ -39,7 +39,7 @@ class EntryJumps(NamedTuple):
     mean: float
     std: float
     missed: float  # share of the machines whose roller misses the slot's axis
-    mouth: float | None  # the worst on a mouth's corner; 0 where all have room, None: not known
+    mouth: float  # the worst on a mouth's corner; 0 where all have room
 
 
 class Study(NamedTuple):
@@ -102,15 +102,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         jump = drawn.jump
         worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        mouth = _mouth(mechanism)
-        if mouth is None and drawn.missed:
-            warnings.append(
-                Caution(
-                    "not-known",
-                    "entry_jump.mouth_worst is not known: how a roller meets the mouth is worked "
-                    "out on flat wheels and crank arms",
-                )
-            )
+        mouth = mouth_jump_worst(mechanism)
         mean, deviation = float(jump.mean()), float(jump.std())
         entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
@@ -125,17 +117,6 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
         warnings.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
-
-
-def _mouth(mechanism: Mechanism) -> float | None:
-    """The size of the worst jump on a mouth's corner; None where that is not known."""
-    worst = 0.0
-    for engagement in mechanism.engagements:
-        found = mouth_jumps(mechanism, engagement)
-        if found is None:
-            return None
-        worst = max(worst, *abs(np.nan_to_num(found)).tolist())
-    return worst
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, tolerances
 from geneva_cli.analysis.tolerance.spread import Spread
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.table import Table, record_table, rows_table
@@ -45,7 +45,7 @@ def tolerance_table(
         "clearances.lock_needed_mm": found.clearances.lock_mm,
         "clearances.turns": found.clearances.turns,
         "clearances.jam_share": found.jams,
-        "warnings": found.warnings,
+        "warnings": (*found.warnings, *_unscaled(found, radius_mm)),
     }
     return record_table(values, spec.title)
 
@@ -78,6 +78,16 @@ def _angles(name: str, spread: Spread | None, radius_mm: float | None) -> dict[s
             known = value is not None and scale is not None
             out[f"{name}.{angle}_{unit}"] = value * scale if known else None  # type: ignore[operator]
     return out
+
+
+def _unscaled(found: Study, radius_mm: float | None) -> list[Caution]:
+    """What would give the micrometres, where there are angles and no radius."""
+    known = [
+        name for name, of in (("dwell_position", found.dwell), ("motion_play", found.motion)) if of
+    ]
+    if radius_mm is not None or not known:
+        return []
+    return [Caution("not-known", f"micrometres of {' and '.join(known)}: need --radius")]
 
 
 def _contributions(mechanism: Mechanism, found: Study) -> Table:
