@@ -17,7 +17,6 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
-    from geneva_cli.machine.slot_and_motion import SolvedPath
     from geneva_cli.numerics.jet import Array
 
 
@@ -35,6 +34,24 @@ class SlotAxis(NamedTuple):
 
     lever: Jet
     along: Jet
+
+
+class Groove(Protocol):
+    """A fixed groove about the crank's axis, which guides the roller along the crank."""
+
+    @property
+    def sign(self) -> float:
+        """1.0 outside, -1.0 inside."""
+
+    @property
+    def motion(self) -> Motion:
+        """The wheel's, of which the groove follows."""
+
+    def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """The roller's distance from the wheel's axis and from the crank's, in units of L."""
+
+    def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """The groove's pitch curve, the crank's axis being the origin."""
 
 
 class CarrierVelocity(Protocol):
@@ -224,7 +241,7 @@ class Engagement:
         slot: Slot,
         motion: Motion,
         crank_sense: float = 0.0,
-        groove: SolvedPath | None = None,
+        groove: Groove | None = None,
         body: CarrierVelocity | None = None,
         hub: float = 1.0,
         reactions: Reactions | None = None,

@@ -11,12 +11,12 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
-from geneva_cli.machine.slot_and_motion import SolvedPath
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.roots import boundary_by_sections, first_greatest
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Groove
     from geneva_cli.numerics.arrays import Array, Mask
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
@@ -27,20 +27,18 @@ TOP = 0.99  # of the steepest place of them: another top may be as steep
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
 
-def distance(groove: SolvedPath, input_deg: Array) -> Array:
+def distance(groove: Groove, input_deg: Array) -> Array:
     """The roller's distance from the crank's axis over a whole turn, in units of L."""
     return _distances(groove, input_deg, 0)[0]
 
 
-def roller_in_groove(groove: SolvedPath, input_deg: Array) -> Array:
+def roller_in_groove(groove: Groove, input_deg: Array) -> Array:
     """The roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
     R, angle = distance(groove, input_deg), np.radians(input_deg)
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
 
 
-def groove_curve(
-    groove: SolvedPath, L: float, offset: float
-) -> Callable[[Array], tuple[Array, Array]]:
+def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
     """The groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
     By the input angle over a whole turn, in the frame of the groove's table.
@@ -57,7 +55,7 @@ def groove_curve(
     return curve
 
 
-def _distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> list[Array]:
+def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
     """The roller's distance from the crank's axis, with up to two derivatives by the input in
     radians.
 
@@ -77,7 +75,7 @@ def _distances(groove: SolvedPath, input_deg: Array, order: int = 2) -> list[Arr
     return out
 
 
-def _back(groove: SolvedPath, input_deg: Array) -> list[Array]:
+def _back(groove: Groove, input_deg: Array) -> list[Array]:
     """``_distances`` at input angles in the dwell after the motion."""
     span = math.radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = min(math.radians(EASED_DEG), span / 3.0)
@@ -118,17 +116,17 @@ def _eased(
     return R + length * run, sense * rate, turn, level
 
 
-def seen_pressure(groove: SolvedPath) -> float:
+def seen_pressure(groove: Groove) -> float:
     """The greatest pressure angle at FEW places all round, degrees: a little less than at all."""
     R, slope, _ = _distances(groove, _all_round(groove, FEW))
     return math.degrees(math.atan(float((np.abs(slope) / R).max())))
 
 
-def _all_round(groove: SolvedPath, count: int = LOOKS) -> Array:
+def _all_round(groove: Groove, count: int = LOOKS) -> Array:
     return groove.motion.entry_deg + 360.0 * np.arange(count + 1) / count
 
 
-def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
+def greatest_pressure(groove: Groove) -> tuple[float, float]:
     """The greatest pressure angle of the groove all round, degrees, and its input angle.
 
     tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
@@ -146,7 +144,7 @@ def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
     return math.degrees(math.atan(tangent)), at_deg
 
 
-def _steepest(groove: SolvedPath, about: float) -> tuple[float, float]:
+def _steepest(groove: Groove, about: float) -> tuple[float, float]:
     """The greatest tangent within a place of the grid of ``about``, and where it is."""
     step = 360.0 / LOOKS
     sense = math.copysign(1.0, _distances(groove, np.array([about]))[1][0])
