@@ -25,7 +25,8 @@ MARGIN = 2.0
 SIZE = 250.0
 LOOKED = 1.6  # how much wider their lines are
 ROOM = 2.0  # and their margin
-FAINT = 0.6  # times the others: lines where rollers run
+FAINT = 0.6  # times the others: lines where rollers run, and what lies
+BELOW = {"FRAME"}  # all others
 
 
 def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
@@ -56,7 +57,8 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
         dashes, stroke = "", mm * STROKE * (LOOKED if look else 1.0)
         if layer in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(number(mm * d) for d in DASHES)}"'
-            stroke *= FAINT if look else 1.0
+        if look and layer in (*CENTRE_LINES, *BELOW):
+            stroke *= FAINT
         yield (
             f'<g id={quoteattr(layer)} stroke="{ink.rgb}" stroke-width="{number(stroke)}"{dashes}>'
             "\n"

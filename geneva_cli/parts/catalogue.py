@@ -47,7 +47,7 @@ PARTS = {
     "first-crank": Part(drawing="drawings:crank", cut=True, in_front=True),
     "frame": Part(drawing="frame:frame", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
-    "assembly": Part(drawing="drawings:assembly", flat="sphere.drawings:assembly"),
+    "assembly": Part(drawing="machine_drawing:machine", flat="sphere.drawings:assembly"),
     "gears": Part("gear_curves:gears_table", "gear_drawings:gears", alone=True),
     "groove": Part("groove:groove_table", "drawings:groove"),
     "groove-plate": Part(drawing="groove_plate:groove_plate", cut=True),

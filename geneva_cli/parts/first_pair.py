@@ -18,7 +18,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.plates import crank_group, wheel_plate
 from geneva_cli.parts.sizes import thicknesses, wall_min
@@ -27,8 +27,8 @@ from geneva_cli.spec.tables import Size
 PLANE = 2  # below the wheel's, in which the first wheel lies
 
 
-def first_pair(mechanism: Mechanism, found: Outlines | None = None) -> Mechanism:
-    """The first wheel and its crank as a machine; ``found`` are the second's outlines, if known.
+def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
+    """The first wheel and its crank as a machine; ``bars`` are the second's links, if known.
 
     Raises GenevaError for a machine without a first wheel.
     """
@@ -40,9 +40,8 @@ def first_pair(mechanism: Mechanism, found: Outlines | None = None) -> Mechanism
             f'--part first-wheel, first-crank: kind = "{spec.drive.NAME}" has one wheel; '
             f"{' or '.join(having)} has two"
         )
-    if found is None and spec.is_flat:
-        found = outlines(mechanism)
-    bars = drawn_links(mechanism, found)
+    if bars is None:
+        bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
     shafts = [hole.radius for hole in _bores(bars.plates)]
     on_shaft = bars.sizes.crank_shaft if bars.sizes else None
     given = spec.size
@@ -64,17 +63,34 @@ def first_pair(mechanism: Mechanism, found: Outlines | None = None) -> Mechanism
     return build(Spec(External(first.z), drive, size=size, title=title))
 
 
-def first_members(mechanism: Mechanism, found: Outlines) -> Iterator[Member]:
-    """The first wheel and its locking disc as plates, named and at their height; none without."""
+def first_outlines(mechanism: Mechanism, bars: Links) -> Outlines | None:
+    """The outlines of the first wheel and its crank; None without one."""
     if mechanism.spec.drive.first_wheel(mechanism.center_distance_mm) is None:
+        return None
+    return outlines(first_pair(mechanism, bars))
+
+
+def first_members(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
+    """The first wheel and its locking disc as plates, named, where they are at input angle 0.
+
+    There are none without a first wheel.
+    """
+    made = first_outlines(mechanism, bars)
+    if made is None:
         return
-    made = outlines(first_pair(mechanism, found))
-    bars = drawn_links(mechanism, found)
     assert bars.sizes is not None  # the first crank is a link
     low, high = bars.sizes.span(PLANE)
     disc = [one.part for one in crank_group(made).members if isinstance(one.part, Plate)]
-    for plate in [wheel_plate(made, made.wheel), *disc[: len(made.crank)]]:
-        yield Member(plate._replace(name=f"first {plate.name}", low=low, high=high))
+
+    def placed(plate: Plate, x: float, turn: float) -> Member:
+        own = plate._replace(name=f"first {plate.name}", low=low, high=high)
+        return Member(own, (x, 0.0), turn)
+
+    # at mid-motion the slot that is ahead of the first wheel's frame points at the first crank
+    L = mechanism.center_distance_mm
+    yield placed(wheel_plate(made, made.wheel), L, 0.0)
+    far = L + made.assembly.L
+    yield from (placed(plate, far, math.pi) for plate in disc[: len(made.crank)])
 
 
 def _bores(plates: list[Plate]) -> Iterator[Circle]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_drawings import gear_bores
-from geneva_cli.parts.groove_plate import groove_members
+from geneva_cli.parts.groove_plate import TOLERANCE, groove_members
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
@@ -30,7 +31,7 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import even, thicknesses, wall_min
 
-LAYER, HOLES = "FRAME", "BORE"
+NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 SAME = 1e-9  # of the centre distance: places nearer to each other are one
 ANGLES = 720  # input angles at which it is seen which joints stand
 
@@ -43,10 +44,13 @@ def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
     return Drawing(f"{titled(proof.mechanism)}: frame", shapes, solid=plate)
 
 
-def frame_plate(proof: Proof, fixed: list[Member] | None = None) -> Plate:
-    """The frame; ``fixed`` are the plates with a groove that it carries, where they are known.
+def frame_plate(
+    proof: Proof, fixed: list[Member] | None = None, bars: Links | None = None
+) -> Plate:
+    """The frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
 
-    Raises GenevaError where wheel and crank stand in no one plane.
+    Both are worked out where they are not known. Raises GenevaError where wheel and crank stand in
+    no one plane.
     """
     mechanism = proof.mechanism
     if not mechanism.spec.wheel.FLAT:
@@ -55,7 +59,7 @@ def frame_plate(proof: Proof, fixed: list[Member] | None = None) -> Plate:
             "in no one plate"
         )
     found = proof.found if mechanism.spec.is_flat else None
-    bars = drawn_links(mechanism, found)
+    bars = bars or drawn_links(mechanism, found)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     known = list(_bores(proof, found, bars))
     holes = [
@@ -63,7 +67,7 @@ def frame_plate(proof: Proof, fixed: list[Member] | None = None) -> Plate:
         for at in standing(mechanism)
     ]
     if fixed is None:
-        fixed = groove_members(found) if found else []
+        fixed = groove_members(found, bars) if found else []
     holes += [*_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
@@ -76,7 +80,18 @@ def frame_plate(proof: Proof, fixed: list[Member] | None = None) -> Plate:
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
     lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
     top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
-    return Plate("frame", LAYER, outline, tuple(holes), top - thicknesses(size, L).arm, top)
+    return Plate(NAME, LAYER, outline, tuple(holes), top - thicknesses(size, L).arm, top)
+
+
+def standing_plates(
+    found: Outlines, bars: Links, tolerance: float = TOLERANCE, curves: str = "arcs"
+) -> Iterator[Member]:
+    """A cam's groove plate, unless there is no room for one, and the frame, where they are."""
+    fixed: list[Member] = []
+    with suppress(GenevaError):  # --part groove-plate says why
+        fixed = groove_members(found, bars, tolerance, curves)
+    yield from fixed
+    yield Member(frame_plate(Proof(found.assembly.given, found), fixed, bars))
 
 
 def standing(mechanism: Mechanism) -> Iterator[Point]:

@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.drawings import groove
 from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even
 
@@ -28,35 +28,44 @@ MOUNTS = 4
 TOLERANCE = 1e-3  # mm, of the flanks where nobody asks for another: that of a drawing
 
 
-def groove_plate(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def groove_plate(
+    found: Outlines, tolerance: float, curves: str, bars: Links | None = None
+) -> Drawing:
     """The outline, both flanks, the bore and the holes, with centre marks.
 
-    Raises GenevaError for a machine without a groove, and where the plate meets the wheel's shaft.
+    ``bars`` are the machine's links, if they are known. Raises GenevaError for a machine without a
+    groove, and where the plate meets the wheel's shaft.
     """
     title = f"{titled(found.assembly.mechanism)}: groove plate"
     flanks = groove(found, tolerance, curves)
     outer, inner, pitch = (shape for shape in flanks.shapes if isinstance(shape, Contour))
-    made = _plates(found, outer, inner)
+    made = _plates(found, outer, inner, bars or drawn_links(found.assembly.mechanism, found))
     base, ring, _ = made
     holes = [hole for hole in base.holes if isinstance(hole, Circle)]
     shapes = (base.outline, *ring.holes[:1], inner, *holes, pitch, *centre_marks(holes))
     return Drawing(title, shapes, solid=Group(title, tuple(map(Member, made))))
 
 
-def groove_members(found: Outlines) -> list[Member]:
-    """The plates where they are in the machine; none without a groove."""
+def groove_members(
+    found: Outlines,
+    bars: Links | None = None,
+    tolerance: float = TOLERANCE,
+    curves: str = "arcs",
+) -> list[Member]:
+    """The plates where they are in the machine; none without a groove. See ``groove_plate``."""
     if found.assembly.rollers[0][0].groove is None:
         return []
-    solid = groove_plate(found, TOLERANCE, "arcs").solid
+    solid = groove_plate(found, tolerance, curves, bars).solid
     assert solid is not None
     return [Member(plate, (found.assembly.L, 0.0)) for plate in plates(solid)]
 
 
-def _plates(found: Outlines, one: Contour, other: Contour) -> tuple[Plate, Plate, Plate]:
+def _plates(
+    found: Outlines, one: Contour, other: Contour, bars: Links
+) -> tuple[Plate, Plate, Plate]:
     """Base, ring and island of the two flanks."""
     L, sizes = found.assembly.L, found.sizes
     inner, outer = sorted((one, other), key=_reach)
-    bars = drawn_links(found.assembly.mechanism, found)
     follower = next(
         m.part for m in bars.joined if isinstance(m.part, Plate) and m.part.name.endswith("groove")
     )

@@ -9,11 +9,11 @@ the wheel's lower face. Hubs and shafts are left out.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Member, Plate, mass_properties
+from geneva_cli.curves.plates import Group, Member, mass_properties, plates
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
@@ -21,8 +21,7 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import frame_plate
-from geneva_cli.parts.groove_plate import groove_members
+from geneva_cli.parts.frame import frame_plate, standing_plates
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_plate
@@ -62,22 +61,18 @@ def parts_list(proof: Proof) -> Table:
     mechanism = proof.mechanism
     found: list[dict[str, object]] = []
     with suppress(GenevaError):  # the check of the parts says why there are none
-        if not mechanism.spec.wheel.FLAT:
-            found += shell_rows(proof)
-        found += parts_rows(proof.found) if mechanism.spec.is_flat else link_rows(mechanism)
-        fixed = []
         if mechanism.spec.is_flat:
-            found += _rows(mechanism.spec, first_members(mechanism, proof.found))
-            fixed = groove_members(proof.found)
-        if mechanism.spec.wheel.FLAT:
-            found += _rows(mechanism.spec, [*fixed, Member(frame_plate(proof, fixed))])
+            found += parts_rows(proof.found)
+        else:
+            found += [] if mechanism.spec.wheel.FLAT else shell_rows(proof)
+            found += link_rows(proof)
     found += [*_pivots(mechanism), *_dimensions(mechanism)]
     rows = [[row.get(name) for name in NAMES] for row in found]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
 
 
 def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
-    """The plates of wheel and crank, each kind once with its count, as the solids have them."""
+    """All plates of a flat machine, each kind once with its count, as the solids have them."""
     spec, arm = found.assembly.given.spec, None
     if has_arm(found):
         with suppress(GenevaError):  # the check of the arm says why there is none
@@ -85,21 +80,27 @@ def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
     bars = None
     with suppress(GenevaError):  # and that of the links
         bars = drawn_links(found.assembly.given, found)
-    group = crank_group(found, arm, bars.pin_low if bars else None)
-    yield from _rows(spec, [Member(wheel_plate(found, found.wheel)), *group.members])
+    crank = crank_group(found, arm, bars.pin_low if bars else None)
+    members = [Member(wheel_plate(found, found.wheel)), Member(crank)]
     if bars:
-        yield from _rows(spec, [*bars.cut, *bars.joined])
+        members += [*bars.cut, *bars.joined, *first_members(found.assembly.given, bars)]
+        members += standing_plates(found, bars)
+    yield from plate_rows(spec, Group("", tuple(members)))
 
 
-def link_rows(mechanism: Mechanism) -> Iterator[dict[str, object]]:
-    """The links alone, of a machine whose wheel is not drawn."""
+def link_rows(proof: Proof) -> Iterator[dict[str, object]]:
+    """The links alone and the frame, of a machine whose wheel is not drawn."""
+    mechanism = proof.mechanism
     bars = drawn_links(mechanism)
-    yield from _rows(mechanism.spec, [*bars.cut, *bars.joined])
+    members = [*bars.cut, *bars.joined]
+    if mechanism.spec.wheel.FLAT:
+        members.append(Member(frame_plate(proof, [], bars)))
+    yield from plate_rows(mechanism.spec, Group("", tuple(members)))
 
 
-def _rows(spec: Spec, members: Iterable[Member]) -> Iterator[dict[str, object]]:
-    plates = Counter(one.part for one in members if isinstance(one.part, Plate))
-    for plate, count in plates.items():
+def plate_rows(spec: Spec, group: Group) -> Iterator[dict[str, object]]:
+    """A row for each kind of plate in a group, with its count."""
+    for plate, count in Counter(plates(group)).items():
         name, of = (
             ("roller", spec.material_roller)
             if plate.layer == "ROLLER"

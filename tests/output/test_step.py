@@ -172,7 +172,8 @@ def test_colours():
         while file.of[value][0] != "COLOUR_RGB":
             (value,) = [v for v in flat(file.values(value)) if type(v) is not str]
         found.append("#" + "".join(f"{round(255 * c):02x}" for c in file.values(value)[1:]))
-    assert found == [INKS[layer].rgb for layer in ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER")]
+    layers = ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER", "FRAME")
+    assert found == [INKS[layer].rgb for layer in layers]
 
 
 def flat(values):
@@ -193,8 +194,8 @@ def test_thickness():
         solid = Design(External(6), size=size).drawing("assembly").solid
         tall = {plate.name: plate.high - plate.low for plate in plates(solid)}
         gap = size.pin_gap_mm
-        pin = {"arm": wheel, "pin": 2.0 * wheel + gap}  # through the arm, to the roller's end
-        assert tall == {"wheel": wheel, "locking disc": lock, "roller": wheel} | pin
+        below = {"arm": wheel, "frame": wheel, "pin": 2.0 * wheel + gap}  # through the arm
+        assert tall == {"wheel": wheel, "locking disc": lock, "roller": wheel} | below
         (arm,) = (plate for plate in plates(solid) if plate.name == "arm")
         assert arm.high == -gap
 

@@ -152,8 +152,8 @@ def test_the_title_block_says_what_is_there():
     texts = {label.text for label in found.labels}
     rows = design.part_table("parts").to_dict()
     parts = zip(rows["name"], rows["mass_kg"], rows["count"], strict=True)
-    mass = sum(m * n for name, m, n in parts if m is not None and name in texts)  # no frame
-    assert {f"{mass:.4g} kg", "1:1", "A2", "ISO 2768-m", "steel", design.spec.title} <= texts
+    mass = sum(m * n for name, m, n in parts if m is not None and name in texts)
+    assert {f"{mass:.4g} kg", "1:1", "A1", "ISO 2768-m", "steel", design.spec.title} <= texts
     # no date, no path: what has a stroke are limits of a fit
     rest = {re.sub(r"\([-+.\d]+/[-+.\d]+\)", "", text) for text in texts - {"1/1"}}
     assert not any(re.search(r"20\d\d-|/", text) for text in rest)

@@ -1,11 +1,11 @@
-"""The views of what the crank carries: locking disc, arm, roller and pin; and of the groove."""
+"""The views of what the crank carries: locking disc, arm, roller and pin; and of the machine."""
 
 from __future__ import annotations
 
 import math
 
 from geneva_cli.curves.measure import at
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
+from geneva_cli.curves.shapes import Arc, Circle, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
@@ -141,7 +141,7 @@ def draw_roller(view: View, found: Outlines) -> None:
 
 def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> None:
     """The machine put together, with the centre distance."""
-    layers = {"PITCH": CENTRE, "ARM": HIDDEN}
+    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
     L = found.assembly.L
@@ -150,24 +150,6 @@ def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> Non
     view.cross((0.0, 0.0), reach)
     view.cross((L, 0.0), max(found.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
-
-
-def draw_groove(view: View, shapes: tuple[Shape, ...], half: float) -> None:
-    """The groove of a cam, whose points are in a table."""
-    for shape in shapes:
-        view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
-    reach = max(
-        math.hypot(*s.start)
-        for shape in shapes
-        if isinstance(shape, Contour)
-        for s in shape.segments
-    )
-    view.cross((0.0, 0.0), reach)
-    outer = max(
-        (s.start for shape in shapes if isinstance(shape, Contour) for s in shape.segments),
-        key=lambda p: math.hypot(*p),
-    )
-    view.note(outer, f"groove {sized.fitted(2.0 * half, '', 'H7')} wide")
 
 
 def carried(found: Outlines) -> int:

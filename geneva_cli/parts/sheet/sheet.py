@@ -7,22 +7,26 @@ less up to A1, more only as long as A3 will do. The machine put together is draw
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
-from typing import Any
+from typing import Any, NamedTuple
 
+from geneva_cli.curves.plates import Group, Plate
+from geneva_cli.curves.shapes import Shape
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.parts import drawings
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.first_pair import first_outlines
+from geneva_cli.parts.frame import LAYER as STANDING
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.machine_drawing import machine
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.parts_list import parts_rows
+from geneva_cli.parts.parts_list import plate_rows
 from geneva_cli.parts.sheet import points, wheel
 from geneva_cli.parts.sheet.crank import (
     draw_arm,
     draw_assembly,
     draw_disc,
-    draw_groove,
     draw_roller,
 )
 from geneva_cli.parts.sheet.pack import packed
@@ -39,6 +43,7 @@ from geneva_cli.parts.sheet.paper import (
     table,
     title_block,
 )
+from geneva_cli.parts.sheet.standing import draw_frame, draw_groove
 from geneva_cli.parts.sheet.view import Block, View, number
 from geneva_cli.spec.tables import Material
 
@@ -49,18 +54,32 @@ ITEMS = (12.0, 50.0, 14.0, 20.0, 24.0, 60.0)  # mm: columns of the list of items
 LINKS = (60.0, 36.0, 20.0)  # and of that of pivots and links
 
 
+class Shown(NamedTuple):
+    """What goes on a sheet, whatever its scale."""
+
+    found: Outlines
+    together: tuple[Shape, ...]
+    rows: list[dict[str, Any]]  # the list of parts
+    arm: CrankArm | None
+    first: Outlines | None
+    groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
+    standing: list[Plate]  # the frame comes last
+    tolerance: float
+    curves: str
+
+
 def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
     """The drawing sheet of a machine. Raises GenevaError where no scale brings it on one."""
-    rows = list(parts_rows(found))
+    shown = _shown(found, tolerance, curves)
     fixed = [*points.tables(found, tolerance), *_links(found)]
     largest = 2.0 * (found.sizes.outer or found.sizes.rim)
     for scale in SCALES:
         formats = ENLARGED if scale > 1.0 else FORMATS
         if scale * largest > formats[-1].width:
             continue
-        views = [view.block() for view in _views(found, rows, scale, tolerance, curves)]
+        views = [view.block() for view in _views(shown, scale)]
         for paper in formats:
-            made = _composed(found, paper, scale, rows, [*views, *fixed])
+            made = _composed(found, paper, scale, shown.rows, [*views, *fixed])
             if made is not None:
                 return made
     raise GenevaError(
@@ -69,50 +88,65 @@ def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
     )
 
 
-def _views(
-    found: Outlines, rows: list[dict[str, Any]], scale: float, tolerance: float, curves: str
-) -> Iterator[View]:
+def _shown(found: Outlines, tolerance: float, curves: str) -> Shown:
+    given, cam = found.assembly.given, found.assembly.rollers[0][0].groove is not None
+    whole = machine(found, tolerance, curves)
+    assert isinstance(whole.solid, Group)
+    every = [one.part for one in whole.solid.members if isinstance(one.part, Plate)]
+    return Shown(
+        found,
+        whole.shapes,
+        list(plate_rows(given.spec, whole.solid)),
+        crank_arm(found) if has_arm(found) else None,
+        first_outlines(given, drawn_links(given, found)),
+        drawings.groove(found, tolerance, curves).shapes if cam else (),
+        [plate for plate in every if plate.layer == STANDING],
+        tolerance,
+        curves,
+    )
+
+
+def _views(shown: Shown, scale: float) -> Iterator[View]:
     """A view of each part."""
-    assembly = found.assembly
+    found = shown.found
 
     def view(*names: str) -> View:
-        shown = [
+        titles = [
             f"{i} {row['name']}, t = {number(row['thickness_mm'])}"
-            for i, row in enumerate(rows, 1)
+            for i, row in enumerate(shown.rows, 1)
             if row["name"] in names
         ]
-        return View("; ".join(shown), scale)
+        return View("; ".join(titles) or names[0], scale)
 
-    made = view("wheel")
-    wheel.draw_wheel(made, found, tolerance, curves)
-    yield made
-    if found.crank:
-        made = view("locking disc", "locking sector")
-        draw_disc(made, found)
+    for front, of in (("", found), ("first ", shown.first)):
+        if of is None:
+            continue
+        made = view(f"{front}wheel")
+        wheel.draw_wheel(made, of, shown.tolerance, shown.curves)
         yield made
-    arm = _arm(found)
-    if arm:
+        if of.crank:
+            made = view(f"{front}locking disc", f"{front}locking sector")
+            draw_disc(made, of)
+            yield made
+    if shown.arm:
         made = view("arm")
-        draw_arm(made, found, arm)
+        draw_arm(made, found, shown.arm)
         yield made
     made = view("roller", "pin")
     draw_roller(made, found)
     yield made
-    if assembly.rollers[0][0].groove is not None:
-        made = View("groove", scale)
-        draw_groove(made, drawings.groove(found, tolerance, curves).shapes, found.sizes.half_width)
+    *grooved, lowest = shown.standing
+    if shown.groove:
+        made = view(*(plate.name for plate in grooved), "groove")
+        draw_groove(made, shown.groove, found.sizes.half_width, grooved[0] if grooved else None)
         yield made
+    made = view(lowest.name)
+    draw_frame(made, lowest)
+    yield made
     half = smaller(scale, ASSEMBLED)
     made = View(f"together ({scale_name(half)})", half)
-    draw_assembly(made, found, drawings.assembly(found, tolerance, curves).shapes)
+    draw_assembly(made, found, shown.together)
     yield made
-
-
-def _arm(found: Outlines) -> CrankArm | None:
-    if has_arm(found):
-        with suppress(GenevaError):  # the check of the arm says why there is none
-            return crank_arm(found)
-    return None
 
 
 def _composed(

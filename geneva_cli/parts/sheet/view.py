@@ -125,8 +125,8 @@ class View:
         )
         self._put(found, text)
 
-    def diameter(self, circles: Iterable[Circle], text: str) -> None:
-        """The diameter of one of some circles."""
+    def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
+        """The diameter of one of some circles; ``where`` they are, if it must stand below."""
         found = (
             mark
             for c in circles
@@ -139,7 +139,7 @@ class View:
                 SMALL,
             )
         )
-        self._put(_short_first(found), text)
+        self._put(_short_first(found), f"{text} {where}".rstrip())
 
     def of_arcs(self, arcs: Iterable[Arc], text: str, whole: bool = False) -> None:
         """The radius of one of some arcs, or (``whole``) its diameter."""

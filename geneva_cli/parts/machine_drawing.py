@@ -1,0 +1,111 @@
+"""The machine put together at input angle 0: all parts that move, and the plates that stand.
+
+The wheel's axis is the origin, the crank's is on the x axis. Layers are those of the parts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from geneva_cli.curves.measure import mapped, turned
+from geneva_cli.curves.plates import Group, Member
+from geneva_cli.curves.shapes import (
+    Annotations,
+    Arc,
+    Circle,
+    Contour,
+    Drawing,
+    LevelDistance,
+    Line,
+    Shape,
+    about,
+)
+from geneva_cli.parts.arm import LAYER as ARM
+from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.crank import roller_centres
+from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_line, wheel_shapes
+from geneva_cli.parts.first_pair import first_members
+from geneva_cli.parts.frame import standing_plates
+from geneva_cli.parts.link_drawings import once, shapes, titled, together
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.plates import crank_group, wheel_plate
+
+BEYOND = 0.04  # of the centre distance: between a part and the arrow that says how it turns
+
+
+def machine(found: Outlines, tolerance: float, curves: str) -> Drawing:
+    """The machine at input angle 0, from the frame up to the wheel."""
+    assembly = found.assembly
+    at = np.zeros(1)
+    psi, angle = float(assembly.wheel(at)[0]), float(assembly.crank(at)[0])
+    contour, *circles = wheel_shapes(found, tolerance, curves)
+    drawn: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
+    carrier = crank_arm(found) if has_arm(found) else None
+    bars = drawn_links(assembly.given, found)
+    carried = [*crank_shapes(found), *_arm(found, carrier)]
+    drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
+    first = list(first_members(assembly.given, bars))
+    fixed = list(standing_plates(found, bars, tolerance, curves))
+    # a first wheel is drawn itself, and not its pitch circle
+    drawn += together(bars._replace(gears=()) if first else bars)
+    drawn += [*shapes(first), *shapes(fixed)]
+    drawn += _ways(found, psi, tolerance, curves)
+    title = titled(assembly.mechanism)
+    solid = Group(
+        title,
+        (
+            Member(wheel_plate(found, contour), turn=psi),
+            Member(crank_group(found, carrier, bars.pin_low), (assembly.L, 0.0), angle),
+            *bars.cut,
+            *bars.joined,
+            *first,
+            *fixed,
+        ),
+    )
+    look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
+    return Drawing(title, tuple(once(drawn)), look, solid)
+
+
+def _turns(found: Outlines) -> Iterator[Arc]:
+    """The senses of rotation of wheel and crank, as arcs outside of them."""
+    assembly, sizes = found.assembly, found.sizes
+    reach = max(math.hypot(*s.start) for s in found.wheel.segments)
+    beyond = (sizes.outer or reach) + BEYOND * assembly.L
+    yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
+    if not assembly.given.spec.drive.CRANKED:
+        return
+    step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
+    sense = math.copysign(1.0, step)
+    # inside, the crank turns within the wheel: the arrow is near its shaft
+    far = max(math.hypot(*c) for c in roller_centres(assembly)) + 2.0 * sizes.roller
+    radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
+    yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
+
+
+def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
+    """The visible part of the crank arm: its outline, and its bore where the disc has none."""
+    if made is None:
+        return []
+    through = found.sizes.crank_bore > 0.0
+    return [made.outline] if through else [made.outline, made.bore._replace(layer=ARM)]
+
+
+def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
+    """The line of centres, and the rollers' paths: on their circles and in their slots."""
+    assembly = found.assembly
+    shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
+    arms = set()
+    for number, (engagement, behind) in enumerate(assembly.rollers):
+        if not engagement.crank_sense and engagement.groove is None:
+            x, y = assembly.pin(number, np.array([behind]))[0]
+            arms.add(round(math.hypot(x - assembly.L, y), 9))
+    shapes += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
+    pitches = {s: pitch_line(assembly, s, tolerance, curves) for s in found.slots}
+    shapes += [
+        turned(pitches[engagement], direction + psi) for engagement, direction in assembly.slots
+    ]
+    return shapes

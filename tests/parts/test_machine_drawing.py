@@ -1,0 +1,55 @@
+"""The machine put together: each part where it works, and no two in one place, by shapely."""
+
+from itertools import combinations
+
+import pytest
+import repo
+from drawing_witness import vertices
+from shapely.affinity import rotate, translate
+from shapely.geometry import Polygon
+
+from geneva_cli import load
+from geneva_cli.curves.plates import Group
+from geneva_cli.curves.shapes import Circle, about, closed
+
+CHORDS = 1e-4  # mm, by which what shapely sees lies off arcs
+# Of the centre distance, times it: 1e-6 along parts that touch all the way, as a pin in its hole.
+# A part 0.1 mm out of place overlaps 100 mm of wall by more.
+OVERLAP = 1e-4
+
+
+def polygon(plate):
+    def ring(shape):
+        if isinstance(shape, Circle):
+            halves = [
+                about(shape.centre, shape.radius, a, 3.141592653589793)
+                for a in (0.0, 3.141592653589793)
+            ]
+            shape = closed(shape.layer, halves)
+        return vertices(shape, CHORDS)
+
+    return Polygon(ring(plate.outline), [ring(hole) for hole in plate.holes]).buffer(0.0)
+
+
+def faces(part, at=(0.0, 0.0), turn=0.0):
+    """Each plate of a part with its face where it is."""
+    if not isinstance(part, Group):
+        yield part, translate(rotate(polygon(part), turn, (0.0, 0.0), use_radians=True), *at)
+        return
+    for member in part.members:
+        for plate, face in faces(member.part, member.at, member.turn):
+            yield plate, translate(rotate(face, turn, (0.0, 0.0), use_radians=True), *at)
+
+
+@pytest.mark.parametrize("name", ["geneva-pair", "cam-geneva", "slider-crank", "internal-z6"])
+def test_no_two_parts_are_in_one_place(name):
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    L = design.mechanism.center_distance_mm
+    every = list(faces(design.drawing("assembly", 0.01).solid))
+    names = {plate.name for plate, _ in every}
+    assert "frame" in names
+    for (one, a), (other, b) in combinations(every, 2):
+        if min(one.high, other.high) - max(one.low, other.low) > 1e-9:
+            assert a.intersection(b).area < OVERLAP * L, (one.name, other.name)
+    rows = design.part_table("parts").to_rows()
+    assert names == {row["name"] for row in rows if row["row"] == "part"}
