@@ -79,6 +79,12 @@ class Life:
         except GenevaError:
             return None  # as the check of the parts says
 
+    def _cut(self, name: str) -> None:
+        """What a value lacks that is worked out of the parts, where there are none."""
+        flat = (self.spec.is_flat, "a wheel that is drawn as a flat outline")
+        there = (self.sizes is not None or not flat[0], "parts that can be cut: see `geneva check`")
+        self._lacks(name, flat, there)
+
     @cached_property
     def _tops(self) -> list[float]:
         """The greatest pin force and, with a face width, the square of pressure times speed."""
@@ -116,6 +122,7 @@ class Life:
     def horn(self) -> horn.HornStress | None:
         """The horn where the roller bends it most."""
         name, found = "horn_stress_MPa", self.sizes
+        self._cut(name)
         if found is None or not found.recess:
             return None
         if self._lacks(name, self._wide, self._loaded) or not self._bounded(name):

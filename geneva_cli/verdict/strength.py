@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
+from geneva_cli.analysis.loads.summary import PARALLEL
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import lock, shafts
 from geneva_cli.parts.assembly import assembly
@@ -22,6 +23,8 @@ class Strength(Life):
     def lock(self) -> lock.LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell."""
         found = self.sizes
+        for name in ("lock_stress_max_MPa", "lock_horn_stress_MPa"):
+            self._cut(name)
         if found is None or not found.lock:
             return None
         held = bool(lock.held_torque_Nm(self.mechanism))
@@ -51,24 +54,22 @@ class Strength(Life):
 
     @cached_property
     def wheel_shaft(self) -> shafts.Turned | None:
-        """The wheel's shaft."""
+        """The wheel's shaft, where it is parallel to the crank's; None of others."""
         return self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft), shafts.on_wheel)
 
     @cached_property
     def crank_shaft(self) -> shafts.Turned | None:
-        """The shaft of the crank, where it is parallel to the wheel's; None of others.
-
-        On a sphere the roller's force has a moment about it that does not follow from the overhang.
-        """
-        if not self.spec.wheel.FLAT:
-            return None
+        """The shaft of the crank, likewise."""
         on = shafts.on_driven_crank if self.spec.drive.CRANKED else shafts.on_crank
         return self._shaft("crank", shafts.crank_shaft(self.spec.shaft), on)
 
     def _shaft(
         self, which: str, ends: shafts.GivenShaft, loaded: shafts.On
     ) -> shafts.Turned | None:
+        """On a sphere the force's moment does not follow from an overhang."""
         name = f"{which}_shaft_stress_MPa"
+        if self._lacks(name, (self.spec.wheel.FLAT, PARALLEL)):
+            return None
         placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")
         thick = (ends.diameter_mm is not None, f"{which}_diameter_mm in [shaft]")
         self._lacks(name, placed, thick, self._loaded)

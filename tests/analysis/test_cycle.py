@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design, External, Load, Shaft, Size
+from geneva_cli import Design, External, Load, Shaft, Size, Spherical
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.summary import reversals_deg, summaries
 from geneva_cli.app import app
@@ -184,6 +184,10 @@ def test_each_bearing_of_a_shaft():
     both = found["wheel_near_bearing_N"].max, found["wheel_far_bearing_N"].max
     assert both == pytest.approx([1.5 * found["wheel_bearing_N"].max, both[0] / 3.0], rel=1e-15)
     assert found["crank_near_bearing_N"].max is None
+    # where shafts meet there is no such lever
+    ball = Design(Spherical(6), load=Load(0.4, 15.0), shaft=shaft)
+    assert ball.loads["wheel_near_bearing_N"].max is None
+    assert "crank_far_bearing_N: needs parallel shafts; on a sphere" in ball.load_warnings[-1]
 
 
 # The command

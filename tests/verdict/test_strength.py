@@ -9,6 +9,7 @@ import repo
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
+from geneva_cli import Design
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
@@ -195,6 +196,24 @@ def test_margins():
     assert margin(80.0, 120.0) == 0.5
     assert margin(None, 120.0) is None
     assert margin(80.0, None) is None
+
+
+def test_what_a_sphere_lacks_is_said_in_its_rows():
+    """Its shafts meet, and its wheel is no flat outline: their limits do not pass in silence."""
+    size = Size(100.0, face_width_mm=10.0)
+    of = Design.of(WHOLE.replace(wheel=Wheel(6, "spherical"), size=size))
+    found = {c.name: c for c in judged(of.mechanism, parts=False)}
+    for name, said in (
+        ("wheel_shaft_stress_MPa", "parallel shafts"),
+        ("crank_shaft_stress_MPa", "parallel shafts"),
+        ("horn_stress_MPa", "a flat outline"),
+        ("lock_horn_stress_MPa", "a flat outline"),
+        ("lock_stress_max_MPa", "a flat outline"),
+    ):
+        assert (found[name].value, found[name].passes) == (None, None)
+        assert said in found[name].nearest
+    said = "horn_stress_MPa: needs a wheel that is drawn as a flat outline"
+    assert said in of.loads_table.to_dict()["warnings"]
 
 
 @pytest.mark.parametrize("path", sorted(DESIGNS.glob("*.toml")), ids=lambda p: p.stem)

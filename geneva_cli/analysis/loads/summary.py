@@ -34,6 +34,7 @@ UNLOADED = (
     "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
     "a [[mass]]"
 )
+PARALLEL = "parallel shafts; on a sphere the force moves along them, and pushes along them too"
 ZERO = 1e-15  # share of a peak that is rounding
 SHOWN = (
     "omega_rad_s",
@@ -61,7 +62,7 @@ def shares(cycle: Cycle) -> dict[str, tuple[str, float | None, str]]:
     A shaft carries its load outside two bearings, the overhang a from the nearer and s between
     them: the nearer bears (a + s)/s of it, the other a/s the other way.
     """
-    shaft = cycle.mechanism.spec.shaft
+    shaft, flat = cycle.mechanism.spec.shaft, cycle.mechanism.spec.wheel.FLAT
     out: dict[str, tuple[str, float | None, str]] = {
         "power_W": ("input_torque_Nm", cycle.given.speed_rad_s, ""),
     }
@@ -69,8 +70,8 @@ def shares(cycle: Cycle) -> dict[str, tuple[str, float | None, str]]:
         ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),
         ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm),
     ):
-        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]"
-        far = None if a is None or s is None else a / s
+        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL
+        far = a / s if flat and a is not None and s is not None else None
         near = None if far is None else 1.0 + far
         out[f"{name}_near_bearing_N"] = (f"{name}_bearing_N", near, needs)
         out[f"{name}_far_bearing_N"] = (f"{name}_bearing_N", far, needs)

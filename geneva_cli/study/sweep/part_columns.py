@@ -83,15 +83,15 @@ def _wheel_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
 
 
 def _crank_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
-    """Of a crank whose shaft is parallel to the wheel's, as ``verdict.strength`` has it."""
     spec = machine.spec
-    if not spec.wheel.FLAT:
-        return {}
     on = shafts.on_driven_crank if spec.drive.CRANKED else shafts.on_crank
     return _shaft(machine, shafts.crank_shaft(spec.shaft), on)
 
 
 def _shaft(machine: Mechanism, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
+    """Of shafts that are parallel, as ``verdict.strength`` has it."""
+    if not machine.spec.wheel.FLAT:
+        return {}
     found = shafts.shaft_of_many(machine, ends, on)
     if found is None:
         return {}
