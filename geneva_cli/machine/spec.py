@@ -39,12 +39,15 @@ LOADED = (
     "contact_stress_max_MPa",
     "pv_max_W_m2",
     "roller_life_min_h",
+    "slot_wear_max_mm_per_million",
 )
 _LINE = ("face_width_mm", "size", "the length of the line of contact")
 NEEDED = {
     "contact_stress_max_MPa": _LINE,
     "pv_max_W_m2": _LINE,
     "lock_stress_max_MPa": _LINE,
+    "lock_deflection_max_deg": _LINE,
+    "slot_wear_max_mm_per_million": ("wear_mm3_Nm", "material.wheel", "its material's wear"),
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }
 

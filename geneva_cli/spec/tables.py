@@ -402,7 +402,13 @@ class Limits(SpecTable):
     contact_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, line contact"] = None
     pv_max_W_m2: Annotated[float | None, POSITIVE, "contact stress times sliding speed"] = None
     roller_life_min_h: Annotated[float | None, POSITIVE, "L10 of the roller"] = None
+    slot_wear_max_mm_per_million: Annotated[
+        float | None, POSITIVE, "depth worn off a slot's walls in a million passages"
+    ] = None
     lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, locking disc on wheel"] = None
+    lock_deflection_max_deg: Annotated[
+        float | None, POSITIVE, "how far the wheel gives in its lock under dwell_torque_Nm"
+    ] = None
 
 
 # The tables that every spec may have, whatever its machine, in the order of a file; each is a field

@@ -34,6 +34,7 @@ LIFE = (
     "roller_life_h",
     "slot_wear_mm_per_million",
 )
+WEAR = ("slot_wear_mm_per_million", "slot_wear_max_mm_per_million")  # and its limit
 ROLLER = ("roller_life_min_h", "roller_life_turns", "roller_life_motions", "roller_life_h")
 
 
@@ -184,14 +185,13 @@ class Life:
     @cached_property
     def wear_mm(self) -> float | None:
         """The depth that a million passages wear off a slot's walls."""
-        name = "slot_wear_mm_per_million"
         given = self.spec.material_wheel.wear_mm3_Nm is not None
         key = (given, "wear_mm3_Nm in [material.wheel]")
         # a roller that turns on its pin does not rub in the slot
         rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
-        if self._lacks(name, key, rubs, self._wide, self._loaded) or not self._bounded(name):
-            return None
-        return roller.wear_mm(self.mechanism)
+        keys = (key, rubs, self._wide, self._loaded)
+        lacks = [self._lacks(name, *keys) or not self._bounded(name) for name in WEAR]
+        return None if any(lacks) else roller.wear_mm(self.mechanism)
 
     @cached_property
     def values(self) -> dict[str, float | None]:

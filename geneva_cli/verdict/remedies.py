@@ -119,6 +119,11 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         _SLOWER,
         _LARGER,
     ),
+    "slot_wear_max_mm_per_million": (
+        scaled("size", "face_width_mm", 10.0),
+        _SLOWER,
+        _LARGER,
+    ),
     "pin_stress_MPa": (
         scaled("size", "pin_mm", 1.9, 1.5, 1.2),
         set_to("size", "pin_held", "fixed"),
@@ -139,6 +144,11 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "lock_stress_max_MPa": (
         scaled("size", "lock_edge_mm", 10.0),
+        scaled("size", "face_width_mm", 10.0),
+        _LARGER,
+    ),
+    "lock_deflection_max_deg": (
+        scaled("size", "lock_clearance_mm", 0.1),
         scaled("size", "face_width_mm", 10.0),
         _LARGER,
     ),

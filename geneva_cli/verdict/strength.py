@@ -13,7 +13,10 @@ from geneva_cli.parts.reliefs import sectors
 from geneva_cli.verdict.life import Life
 
 if TYPE_CHECKING:
+    from geneva_cli.analysis.strength.lock import LockUnderTorque
     from geneva_cli.machine.mechanism import Mechanism
+
+LOCK = ("lock_stress_max_MPa", "lock_deflection_max_deg", "lock_horn_stress_MPa")
 
 
 class Strength(Life):
@@ -23,12 +26,13 @@ class Strength(Life):
     def lock(self) -> lock.LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell."""
         found = self.sizes
-        for name in ("lock_stress_max_MPa", "lock_horn_stress_MPa"):
+        for name in LOCK:
             self._cut(name)
         if found is None or not found.lock:
             return None
         held = bool(lock.held_torque_Nm(self.mechanism))
-        if self._lacks("lock_stress_max_MPa", self._wide, (held, "dwell_torque_Nm in [load]")):
+        lacks = [self._lacks(n, self._wide, (held, "dwell_torque_Nm in [load]")) for n in LOCK]
+        if any(lacks):
             return None
         edge = self.spec.size.lock_edge_mm or 0.0
         where = assembly(self.mechanism)
@@ -40,17 +44,26 @@ class Strength(Life):
     def lock_stress_max_MPa(self) -> float | None:
         """The greatest stress between disc and recess: on the recess's end, or as the arcs lie."""
         found = self.lock
-        if found is None:
+        if found is None or self._sharp("lock_stress_max_MPa", found):
             return None
-        sharp = found.approach_deg is None
+        return max(found.contact_stress_MPa or 0.0, found.pressure_MPa)
+
+    @cached_property
+    def lock_deflection_deg(self) -> float | None:
+        """How far the wheel gives in its lock, its play included."""
+        found = self.lock
+        if found is None or self._sharp("lock_deflection_max_deg", found):
+            return None
+        return found.deflection_deg
+
+    def _sharp(self, name: str, found: LockUnderTorque) -> bool:
+        """Whether the lock bears on a sharp edge, whose stress has no bound."""
         rounds = (
             "lock_edge_mm in [size]"
             if found.on == "corner"
             else "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
         )
-        if self._lacks("lock_stress_max_MPa", (not sharp, rounds)):
-            return None
-        return max(found.contact_stress_MPa or 0.0, found.pressure_MPa)
+        return self._lacks(name, (found.approach_deg is not None, rounds))
 
     @cached_property
     def wheel_shaft(self) -> shafts.Turned | None:

@@ -13,7 +13,7 @@ LIMITS = {
     "velocity_max": 2.0, "acceleration_max": 4.0, "acceleration_entry_max": 1.0, "jerk_max": 30.0,
     "pin_force_max_N": 100.0, "input_torque_max_Nm": 5.0, "pressure_angle_max_deg": 25.0,
     "contact_stress_max_MPa": 300.0, "pv_max_W_m2": 1e8, "roller_life_min_h": 2e4,
-    "lock_stress_max_MPa": 800.0,
+    "lock_stress_max_MPa": 800.0, "lock_deflection_max_deg": 0.05,
 }  # fmt: skip
 
 

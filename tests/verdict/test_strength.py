@@ -36,7 +36,13 @@ WHOLE = Spec(
         crank_diameter_mm=20.0,
         shear_stress_max_MPa=40.0,
     ),
-    limits=Limits(pv_max_W_m2=1e8, roller_life_min_h=2e4, lock_stress_max_MPa=800.0),
+    limits=Limits(
+        pv_max_W_m2=1e8,
+        roller_life_min_h=2e4,
+        slot_wear_max_mm_per_million=1e-3,
+        lock_stress_max_MPa=800.0,
+        lock_deflection_max_deg=0.01,
+    ),
 )
 ROWS = {
     "pv_max_W_m2": ("limits.pv_max_W_m2", 4e7),
@@ -44,7 +50,9 @@ ROWS = {
     "pin_stress_MPa": ("material.roller.stress_max_MPa", 6.0),
     "horn_stress_MPa": ("material.wheel.stress_max_MPa", 3.0),
     "lock_horn_stress_MPa": ("material.wheel.stress_max_MPa", 2.0),
+    "slot_wear_max_mm_per_million": ("limits.slot_wear_max_mm_per_million", 1e-4),
     "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", 400.0),
+    "lock_deflection_max_deg": ("limits.lock_deflection_max_deg", 0.002),
     "wheel_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 15.0),
     "crank_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 12.0),
 }
@@ -88,10 +96,13 @@ def test_each_can_fail_and_one_key_mends_it(name):
         ("shaft.wheel_diameter_mm", "wheel_shaft_stress_MPa", "wheel_diameter_mm in [shaft]"),
         ("shaft.wheel_overhang_mm", "wheel_shaft_stress_MPa", "wheel_overhang_mm in [shaft]"),
         ("size.lock_edge_mm", "lock_stress_max_MPa", "lock_edge_mm in [size]"),
+        ("size.lock_edge_mm", "lock_deflection_max_deg", "lock_edge_mm in [size]"),
     ],
 )
 def test_what_is_not_known_is_said_with_its_key(without, name, said):
-    spec = WHOLE.replace(limits=Limits(lock_stress_max_MPa=800.0))
+    spec = WHOLE.replace(
+        limits=Limits(lock_stress_max_MPa=800.0, lock_deflection_max_deg=0.01),
+    )
     if without == "size.face_width_mm":
         spec = WHOLE.replace(limits=Limits())
     check = rows(spec.with_(without, None))[name]
@@ -106,17 +117,22 @@ def test_what_is_not_known_is_said_with_its_key(without, name, said):
         ({"pv_max_W_m2": 1e6}, r"pv_max_W_m2 needs the length .* set face_width_mm in \[size\]"),
         ({"lock_stress_max_MPa": 9.0}, r"lock_stress_max_MPa needs the length of the line"),
         ({"roller_life_min_h": 9.0}, r"set dynamic_capacity_N in \[material.roller\]"),
+        ({"slot_wear_max_mm_per_million": 1.0}, r"set wear_mm3_Nm in \[material.wheel\]"),
+        ({"lock_deflection_max_deg": 1.0}, r"lock_deflection_max_deg needs the length"),
     ],
 )
 def test_a_limit_that_limits_nothing_is_refused(limits, said):
     with pytest.raises(GenevaError, match=said) as error:
         Spec(Wheel(6), load=Load(torque_Nm=1.0), limits=Limits(**limits))
     assert error.value.key == ("limits", next(iter(limits)))
-    wide = Size(face_width_mm=10.0)
-    capacity = RollerMaterial(dynamic_capacity_N=1e3)
-    if "lock_stress_max_MPa" not in limits:
+    rest = {
+        "size": Size(face_width_mm=10.0),
+        "material_roller": RollerMaterial(dynamic_capacity_N=1e3),
+        "material_wheel": WheelMaterial(wear_mm3_Nm=1e-7),
+    }
+    if not next(iter(limits)).startswith("lock"):
         with pytest.raises(GenevaError, match="needs a load"):
-            Spec(Wheel(6), size=wide, material_roller=capacity, limits=Limits(**limits))
+            Spec(Wheel(6), **rest, limits=Limits(**limits))
 
 
 def test_without_a_load_only_the_slot_s_travel_is_known():
@@ -209,6 +225,7 @@ def test_what_a_sphere_lacks_is_said_in_its_rows():
         ("horn_stress_MPa", "a flat outline"),
         ("lock_horn_stress_MPa", "a flat outline"),
         ("lock_stress_max_MPa", "a flat outline"),
+        ("lock_deflection_max_deg", "a flat outline"),
     ):
         assert (found[name].value, found[name].passes) == (None, None)
         assert said in found[name].nearest

@@ -43,10 +43,12 @@ LIMITS: Checks = {
     "contact_stress_max_MPa": "load_limits:limited_load",
     "pv_max_W_m2": "strength:strength_limit",
     "roller_life_min_h": "strength:strength_limit",
+    "slot_wear_max_mm_per_million": "strength:strength_limit",
     "pin_stress_MPa": "strength:strength_limit",
     "horn_stress_MPa": "strength:strength_limit",
     "lock_horn_stress_MPa": "strength:strength_limit",
     "lock_stress_max_MPa": "strength:strength_limit",
+    "lock_deflection_max_deg": "strength:strength_limit",
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
 }

@@ -46,6 +46,10 @@ BOUNDS = {
         lambda of: (of.roller.hours if of.roller else None, None),
         "at least",
     ),
+    # Archard's depth
+    "slot_wear_max_mm_per_million": Bound(
+        lambda s: s.limits.slot_wear_max_mm_per_million, lambda of: (of.wear_mm, None)
+    ),
     # the pin's equivalent stress
     "pin_stress_MPa": Bound(
         lambda s: s.material_roller.stress_max_MPa, lambda of: (of.pin_stress_MPa, None)
@@ -62,6 +66,10 @@ BOUNDS = {
     # between disc and recess: on the recess's end, or as the arcs lie
     "lock_stress_max_MPa": Bound(
         lambda s: s.limits.lock_stress_max_MPa, lambda of: (of.lock_stress_max_MPa, None)
+    ),
+    # of the wheel: the lock's play, the contact's approach and the horn's bending
+    "lock_deflection_max_deg": Bound(
+        lambda s: s.limits.lock_deflection_max_deg, lambda of: (of.lock_deflection_deg, None)
     ),
     # the shafts' shear stresses, by the ASME code
     "wheel_shaft_stress_MPa": Bound(
