@@ -127,10 +127,13 @@ class Range(NamedTuple):
         self.high[:, design] = np.fmax(self.high[:, design], high)
 
     def holds(self, design: Whole, value: Array) -> Mask:
-        """Whether values (functions, m, ...) of some designs are within it."""
+        """Whether values (functions, m, ...) of some designs are within it, or no further out of it
+        than it is wide: an extreme between samples is.
+        """
         shape = *self.low.shape[:1], -1, *(1,) * (value.ndim - 2)
         low, high = (side[:, design].reshape(shape) for side in self)
-        return np.asarray((low <= value) & (value <= high))
+        width = high - low
+        return np.asarray((low - width <= value) & (value <= high + width))
 
     def width(self, row: int | Whole, design: Whole) -> Array:
         """The range of one function of some designs."""
@@ -273,9 +276,10 @@ def turns_in(row: int, k: int, cells: Cells, range_: Range, where: Mask) -> Turn
 def turns_of(
     k: int, design: Whole, level: Array, positive: Mask, left: Array, right: Array
 ) -> Turns:
-    """Turns of the k-th wanted function; slopes that are 0 but for rounding, ``level``, are 0."""
-    for end in (left, right):
-        end[2, np.abs(end[2]) <= level] = 0.0
+    """Turns of the k-th wanted function; a slope that beside the other one is rounding is 0."""
+    small = np.abs(np.stack((left[2], right[2]))) <= level
+    for end, flat, steep in ((left, small[0], ~small[1]), (right, small[1], ~small[0])):
+        end[2, flat & steep] = 0.0
     return Turns(np.full(len(design), k), left[0], design, positive, left, right)
 
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.budget import check_time
+from geneva_cli.numerics.cells import touches
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
 
 if TYPE_CHECKING:
@@ -49,6 +50,10 @@ class Scan(NamedTuple):
         one = slice(number, number + 1)
         return Scan(self.x, self.span, self.value[one], self.slope[one])
 
+    def first(self, count: int) -> Scan:
+        """The same samples of the first functions alone."""
+        return Scan(self.x, self.span, self.value[:count], self.slope[:count])
+
     def noise(self, row: int) -> float:
         """Size of a function's values that is rounding, beside its greatest."""
         size = abs(self.value[row])
@@ -77,10 +82,14 @@ def _unit() -> Array:
     return once
 
 
-def scan(functions: Functions, spans: Sequence[tuple[float, float]]) -> Scan:
+def scan(
+    functions: Functions, spans: Sequence[tuple[float, float]], signed: slice = slice(0)
+) -> Scan:
     """Samples so near that a cubic between neighbours is within a share of each function's range.
 
     A value that is not finite marks a place where the function has none: nothing is asked of it.
+    Of the functions ``signed`` no two changes of sign lie between neighbours: where both tangents
+    head for zero and meet beyond it, there is another sample.
     """
     unit = _unit()
     a, b = (np.array(side)[:, None] for side in zip(*spans, strict=True))
@@ -88,10 +97,10 @@ def scan(functions: Functions, spans: Sequence[tuple[float, float]]) -> Scan:
     x[:, -1:] = b
     span = np.repeat(np.arange(len(spans)), len(unit))
     with np.errstate(all="ignore"):
-        return _refined(functions, x.ravel(), span)
+        return _refined(functions, x.ravel(), span, signed)
 
 
-def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
+def _refined(functions: Functions, x: Array, span: Whole, signed: slice) -> Scan:
     value, slope = functions(x, span)
     every = [(x, span, value, slope)]
     same: Mask = span[1:] == span[:-1]
@@ -113,6 +122,8 @@ def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
         predicted = 0.5 * (left[2] + right[2]) + (right[0] - x) * (left[3] - right[3]) / 4.0
         bar = PREDICTED * (high - low) + ROUNDING * np.fmax(np.abs(high), np.abs(low))
         missed = np.any(np.abs(value - predicted) > bar, axis=0)
+        noise = NOISE * np.fmax(np.abs(high), np.abs(low))[signed]
+        missed |= _may_cross(left, middle, noise, signed) | _may_cross(middle, right, noise, signed)
         here = _taken(middle, missed)
         left, right = (
             _joined(_taken(left, missed), here),
@@ -124,6 +135,13 @@ def _refined(functions: Functions, x: Array, span: Whole) -> Scan:
 
 
 _Part: TypeAlias = "tuple[Array, Whole, Array, Array]"
+
+
+def _may_cross(one: _Part, two: _Part, noise: Array, signed: slice) -> Mask:
+    """Whether functions that have a sign at both places may change it twice between them."""
+    v, w, d, e = (rows[signed] for rows in (one[2], two[2], one[3], two[3]))
+    sure = (np.abs(v) > noise) & (np.abs(w) > noise)
+    return np.asarray((touches(two[0] - one[0], v, d, w, e) & sure).any(axis=0))
 
 
 def _taken(part: _Part, where: Mask) -> _Part:

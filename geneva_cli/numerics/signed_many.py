@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import choose_record
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
@@ -237,11 +238,32 @@ class _Search:
         x = newton_many(zero, a, b, start, ~left[kind, every], ENDED, (v, w))[0]
         at = f.at(x[:, None], design, 1)
         looks = [self._look(at, np.where(number <= kind, side, np.nan)) for side in sides]
+        stays = ~self._passed(design, looks[0], left & (number < kind), ~left & (number < kind))
+        if not stays.all():
+            # a sign that the others hang on is another one here: it changes twice in the cell
+            here = self._look_within(at, design, left)
+            looks = [choose_record(stays, look, here) for look in looks]
         for look in looks:
             self.tops.add_all(design, x, look.value[f.signs :])
         one, two = cells.parted(x, looks)
-        self.cuts.append(_cuts(one, two, every))
+        self.cuts.append(_cuts(one, two, np.flatnonzero(stays)))
         return one, two
+
+    def _passed(self, design: Whole, look: Look, positive: Mask, negative: Mask) -> Mask:
+        """Whether one of the functions held to be positive or negative is not: (k,)."""
+        value = look.value[: self.f.signs]
+        noise = NOISE * self.range.size(design)[: self.f.signs]
+        passed = (positive & (value < -noise)) | (negative & (value > noise))
+        return np.asarray(passed.any(axis=0))
+
+    def _look_within(self, at: Any, design: Whole, positive: Mask) -> Look:
+        """At a place within each cell, where what is as small as rounding has its cell's sign."""
+        look, signs = self._look(at), self.f.signs
+        noise = np.abs(look.value[:signs]) <= NOISE * self.range.size(design)[:signs]
+        if noise.any():
+            own = np.where(positive, 1.0, -1.0)
+            look = self._look(at, np.where(noise, own, np.nan))
+        return look
 
     def _halved(self, cells: Cells) -> tuple[Cells, Cells]:
         """The halves of cells of one sign that must be looked at again."""
@@ -253,12 +275,7 @@ class _Search:
             return cells, cells
         design = cells.design
         at = f.at(x[:, None], design, 1)
-        look = self._look(at)
-        # what is as small as rounding has the sign of its cell
-        noise = np.abs(look.value[: f.signs]) <= NOISE * self.range.size(design)[: f.signs]
-        if noise.any():
-            own = np.where(cells.positive[0], 1.0, -1.0)
-            look = self._look(at, np.where(noise, own, np.nan))
+        look = self._look_within(at, design, cells.positive[0])
         self.tops.add_all(design, x, look.value[f.signs :])
         low, high = (side[:, design] for side in self.range)
         missed = unpredicted(cells.at(0), (x, *look[1:]), cells.at(1), low, high)

@@ -237,6 +237,22 @@ def test_a_scan_sees_narrow_peaks(width):
     assert found.x[i] <= -1.0 + width <= found.x[i + 1]
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_scan_steps_over_no_two_changes_of_sign(sign):
+    """A parabola that passes zero by 1e-10 of its range, between two of the first samples."""
+    depth, middle = 1e-10, 0.123
+
+    def parabola(x, span):
+        way = x - middle
+        return np.array([sign * (way * way - depth)]), np.array([2.0 * sign * way])
+
+    assert not len(scan(parabola, [(-1.0, 1.0)]).changes(0)[0])
+    found = scan(parabola, [(-1.0, 1.0)], signed=slice(None))
+    before, after = (found.x[i] for i in found.changes(0))
+    assert (before <= [middle - 1e-5, middle + 1e-5]).all()
+    assert (after >= [middle - 1e-5, middle + 1e-5]).all()
+
+
 def test_a_setting_knows_no_stress_without_a_width():
     assert setting(build(Spec(Wheel(6)))).hertz is None
 

@@ -4,7 +4,7 @@ import load_witness
 import numpy as np
 import pytest
 from design_arrays import MACHINES, alone, drawn
-from loaded_arrays import CARRIED, LOAD, NAMES, beyond, loaded
+from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, loaded, missed, one_by_one
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
@@ -74,6 +74,14 @@ def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""
     _, _, found = loaded(name, 100, 5)
     assert (beyond(found, 150, 5) <= 1e-12).all()
+
+
+@pytest.mark.parametrize("name", MISSED)
+def test_what_was_stepped_over_is_found(name):
+    """Dense samples pass no extreme of designs of which one was missed, together or one by one."""
+    spec, varied, found = missed(name)
+    assert (beyond(found, 3000, 7) <= 1e-12).all()
+    assert (beyond(found, 3000, 7, one_by_one(spec, varied, found)) <= 1e-12).all()
 
 
 @pytest.mark.parametrize("name", ["crank", "internal", "side-crank", "offset", "elliptical gears"])

@@ -57,9 +57,17 @@ def looked(
     pieces = stretches(engagement, given)
     signs = np.array([piece[2:] for piece in pieces]).T
 
+    first = rows(contact(engagement, np.array([pieces[0].end]), 1), *pieces[0][2:])
+    count, each = (
+        len(first),
+        {id(row.room): i for i, row in enumerate(first) if row.room is not None},
+    )
+    bounds = list(each.values())  # a row for each room
+
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
         asked = rows(contact(engagement, x, 1), *signs[:, span])
-        value, slope = columns([row.value for row in asked], x)
+        rooms = [room for i in bounds if (room := asked[i].room) is not None]
+        value, slope = columns([*(row.value for row in asked), *rooms], x)
         for i, row in enumerate(asked):
             if row.room is None:
                 continue
@@ -68,7 +76,10 @@ def looked(
                 value[i] = np.where(lost, np.where(row.way > 0.0, np.nan, -np.inf), value[i])
         return value, slope
 
-    found = scan(sampled, [(p.start, p.end) for p in pieces])
+    # no two changes of sign of a room are stepped over: between them there is no bound
+    found = scan(sampled, [(p.start, p.end) for p in pieces], signed=slice(count, None)).first(
+        count
+    )
     ends = _at_mid_motion(engagement, given, pieces, rows, least)
     tops = _tops(engagement, found, rows, signs)
     brinks: dict[int, float] = {}
@@ -80,10 +91,10 @@ def looked(
 
         lost = np.isnan(found.value[i])
         if lost.any():
-            first = _first_with_room(engagement, pieces[0], rows, i)
-            if first not in brinks:
-                brinks[first] = _brink(found, lost, pieces, at)
-            brink = brinks[first]
+            number = _first_with_room(first, i)
+            if number not in brinks:
+                brinks[number] = _brink(found, lost, pieces, at)
+            brink = brinks[number]
             out.append(Greatest(math.inf, min(brink, 0.0) if ends[i] == math.inf else brink))
         else:
             places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
@@ -93,10 +104,9 @@ def looked(
     return out, found
 
 
-def _first_with_room(engagement: Engagement, piece: Stretch, rows: Rows, row: int) -> int:
+def _first_with_room(rows: list[Row[Jet]], row: int) -> int:
     """The first row that ceases to have a bound where this one does: they need the same."""
-    asked = rows(contact(engagement, np.array([piece.end]), 1), *piece[2:])
-    same = [one.room is asked[row].room and bool(np.all(one.way > 0.0)) for one in asked]
+    same = [one.room is rows[row].room and bool(np.all(one.way > 0.0)) for one in rows]
     return same.index(True)
 
 

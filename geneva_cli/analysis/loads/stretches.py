@@ -109,7 +109,7 @@ class Signs:
             self.fastest = float(np.max(abs(at.velocity.arrays()[0]), initial=self.fastest))
             return columns([of(at) for of in functions], x)
 
-        self.found = found = scan(sampled, spans)
+        self.found = found = scan(sampled, spans, signed=slice(None))
         inner = inside(found)
         ends = [found.changes(row) for row in range(len(functions))]
         kept = [(before[inner[before]], after[inner[before]]) for before, after in ends]
