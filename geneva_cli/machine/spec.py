@@ -211,7 +211,7 @@ class Spec:
 
     @property
     def is_loaded(self) -> bool:
-        """Whether anything is known that resists the wheel: an inertia, a mass or a torque.
+        """Whether anything is known that resists the wheel: an inertia, a mass, torque or friction.
 
         >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
         (False, True)
@@ -221,7 +221,7 @@ class Spec:
     @property
     def _unloaded(self) -> bool:
         nothing = (self.load.inertia_kgm2 == 0.0) & (self.load.torque_Nm == 0.0)
-        return nothing & (not self.mass)
+        return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
 
     @property
     def is_flat(self) -> bool:

@@ -230,6 +230,12 @@ class Mass(SpecTable):
                 raise GenevaError(f"a {self.shape} has no {key}; remove it", (self.TABLE, key))
             if not given and key in needed:
                 raise GenevaError(f"a {self.shape} needs {' and '.join(needed)}", (self.TABLE,))
+        if self.shape == "point" and not self.radius_mm:
+            raise GenevaError(
+                "a point on the wheel's axis has no inertia: give its radius_mm, or its weight as "
+                "force_N in [support]",
+                (self.TABLE,),
+            )
         self._refuse_weight()
         if self.bore_mm and self.diameter_mm and not self.bore_mm < self.diameter_mm:
             raise GenevaError(
@@ -266,6 +272,15 @@ class Support(SpecTable):
         "vertical"
     )
     gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
+
+    @property
+    def own_torque_Nm(self) -> float:
+        """The friction of ``force_N`` alone, at the table.
+
+        >>> Support(friction=0.15, radius_mm=100.0, force_N=1000.0).own_torque_Nm
+        15.0
+        """
+        return self.friction * self.force_N * self.radius_mm * 1e-3
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,13 @@
 """Cautions about what the wheel carries, and about what drives it.
 
-The wheel's own inertia, unbalanced or distant masses, and keys without effect.
+The wheel's own inertia, unbalanced or distant masses, materials that there are not, and keys
+without effect.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
 from geneva_cli.curves.plates import MassProperties
@@ -17,13 +19,16 @@ from geneva_cli.spec.tables import Motor
 NAME = "wheel"  # of the [[mass]] that is the wheel itself
 SHOWN = 0.01  # share of the given inertia: less of the wheel's own is not mentioned
 FAR = 5.0  # centre distances to a body, beyond most tables
+# No material is stiffer than diamond, heavier than osmium, or as light as what is meant in g/cm3
+DIAMOND_GPa, OSMIUM_KGM3, FOAM_KGM3 = 1220.0, 22590.0, 25.0
 FULL_CIRCLE = 2  # so many alike, or more, are taken to stand evenly around the axis
 
 
 def carried_cautions(mechanism: Mechanism, plate: MassProperties | None) -> list[Caution]:
     """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
     spec = mechanism.spec
-    return [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_for_nothing(spec)]
+    about = [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_unheard_of(spec)]
+    return [*about, *_for_nothing(spec)]
 
 
 def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
@@ -83,6 +88,30 @@ def _far(mechanism: Mechanism) -> list[Caution]:
             "axis, out of its reach: is it in mm?",
         )
     ]
+
+
+def _unheard_of(spec: Spec) -> Iterator[Caution]:
+    """Materials in another unit."""
+    parts = {"[material.wheel]": spec.material_wheel, "[material.roller]": spec.material_roller}
+    for table, part in parts.items():
+        if part.youngs_modulus_GPa > DIAMOND_GPa:
+            E = part.youngs_modulus_GPa
+            yield Caution(
+                "unlikely-material",
+                f"youngs_modulus_GPa = {E:g} in {table} is stiffer than diamond "
+                f"({DIAMOND_GPa:g}): {E:g} MPa would be {1e-3 * E:g}",
+            )
+    dense = [("[[mass]]", mass.density_kgm3) for mass in spec.mass]
+    for table, density in (*dense, *[(k, part.density_kgm3) for k, part in parts.items()]):
+        if density is not None and not FOAM_KGM3 <= density <= OSMIUM_KGM3:
+            what = "lighter than foam" if density < FOAM_KGM3 else "heavier than osmium"
+            other = 1e3 * density if density < FOAM_KGM3 else 1e-3 * density
+            unit = "g/cm3" if density < FOAM_KGM3 else "g/m3"
+            yield Caution(
+                "unlikely-material",
+                f"density_kgm3 = {density:g} in {table} is {what}: {density:g} {unit} would be "
+                f"{other:g}",
+            )
 
 
 def _for_nothing(spec: Spec) -> list[Caution]:

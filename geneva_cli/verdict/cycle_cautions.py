@@ -44,7 +44,8 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     least, most = torque.min, torque.max
     if least is None or alpha.min is None or not least < -ROUNDING * abs(most or least):
         return []
-    where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in back_driven_deg(cycle))
+    driven = back_driven_deg(cycle)
+    where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
     # With so much resistance the wheel is braked without the input even where it slows down most.
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min

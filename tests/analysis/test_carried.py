@@ -11,6 +11,7 @@ from geneva_cli.analysis.loads.carried import (
     weight_kg,
 )
 from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 
 
@@ -58,6 +59,17 @@ def test_gears_to_the_table_count_twice_for_inertia_and_once_for_friction():
     geared = straight.with_("support.gear_ratio", 0.5)
     assert inertia_kgm2(geared) == pytest.approx(0.25 * inertia_kgm2(straight), rel=1e-15)
     assert support_torque_Nm(geared) == pytest.approx(0.5 * support_torque_Nm(straight), rel=1e-15)
+
+
+def test_a_support_s_own_friction_is_a_load():
+    """0.15 times 1 kN at 100 mm; a weight on the axis is such a force, and no inertia."""
+    alone = Spec(External(6), support=Support(friction=0.15, radius_mm=100.0, force_N=1000.0))
+    limited = Design.of(alone.with_("limits.pin_force_max_N", 400.0))
+    assert limited.loads["wheel_torque_Nm"].max == 15.0
+    assert limited.life.values["equivalent_force_N"] > 15.0 / 0.0866
+    assert not Spec(External(6), support=Support(friction=0.15, radius_mm=100.0)).is_loaded
+    with pytest.raises(GenevaError, match=r"no inertia: give its radius_mm, or its weight as"):
+        Mass("point", mass_kg=1.0)
 
 
 def test_a_body_beyond_the_reach_of_the_table():

@@ -38,7 +38,7 @@ PARTS = Mass("point", mass_kg=0.25, count=6, radius_mm=100.0)
 def turret(Am, Vm, Qm):
     g = 9.807  # the maker's
     friction = 0.15 * (11.026 + 18.0 + 1.5) * g * 0.1
-    carried = makers.Load(0.124 + 0.18 + 0.015, friction, 0.0, 2.0)
+    carried = makers.ShaftLoad(0.124 + 0.18 + 0.015, friction, 0.0, 2.0)
     return makers.makers_form(CamFactors(Am, Vm, Qm), 60.0, 270.0, 80.0, carried)
 
 

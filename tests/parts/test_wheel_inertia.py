@@ -18,8 +18,10 @@ from geneva_cli import (
     Mass,
     Motion,
     Motor,
+    RollerMaterial,
     Size,
     Support,
+    WheelMaterial,
     load,
 )
 from geneva_cli.curves.plates import MassProperties
@@ -165,6 +167,20 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
 def test_what_contradicts_itself_is_said(spec, said):
     (text,) = told(spec, None)
     assert said in text
+
+
+def test_a_material_in_another_unit_is_said():
+    given = {
+        "material_wheel": WheelMaterial(youngs_modulus_GPa=210e3),
+        "material_roller": RollerMaterial(density_kgm3=7.85),
+        "mass": (Mass("disc", density_kgm3=7.85e6, diameter_mm=50.0, thickness_mm=1.0),),
+    }
+    stiff, heavy, light = told(Spec(External(6), **given), None)
+    assert stiff.endswith(
+        "[material.wheel] is stiffer than diamond (1220): 210000 MPa would be 210"
+    )
+    assert heavy.endswith("in [[mass]] is heavier than osmium: 7.85e+06 g/m3 would be 7850")
+    assert light.endswith("[material.roller] is lighter than foam: 7.85 g/cm3 would be 7850")
 
 
 def test_no_design_of_ours_is_out_of_all_measure():

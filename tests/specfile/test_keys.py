@@ -55,7 +55,7 @@ def test_a_default_is_what_the_reader_takes_for_a_missing_key(key, tmp_path):
     """Written out, it makes the same spec."""
     table = key.table.strip("[]")
     if table == "mass":
-        body = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
+        body = '[[mass]]\nshape = "disc"\nmass_kg = 1\ndiameter_mm = 9\n'
         line = f"{body}{key.key} = {key.default}\n"
     else:
         body = ""
