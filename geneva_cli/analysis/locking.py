@@ -12,19 +12,28 @@ disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel 
   degrees, on the recess itself, where the two centres are rho - k apart.
 
 It is taken in the middle of a dwell, where the disc stands symmetrically to the recess.
-
-Of one design, as the sizes of its parts are; the deviations may be arrays of machines.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations
-from geneva_cli.numerics.arrays import Mask, Truth, array, choose
+from geneva_cli.numerics.arrays import (
+    Mask,
+    Truth,
+    all_true,
+    array,
+    choose,
+    larger,
+    library,
+    parameter,
+    smaller,
+)
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
@@ -38,7 +47,7 @@ class LockPlay(NamedTuple):
 
 
 class LockContact(NamedTuple):
-    """Where disc and recess touch: angles in radians, lengths in millimetres."""
+    """Where disc and recess touch: angles in radians, lengths in millimetres. Of m locks (m, 1)."""
 
     on: str  # "corner" of the recess on the disc, "disc's end" on the recess, or arc on "recess"
     phi: float  # of the force, from the middle of the arcs; it goes through one of their centres
@@ -47,7 +56,10 @@ class LockContact(NamedTuple):
 
 
 class Lock(NamedTuple):
-    """One corner of a recess and one locking arc of the disc, millimetres and radians."""
+    """One corner of a recess and one locking arc of the disc, millimetres and radians.
+
+    Of m designs (m, 1) each, and the same for all that follows.
+    """
 
     L: float
     sign: float  # +1 where the disc reaches towards the wheel's axis, -1 away from it
@@ -61,26 +73,36 @@ class Lock(NamedTuple):
     def reach(self) -> float:
         """Half of the recess, as an angle about the crank's axis."""
         a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
-        return math.acos(max(-1.0, min(1.0, self.sign * a)))
+        return library(a).acos(larger(-1.0, smaller(1.0, self.sign * a)))
+
+    @property
+    def on_corner(self) -> Truth:
+        """Whether the disc reaches as far round as the recess, whose corner comes down on it."""
+        return _truth(self.reach <= self.half)
 
     def __call__(self, by: Deviations) -> LockPlay:
         """The wheel's play to one side."""
         L, away = self.L, by.center_distance_mm + self.L
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
-        spare = recess - lock
-        if self.reach <= self.half:
+        spare, m = recess - lock, library(self.half, self.sign, self.L)
+
+        def to_corner() -> Jet:
             still, corner = L - 0.0 * away, self._far
-            angle = _at(still, corner, recess + self.edge) - _at(away, corner, lock + self.edge)
-        else:
-            x = away - lock * (self.sign * math.cos(self.half))
-            y = lock * math.sin(self.half)
+            return _at(still, corner, recess + self.edge) - _at(away, corner, lock + self.edge)
+
+        def to_end() -> Jet:
+            x = away - lock * (self.sign * m.cos(self.half))
+            y = lock * m.sin(self.half)
             far = sqrt(x * x + y * y)
-            angle = _at(far, L, recess) - atan2(y, x)
+            return _at(far, L, recess) - atan2(y, x)
+
+        angle = _either(self.on_corner, to_corner, to_end)
         # to the recess's bottom
         nearer = array(by.center_distance_mm.c[0]) * -self.sign
         left = array(spare.c[0]) - np.maximum(nearer, 0.0)
         jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
-        on_it = nearer > np.maximum(spare.c[0], 0.0) * math.cos(min(self.reach, self.half))
+        least = smaller(self.reach, self.half)
+        on_it = nearer > np.maximum(spare.c[0], 0.0) * library(least).cos(least)
         angle = _chosen(on_it & ~jams, self._on_recess(by, spare), angle)
         return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
 
@@ -98,20 +120,24 @@ class Lock(NamedTuple):
         >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on  # an internal wheel
         'recess'
         """
-        L, far, clearance = self.L, self._far, self.recess - self.lock
-        play = float(self(deviations([0.0] * len(Deviations._fields))).angle.c[0])
-        if min(self.reach, self.half) > 0.5 * math.pi:
-            radius = self.lock * self.recess / clearance if clearance else math.inf
-            return LockContact("recess", 0.5 * math.pi, play, radius)
-        if self.reach <= self.half:
-            on, reach, edge = "corner", self.lock + self.edge, self.edge
-        else:
-            on, reach, edge = "disc's end", self.recess, 0.0
-            x, y = L - self.sign * self.lock * math.cos(self.half), self.lock * math.sin(self.half)
-            far = math.hypot(x, y)
-        phi = math.acos(self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach))
-        radius = 1.0 / (1.0 / self.lock + 1.0 / edge) if edge else 0.0
-        return LockContact(on, phi, play, radius if clearance > 0.0 else math.inf)
+        L, corner, clearance = self.L, self.on_corner, self.recess - self.lock
+        m = library(L, self.sign * self.lock, self.half * self.recess)
+        x, y = L - self.sign * self.lock * m.cos(self.half), self.lock * m.sin(self.half)
+        far = choose(corner, self._far, m.hypot(x, y))
+        reach = choose(corner, self.lock + self.edge, self.recess)
+        cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
+        arcs = _truth(smaller(self.reach, self.half) > 0.5 * math.pi)
+        # where the arcs touch there is no such triangle: the angle is 90 degrees
+        phi = library(cosine).acos(choose(arcs, 0.0, cosine))
+        edge = choose(corner, self.edge, 0.0)
+        ended = self.lock * edge / (self.lock + edge)
+        loose = _truth(clearance > 0.0)
+        between = self.lock * self.recess / choose(loose, clearance, 1.0)
+        radius = choose(loose, choose(arcs, between, ended), math.inf)
+        on = _word(arcs, "recess", _word(corner, "corner", "disc's end"))
+        play = self(deviations([0.0] * len(Deviations._fields))).angle.c[0]
+        free = parameter(np.maximum(play, 0.0))  # of no clearance it may be a rounding less
+        return LockContact(on, phi, free if np.ndim(play) else float(free), radius)
 
     def _on_recess(self, by: Deviations, spare: Jet) -> Jet:
         """The play where disc and recess touch between their ends.
@@ -133,6 +159,25 @@ def _at(one: Jet, other: float, opposite: Jet) -> Jet:
     return atan2(sqrt(_chosen(positive, area, area * 0.0 + 1e-300)), a)
 
 
+def _truth(condition: Truth) -> Truth:
+    """A truth value of one lock as Python's own."""
+    return bool(condition) if np.ndim(condition) == 0 else condition
+
+
 def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
-    one = bool(condition) if np.ndim(condition) == 0 else condition
+    one = _truth(condition)
     return Jet([choose(one, a, b) for a, b in zip(yes.c, no.c, strict=True)])
+
+
+def _either(condition: Truth, yes: Callable[[], Jet], no: Callable[[], Jet]) -> Jet:
+    """One of two jets, of which a million machines of one lock need one alone."""
+    if all_true(condition):
+        return yes()
+    return _chosen(condition, yes(), no()) if np.any(condition) else no()
+
+
+def _word(condition: Truth, yes: str, no: str) -> str:
+    """One of two words; of an array of truth values an array of words."""
+    if isinstance(condition, bool):
+        return yes if condition else no
+    return cast("str", np.where(condition, yes, no))

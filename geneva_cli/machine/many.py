@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 T = TypeVar("T")
-Change: TypeAlias = "Callable[[Array], Array]"
+Change: TypeAlias = "Callable[[Array], object]"
 
 # whose numbers may vary
 TABLES = (
@@ -141,6 +141,23 @@ def _field(spec: Spec, key: str) -> Field:
 def taken(thing: T, which: Which) -> T:
     """An object of many designs reduced to some: ``which`` is a mask or their numbers."""
     return cast("T", _changed(thing, lambda array: array[which], {}))
+
+
+def alone(thing: T, i: int) -> T:
+    """The i-th design of an object of many: with numbers for its arrays."""
+    return cast("T", _changed(thing, lambda array: array[i, 0].item(), {}))
+
+
+def designs_in(thing: object) -> int:
+    """How many designs an object is of: 1 without an array along a design axis."""
+    lengths = {1}
+
+    def note(array: Array) -> Array:
+        lengths.add(len(array))
+        return array
+
+    _changed(thing, note, {})
+    return max(lengths)
 
 
 def _is_array(value: object) -> bool:

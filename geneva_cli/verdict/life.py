@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.quantities import PV, ends_of
 from geneva_cli.analysis.strength import horn, pin, roller
-from geneva_cli.errors import GenevaError
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.sizes import Sizes, sizes
+from geneva_cli.verdict.lock_sizes import sized
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.analysis.loads.cycle import Cycle
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.assembly import Assembly
+    from geneva_cli.parts.sizes import Sizes
 
 WIDTH = "face_width_mm in [size]"
 LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
@@ -71,14 +71,13 @@ class Life:
         return cycle_of(self.mechanism)
 
     @cached_property
+    def _sized(self) -> tuple[Assembly, Sizes] | None:
+        return sized(self.mechanism)
+
+    @property
     def sizes(self) -> Sizes | None:
         """The parts' sizes; None where there are no flat parts, or none can be cut."""
-        if not self.spec.is_flat:
-            return None
-        try:
-            return sizes(assembly(self.mechanism))
-        except GenevaError:
-            return None  # as the check of the parts says
+        return self._sized and self._sized[1]
 
     def _cut(self, name: str) -> None:
         """What a value lacks that is worked out of the parts, where there are none."""
@@ -137,7 +136,7 @@ class Life:
         found = self.sizes
         if self.horn is None or found is None:
             return []
-        stout = horn.stoutness(self.mechanism, found.half_width, found.recess)
+        stout = float(horn.stoutness(self.mechanism, found.half_width, found.recess)[0])
         if stout <= horn.THICK:
             return []
         return [

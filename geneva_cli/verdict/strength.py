@@ -6,11 +6,9 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.loads.summary import PARALLEL
-from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import lock, shafts
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.reliefs import sectors
 from geneva_cli.verdict.life import Life
+from geneva_cli.verdict.lock_sizes import lock_of
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.strength.lock import LockUnderTorque
@@ -25,20 +23,15 @@ class Strength(Life):
     @cached_property
     def lock(self) -> lock.LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell."""
-        found = self.sizes
         for name in LOCK:
             self._cut(name)
-        if found is None or not found.lock:
+        if self._sized is None or not self._sized[1].lock:
             return None
         held = bool(lock.held_torque_Nm(self.mechanism))
         lacks = [self._lacks(n, self._wide, (held, "dwell_torque_Nm in [load]")) for n in LOCK]
         if any(lacks):
             return None
-        edge = self.spec.size.lock_edge_mm or 0.0
-        where = assembly(self.mechanism)
-        half = min(0.5 * (end - start) for start, end in sectors(where))
-        radii = found.lock, found.recess, found.rim, half, edge
-        return lock.lock(self.mechanism, found.half_width, Lock(where.L, where.sign, *radii))
+        return lock.lock(self.mechanism, self._sized[1].half_width, lock_of(*self._sized))
 
     @cached_property
     def lock_stress_max_MPa(self) -> float | None:

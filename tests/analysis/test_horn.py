@@ -12,7 +12,7 @@ from words import Motion, Spec, Wheel
 
 from geneva_cli import load as read
 from geneva_cli.analysis.loads.loads import state
-from geneva_cli.analysis.strength.horn import horn, horns, stoutness
+from geneva_cli.analysis.strength.horn import horn, horns, product, stoutness
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -90,10 +90,10 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     design = read(str(repo.DESIGNS / f"{name}.toml"))
     sizes = design.strength.sizes
     side = horns(design.mechanism, sizes.half_width, sizes.recess)[0]
-    wall, _ = side.wall(side.mouth_deg * np.linspace(1.0, 1e-3, 1500))
-    h = side.stoutness * sizes.recess
+    wall = side.wall(side.mouth_deg * np.linspace(1.0, 1e-3, 1500))[0][:, 0]
+    h = float(side.stoutness[0]) * sizes.recess
     assert h < sizes.recess / 6.0
-    middle = -side.centre @ np.array([side.inwards, side.across]).T
+    middle = [-product(side.centre, axis).item() for axis in (side.inwards, side.across)]
     opening = 2.0 * math.atan2(*middle)
     turn = np.arctan2(*wall)
     wall = wall[:, : int(np.argmax(np.minimum(turn, 0.5 * opening)))]  # to where it turns back

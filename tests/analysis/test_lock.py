@@ -10,7 +10,7 @@ from words import Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.strength.lock import _bending, lock
+from geneva_cli.analysis.strength.lock import bending, lock
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.tables import Load, Size
@@ -156,6 +156,6 @@ def test_the_horn_gives_more_in_plane_stress(z, L, r, h):
     _, _, moved = in_plane_stress(wall, wall - h, depth, math.pi - 2.0 * math.pi / z, 0.15 * h)
     mechanism = build(Spec(Wheel(z), size=Size(L, r), load=Load(torque_Nm=1.0)))
     square = 0.5 * math.pi - math.pi / z  # where the force is square to the slot
-    give, _, thick = _bending(mechanism, r, wall - h, square)
+    give, _, thick = bending(mechanism, r, wall - h, square)
     assert thick == pytest.approx(h, rel=1e-9)
     assert 1.05 < moved / give < 1.31

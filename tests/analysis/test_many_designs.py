@@ -16,7 +16,8 @@ from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import NAMES, sizings_of_many
-from geneva_cli.analysis.strength import roller, shafts
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.strength import horn, lock, roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
@@ -165,6 +166,78 @@ def test_shafts(name):
         for i, one in each:
             alone_ = shafts.shaft(one, ends(one.spec.shaft), loaded)
             records(found, i, alone_, close=SEARCHED, places=PLACE)
+
+
+def horn_sizes(machine):
+    """Half a slot's width, and a recess that leaves a horn of a tenth to a third of the room."""
+    half_width = machine.roller_radius_mm + machine.spec.size.slot_clearance_mm
+    x, y = machine.engagements[0].path(machine.engagements[0].entry_deg, 0)
+    room = machine.center_distance_mm * np.hypot(x.c[0] - 1.0, y.c[0]) - half_width
+    return half_width, room * np.linspace(0.65, 0.9, 4)[:, None]
+
+
+DRAWN = [name for name in KINDS if MACHINES[name][0].is_flat]
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_horns(name):
+    """Of given sizes, at angles of all designs and of each; without a recess there is no horn."""
+    machine, each = designs(name)
+    half_width, recess = horn_sizes(machine)
+    recess[0] = 0.0
+    found = horn.horn_of_many(machine, half_width, recess, machine.spec.size.face_width_mm)
+    assert np.isnan(found.stress_MPa[0])
+    x = np.broadcast_to(machine.engagements[0].entry_deg * np.linspace(1.0, 0.1, 5), (4, 5))
+    walls = [
+        [side.thickness(*side.wall(at)) for side in horn.horns(machine, half_width, recess)]
+        for at in (x, x[:, 1:2])
+    ]
+    for i, one in each:
+        sizes = half_width[i].item(), recess[i].item()
+        alone_ = horn.horn(one, *sizes, one.spec.size.face_width_mm)
+        assert alone_ is not None
+        records(found, i, alone_, close=SEARCHED, places=PLACE)
+        for number, side in enumerate(horn.horns(one, *sizes)):
+            thick = side.thickness(*side.wall(x[i]))[0]
+            # a difference of the recess's radius and one as large
+            close = {"rel": ULPS, "abs": ULPS * sizes[1]}
+            assert walls[0][number][i] == pytest.approx(thick, **close)
+            assert walls[1][number][i] == pytest.approx(thick[1:2], **close)
+
+
+@pytest.mark.parametrize("name", ["crank", "internal", "unequal steps", "modified-trapezoid"])
+def test_locks(name):
+    """Corners sharp and rounded, ends of short discs, arcs that touch, and no torque or clearance.
+
+    The play is a difference of angles: in units of a radian.
+    """
+    machine, _ = designs(name)
+    varied = {"load.dwell_torque_Nm": np.array([0.0, 2.0, 4.0, 6.0, 8.0, 9.0])}
+    varied["size.face_width_mm"] = np.linspace(5.0, 20.0, 6)
+    sign, (z, L) = machine.spec.wheel.SIGN, (6, 100.0)
+    base = MACHINES[name][0].with_("wheel.z", z).replace(load=Load(torque_Nm=1.0))
+    found = many(base, varied)
+    assert not found.refused.any()
+    disc = np.array([38.0, 38.0, 39.0, 40.0, 30.0, 38.0])[:, None]
+    clear = np.array([0.5, 0.02, 0.1, 0.0, 0.2, 0.3])[:, None]
+    half = np.array([2.0, 2.0, 1.8, 2.0, 2.5, 0.5])[:, None]
+    edge = np.array([0.5, 0.5, 0.0, 1.0, 0.1, 0.2])[:, None]
+    by = Lock(L, sign, disc, disc + clear, 86.0, half, edge)
+    told = lock.lock_of_many(found.machine, 5.0, by)
+    kinds = {"corner", "disc's end"} if sign > 0.0 else {"recess", "disc's end"}
+    assert set(np.ravel(told.on)) == kinds
+    assert np.isnan(told.force_N[0])
+    for i in range(6):
+        own = Lock(L, sign, *(v[i].item() for v in (disc, disc + clear)), 86.0, half[i].item())
+        own = own._replace(edge=edge[i].item())
+        alone_ = lock.lock(alone(base, varied, i), 5.0, own)
+        if alone_ is None:
+            assert i == 0
+            continue
+        assert alone_.on == told.on[i, 0]
+        for field in alone_._fields[1:]:
+            radian = 60.0 if field == "play_deg" else 0.0
+            same(getattr(told, field), i, getattr(alone_, field), size=radian)
 
 
 @pytest.mark.parametrize("name", KINDS)

@@ -129,6 +129,8 @@ GIVEN = [
     *["material.roller.stress_max_MPa=300", "material.roller.dynamic_capacity_N=9000"],
     *["material.wheel.wear_mm3_Nm=1e-8", "load.friction=0.1", "tolerance.center_distance_mm=0.02"],
     *["shaft.crank_overhang_mm=25", "motor.speed_variation=0.1", "motor.inertia_kgm2=0.01"],
+    *["load.dwell_torque_Nm=3", "limits.lock_stress_max_MPa=400", "size.lock_edge_mm=0.5"],
+    *["material.wheel.stress_max_MPa=300", "size.lock_clearance_mm=0.01"],
 ]
 OTHERS = [f"{table}.{name}" for table, group in GROUPS.items() for name in group.names]
 
@@ -148,6 +150,25 @@ def test_parts_together_as_alone(spec):
     for one, other in zip(together, alone, strict=True):
         assert one[-1] == other[-1] is None
         for name, a, b in zip(OTHERS, one[keys:-1], other[keys:-1], strict=True):
+            near = {"abs": PLACE} if name.endswith("at_deg") else {"rel": 1e-12, "abs": 1e-13}
+            assert a == b or a == pytest.approx(b, **near), name
+
+
+@pytest.mark.parametrize("spec", ["internal-z6.toml", "tolerances.toml", "spherical-z6.toml"])
+def test_locks_together_as_alone(spec):
+    """Locks of any radius and of none, without a torque too, and parts that cannot be cut.
+
+    Angles within rounding of a radian.
+    """
+    picks = [name for name in OTHERS if name.startswith(("strength.horn", "strength.lock"))]
+    vary = ["size.lock_radius_mm=0,20,35,60", "load.dwell_torque_Nm=0,3", "load.inertia_kgm2=1"]
+    together, alone, found = rows(spec, [*vary, "size.face_width_mm=10"], picks)
+    keys = [axis.key for axis in found.plan.axes]
+    known = batch.table(found.plan.rows(0, 8), keys, found.pick.names, found._spec)
+    assert len(known) == sum(row[-1] is None for row in alone) > 0
+    for one, other in zip(together, alone, strict=True):
+        assert one[-1] == other[-1]
+        for name, a, b in zip(picks, one[len(keys) : -1], other[len(keys) : -1], strict=True):
             near = {"abs": PLACE} if name.endswith("at_deg") else {"rel": 1e-12, "abs": 1e-13}
             assert a == b or a == pytest.approx(b, **near), name
 

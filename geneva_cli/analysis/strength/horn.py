@@ -13,8 +13,6 @@ is counted.
 Plane stress (finite elements, in the tests), of external and internal wheels with straight slots:
 0.7 % less to 2 % more where h < R/6, 4 % more at h = 2 R/7, 7 % more at R/2; beyond that it is no
 beam. Of curved slots 3 % less to 2 % more where h < R/6, 5 % less to 7 % more at R/2.
-
-Of one design, as the sizes of its parts are.
 """
 
 from __future__ import annotations
@@ -26,7 +24,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.loads import state
+from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.pitch_curve import pitch
+from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
@@ -34,18 +34,24 @@ if TYPE_CHECKING:
 
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Number, Whole
     from geneva_cli.numerics.jet import Array
 
 THICK = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
 GRID = 61  # places and sections looked at first
 FINER = 33  # and around the best of them, time and again
+SHARES = np.linspace(0.0, 1.0, FINER)
 ROUNDS = 3
+GROUP = 16  # designs at a time: their stresses stay in the cache
 NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
 
 
 class HornStress(NamedTuple):
-    """The greatest stress in a horn, where the roller is then, and the section that has it."""
+    """The greatest stress in a horn, where the roller is then, and the section that has it.
+
+    Of m designs (m,) each, NaN of those without a horn or a load.
+    """
 
     stress_MPa: float
     at_deg: float  # input angle from the engagement's mid-motion
@@ -54,7 +60,10 @@ class HornStress(NamedTuple):
 
 
 class Side(NamedTuple):
-    """One horn of a slot, in the wheel's frame: that which bears a torque forwards, or back."""
+    """One horn of a slot, in the wheel's frame: that which bears a torque forwards, or back.
+
+    Of m designs, or of one: numbers are floats or (m, 1), places and directions (2, m, 1).
+    """
 
     engagement: Engagement
     L: float
@@ -71,42 +80,72 @@ class Side(NamedTuple):
         engagement = self.engagement
         return engagement.entry_deg if self.end < 0.0 else engagement.exit_deg
 
-    def wall(self, input_deg: Array) -> tuple[Array, Array]:
-        """Points of the slot's wall and its normals towards the recess, (2, n) on the horn's axes.
+    def wall(self, input_deg: Number) -> tuple[Array, Array]:
+        """Points of the slot's wall and its normals towards the recess on the horn's axes.
 
-        The origin is the recess's centre.
+        At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
-        x, y = self.engagement.slot(input_deg, 1)
-        turn = np.array([self.inwards, self.across])
-        place = turn @ (self.L * np.array([x.c[0], y.c[0]]) - self.centre[:, None])
-        normal = turn @ np.array([-np.asarray(y.c[1]), x.c[1]])
+        x, y = self.engagement.slot(_alike(input_deg), 1)
+        place = self._turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
+        normal = self._turned(vector(-np.asarray(y.c[1]), x.c[1]))
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
         return place + self.half_width * normal, normal
 
+    def _turned(self, of: Array) -> Array:
+        """On the horn's axes."""
+        return np.array((product(of, self.inwards), product(of, self.across)))
+
     def thickness(self, wall: Array, normal: Array) -> Array:
         """The thickness at points of the wall, mm; infinite where another horn begins."""
-        along = -(wall * normal).sum(axis=0)
-        with np.errstate(invalid="ignore"):
-            thick = along - np.sqrt(along * along - (wall * wall).sum(axis=0) + self.recess**2)
-            foot = wall + thick * normal
-            own = np.arctan2(*foot) < self._middle
-        found: Array = np.where(own, thick, np.inf)
+        thick, turned = self.feet(wall, normal)
+        found: Array = np.where(turned < self.middle, thick, np.inf)
         return found
 
+    def feet(self, wall: Array, normal: Array) -> tuple[Array, Array]:
+        """The thickness at points of the wall whatever begins there, and the directions of the
+        sections' feet on the recess, seen from its centre: radians from the mouth's.
+        """
+        along = -product(wall, normal)
+        with np.errstate(invalid="ignore"):
+            thick = along - np.sqrt(along * along - product(wall, wall) + self.recess**2)
+            return thick, np.arctan2(*(wall + thick * normal))
+
     @property
-    def _middle(self) -> float:
+    def middle(self) -> Array:
         """Half the angle between this horn's mouth and the next one's, at the recess's centre."""
-        away, up = float(self.centre @ self.inwards), float(self.centre @ self.across)
-        return math.atan2(away, up) if away > 0.0 else math.atan2(-away, -up)
+        away, up = product(self.centre, self.inwards), product(self.centre, self.across)
+        way = np.where(away > 0.0, 1.0, -1.0)
+        found: Array = np.arctan2(way * away, way * up)
+        return found
 
     def places(self, count: int) -> Array:
         """Input angles from the mouth inwards."""
         return self.mouth_deg * np.linspace(1.0, NEAR, count)
 
     @property
-    def stoutness(self) -> float:
-        """Thickness at the mouth over the recess's radius."""
-        return float(self.thickness(*self.wall(np.array([self.mouth_deg])))[0]) / self.recess
+    def stoutness(self) -> Array:
+        """Thickness at the mouth over the recess's radius, (m,)."""
+        return np.ravel(self.thickness(*self.wall(self.mouth_deg)) / self.recess)
+
+
+def vector(x: Number, y: Number) -> Array:
+    """Vectors of many designs: (2, m, k)."""
+    both = np.atleast_2d(x), np.atleast_2d(y)
+    if both[0].shape != both[1].shape:
+        return np.stack(np.broadcast_arrays(*both))
+    return np.array(both)
+
+
+def _alike(input_deg: Number) -> Array:
+    """Input angles (m, k); as (k,) of one design, or where they are alike: in half the time."""
+    x = np.atleast_2d(input_deg)
+    return x[0] if len(x) == 1 else x
+
+
+def product(a: Array, b: Array) -> Array:
+    """The scalar products of vectors."""
+    found: Array = a[0] * b[0] + a[1] * b[1]
+    return found
 
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Side]:
@@ -116,20 +155,22 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
         for end, mouth in ((-1.0, engagement.entry_deg), (1.0, engagement.exit_deg)):
             rest = -end * engagement.half_step  # direction of the crank's axis, the wheel at rest
             at = pitch(engagement, mouth)
-            inwards = -end * np.array([at.tangent_x, at.tangent_y])
-            centre = L * np.array([math.cos(rest), math.sin(rest)])
-            across = np.array([-inwards[1], inwards[0]])
-            way = L * np.array([at.x, at.y]) - centre
-            across *= math.copysign(1.0, float(across @ way))
+            inwards = -end * vector(at.tangent_x, at.tangent_y)
+            centre = L * vector(np.cos(rest), np.sin(rest))
+            across = vector(-inwards[1], inwards[0])
+            way = L * vector(at.x, at.y) - centre
+            across = across * np.copysign(1.0, product(across, way))
             found.append(
                 Side(engagement, L, half_width_mm, recess_mm, end, centre, inwards, across)
             )
     return found
 
 
-def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> float:
-    """The stoutest horn's thickness at the mouth over the recess's radius."""
-    return max(side.stoutness for side in horns(mechanism, half_width_mm, recess_mm))
+def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> Array:
+    """The stoutest horn's thickness at the mouth over the recess's radius, (m,)."""
+    every = [side.stoutness for side in horns(mechanism, half_width_mm, recess_mm)]
+    found: Array = np.max(np.broadcast_arrays(*every), axis=0)
+    return found
 
 
 @lru_cache(maxsize=16)
@@ -143,18 +184,60 @@ def horn(
     """
     if not recess_mm:
         return None
-    best = None
-    for side in horns(mechanism, half_width_mm, recess_mm):
-        start = _Search(side, _from(_halves(side), GRID), _from([side.mouth_deg], GRID)[0])
-        found = _looked(mechanism, start, width_mm)
-        if found and not (best and found[0].stress_MPa <= best[0].stress_MPa * (1.0 + TIE)):
-            best = found
-    if best is None:
-        return None
-    for _ in range(ROUNDS):  # the middle of what is left is the best so far
-        best = _looked(mechanism, best[1], width_mm) or best
-    bent, engagement = best[0], best[1].side.engagement
-    return bent._replace(at_deg=mechanism.shown_deg(engagement.mid_deg + bent.at_deg))
+    found = _horns(1, mechanism, half_width_mm, recess_mm, width_mm)
+    one = HornStress(*(float(array(row)[0]) for row in found))
+    return None if math.isnan(one.stress_MPa) else one
+
+
+def horn_of_many(
+    mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
+) -> HornStress:
+    """The same of m designs, whose sizes may be (m, 1); NaN of a recess of 0, or without a load."""
+    every = (mechanism, half_width_mm, recess_mm, width_mm)
+    m = designs_in(every)
+    if m == 1:
+        return _horns(1, *every)
+    groups = [
+        _horns(min(GROUP, m - i), *taken(every, slice(i, i + GROUP))) for i in range(0, m, GROUP)
+    ]
+    return HornStress(*(parameter(np.concatenate(row)) for row in zip(*groups, strict=True)))
+
+
+class _Search(NamedTuple):
+    """At which input angles of each design roller and section are looked at."""
+
+    roller: Array  # (m, halves of the motion, places)
+    section: Array  # (m, sections)
+
+
+def _horns(
+    m: int, mechanism: Mechanism, half_width: float, recess: float, width: float
+) -> HornStress:
+    """Of m designs that are searched together."""
+    best, which = np.full((4, m), np.nan), np.zeros(m, dtype=int)
+    next_ = []
+    for number, side in enumerate(horns(mechanism, half_width, recess)):
+        start = _Search(_from(_halves(side), GRID), _from([side.mouth_deg], GRID)[:, 0])
+        found, around = _looked(mechanism, side, start, width)
+        better = ~(found[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(found[0])
+        best, which = np.where(better, found, best), np.where(better, number, which)
+        next_.append((side, around))
+    for number, (side, around) in enumerate(next_):
+        own = np.flatnonzero((which == number) & ~np.isnan(best[0]))
+        if not len(own):
+            continue
+        some, one = (mechanism, half_width, recess, width), side
+        if len(own) < m:
+            some = taken(some, own)
+            one = horns(*some[:3])[number]
+            around = _Search(*(places[own] for places in around))
+        for _ in range(ROUNDS):  # the middle of what is left is the best so far
+            found, around = _looked(some[0], one, around, some[3])
+            best[:, own] = np.where(np.isnan(found[0]), best[:, own], found)
+        mid = np.ravel(one.engagement.mid_deg)
+        best[1, own] += mid
+    at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
+    return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
 def _halves(side: Side) -> list[float]:
@@ -166,40 +249,45 @@ def _halves(side: Side) -> list[float]:
 
 
 def _from(ends: Sequence[float], count: int) -> Array:
-    """Input angles from each of some ends to mid-motion, a row an end."""
-    return np.array([np.linspace(end, NEAR * end, count) for end in ends])
-
-
-class _Search(NamedTuple):
-    """At which input angles roller and section are looked at."""
-
-    side: Side
-    roller: Array  # a row for each half of the motion
-    section: Array
+    """Input angles from each of some ends to mid-motion: (m, ends, count)."""
+    whole = np.hstack([np.atleast_2d(end) for end in ends])
+    return whole[..., None] * np.linspace(1.0, NEAR, count)
 
 
 def _looked(
-    mechanism: Mechanism, within: _Search, width: float
-) -> tuple[HornStress, _Search] | None:
-    """The greatest stress of all these places, and places around it to look at next."""
-    side, roller, u = within
-    places, normals = side.wall(np.append(roller, u))
-    wall, square = (of[:, roller.size :] for of in (places, normals))
+    mechanism: Mechanism, side: Side, within: _Search, width: float
+) -> tuple[Array, _Search]:
+    """The greatest stress of all these places as of ``HornStress``, (4, m), NaN where there is
+    none, and places around it to look at next.
+    """
+    roller, u = within
+    x = roller.reshape(len(roller), -1)
+    places, normals = side.wall(np.hstack((x, u)))
+    wall, square = (of[..., x.shape[1] :] for of in (places, normals))
     thick = side.thickness(wall, square)
-    stress = _stress(mechanism, side, width, roller.ravel(), (places, normals), thick)
-    first = int(np.argmax(stress >= stress.max() * (1.0 - TIE)))
-    i, j = divmod(first, len(u))
-    if not stress[i, j] > 0.0:
-        return None
-    half, k = divmod(i, roller.shape[1])
-    x = roller[half]
-    bent = HornStress(float(stress[i, j]), float(x[k]), float(wall[0, j]), float(thick[j]))
-    return bent, _Search(side, _around(x, k)[None], _around(u, j))
+    stress = _stress(mechanism, side, width, x, (places, normals), thick)
+    m, _, count = stress.shape
+    stress = stress.reshape(m, -1)
+    most, every = stress.max(axis=1), np.arange(m)
+    first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
+    i, j = np.divmod(first, count)
+    half, k = np.divmod(i, roller.shape[2])
+    if m > len(u):  # their loads differ, their slots do not
+        roller, u, thick = (np.repeat(of, m, axis=0) for of in (roller, u, thick))
+        wall = np.repeat(wall, m, axis=1)
+    runs = roller[every, half]
+    rows = (stress[every, first], runs[every, k], wall[0, every, j], thick[every, j])
+    found = np.where(most > 0.0, rows, np.nan)
+    return found, _Search(_around(runs, k)[:, None], _around(u, j))
 
 
-def _around(places: Array, i: int) -> Array:
-    """Places between the neighbours of one of them."""
-    return np.linspace(places[max(i - 1, 0)], places[min(i + 1, len(places) - 1)], FINER)
+def _around(places: Array, i: Whole) -> Array:
+    """Places between the neighbours of one of them, in each row."""
+    every, last = np.arange(len(places)), places.shape[1] - 1
+    before = places[every, np.maximum(i - 1, 0), None]
+    after = places[every, np.minimum(i + 1, last), None]
+    found: Array = before + (after - before) * SHARES
+    return found
 
 
 def _stress(
@@ -210,19 +298,25 @@ def _stress(
     walls: tuple[Array, Array],
     thick: Array,
 ) -> Array:
-    """The stress, a row for each place of the roller and a column for each section, MPa.
+    """The stress in MPa, of each design a row for each place of the roller, a column a section.
 
     ``walls`` are points and normals of the wall, where the roller is and at the sections.
     """
-    loads = state(mechanism, side.engagement, x)
+    loads = state(mechanism, side.engagement, _alike(x))
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
-    force = np.where(bears, loads.pin_force_N, 0.0)[:, None]
-    (contact, wall), (way, normal) = (np.split(of, [len(x)], axis=1) for of in walls)
-    further = wall[0] > contact[0][:, None]
+    line = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0) / width)
+    (contact, wall), (way, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)
+    m = max(len(line), len(thick))
+    found = np.zeros((m, x.shape[1], thick.shape[1]))
+    own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
+    contact, way, line = contact[..., own, None], way[..., own, None], line[:, own, None]
     with np.errstate(all="ignore"):
-        # from the contact to the middle of the section, (2, places, sections)
-        arm = (wall + 0.5 * thick * normal)[:, None, :] - contact[:, :, None]
-        moment = abs(arm[0] * way[1][:, None] - arm[1] * way[0][:, None])
-        push = way[1][:, None] * normal[0] - way[0][:, None] * normal[1]  # along the beam
-        found = force / width * (6.0 * moment / thick**2 - push / thick)
-    return np.where(further & np.isfinite(found), found, 0.0)
+        # from the contact to the middle of the section, (2, m, places, sections)
+        arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
+        moment = abs(arm[0] * way[1] - arm[1] * way[0])
+        along, thick = normal[:, :, None], thick[:, None]
+        push = way[1] * along[0] - way[0] * along[1]  # along the beam
+        bent = line * (moment * (6.0 / thick**2) - push / thick)
+        further = wall[0][:, None] > contact[0]
+        found[:, own] = np.where(further & np.isfinite(bent), bent, 0.0)
+    return found

@@ -10,42 +10,46 @@ F = M / (L sin phi). Three things make up the deflection:
   body as thick as the horn): F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1)
   + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width; where that is more
   than a quarter of the horn, both give as columns under the pressure that follows;
-- the bending of the horn (see ``horn``) where the force is at its end. Plane stress gives 6 to
-  30 % more, as the body that the horn stands on gives too.
+- the bending of the horn (see ``horn``) where the force is at its end, in the sections farther
+  inwards. Plane stress gives 6 to 30 % more, as the body that the horn stands on gives too.
 
 On a sharp end no contact stress is finite: the recess's end needs a radius, and an end of the disc
 has none. Without clearance the
 arcs lie on each other as they do once they have worn in. The pressure then goes with the sine of
 the angle from the line of centres, as the wear of a wheel that turns a little does: the greatest is
 2 M sin phi/(b R L (phi - sin phi cos phi)).
-
-Of one design, as the sizes of its parts are, which are found one design after the other.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from functools import reduce
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.strength.horn import SHEAR, horns
+from geneva_cli.analysis.strength.horn import SHEAR, horns, product
+from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.numerics.arrays import all_true, first_of, parameter
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.strength.horn import Side
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
-SECTIONS = 4001  # of a horn, summed by trapezoids: to a millionth
+SECTIONS = 2001  # of a horn, summed by trapezoids: to a ten-thousandth at worst
+GROUP = 8  # designs at a time: their sections stay in the cache
 
 
 class LockUnderTorque(NamedTuple):
-    """A lock under a torque; None where something is not known."""
+    """A lock under a torque; None where something is not known.
 
-    torque_Nm: float
+    Of m designs (m,) each, and NaN where something is not known.
+    """
+
     on: str  # where disc and recess touch, as of ``LockContact``
+    torque_Nm: float
     force_N: float
     contact_stress_MPa: float | None  # Hertz; None of a sharp edge, and without clearance
     pressure_MPa: float  # worn in
@@ -62,6 +66,14 @@ class LockUnderTorque(NamedTuple):
         return self.play_deg + self.approach_deg + self.bending_deg
 
 
+class Bent(NamedTuple):
+    """Horns under 1 N on 1 mm, (m, 1): an end's deflection, mm, stress, MPa, and thickness, mm."""
+
+    deflection: Array
+    stress: Array
+    thickness: Array
+
+
 def held_torque_Nm(mechanism: Mechanism) -> float:
     """What the lock holds in the dwell."""
     load = mechanism.spec.load
@@ -73,85 +85,130 @@ def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorqu
 
     None without a torque to hold, or a ``face_width_mm``.
     """
-    L, lock_mm, recess_mm = by.L, by.lock, by.recess
-    torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
-    if not (torque and width):
+    found = lock_of_many(mechanism, half_width_mm, by)
+    if found is None:
         return None
-    found = by.contact()
-    sine = math.sin(found.phi)
-    force = 1e3 * torque / (L * sine)
-    worn = found.phi - sine * math.cos(found.phi)
-    pressure = 2e3 * torque * sine / (width * lock_mm * L * worn)
-    bent, stress, thick = (
-        _bending(mechanism, half_width_mm, recess_mm, found.phi)
-        if found.on != "recess"
-        else (0.0, 0.0, recess_mm)
-    )
-    lever = L * sine
-    contact, approach = _contact(mechanism, force / width, found.radius, lock_mm, thick, pressure)
-    return LockUnderTorque(
-        torque,
-        found.on,
+    on, *rows = found
+    return LockUnderTorque(on, *cast("list[float]", first_of(rows)))
+
+
+def lock_of_many(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
+    """The same of m designs, whose sizes may be (m, 1): NaN of those without a torque or a lock.
+
+    None where all are without a torque.
+    """
+    torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
+    if width is None or all_true(torque == 0.0):
+        return None
+    found, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
+    sine = np.sin(found.phi)
+    lever = by.L * sine
+    force = 1e3 * known / lever
+    worn = found.phi - sine * np.cos(found.phi)
+    pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
+    arcs = np.equal(found.on, "recess")  # no horn is bent
+    give, stress, thick = still = Bent(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
+    if not arcs.all():
+        bent = bending(mechanism, half_width_mm, by.recess, found.phi)
+        give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
+    line = force / width
+    contact, approach = _contact(mechanism, line, found.radius, by.lock, thick, pressure)
+    rows = (
+        known,
         force,
         contact,
         pressure,
-        stress * force / width,
-        math.degrees(found.play),
-        None if approach is None else math.degrees(approach / lever),
-        math.degrees(bent * force / width / lever),
+        stress * line,
+        np.degrees(found.play),
+        np.degrees(approach / lever),
+        np.degrees(give * line / lever),
     )
+    every = np.ravel(np.broadcast_arrays(*rows)).reshape(len(rows), -1)
+    every[:, np.isnan(every[1])] = np.nan  # without a force there is nothing to know
+    return LockUnderTorque(found.on, *map(parameter, every))
 
 
 def _contact(
-    mechanism: Mechanism, line: float, radius: float, lock: float, thick: float, pressure: float
-) -> tuple[float | None, float | None]:
-    """Hertz's stress, MPa, and the approach, mm, for a force on 1 mm; None of a sharp edge."""
-    if not radius:
-        return None, None
+    mechanism: Mechanism, line: Array, radius: float, lock: float, thick: Array, pressure: Array
+) -> tuple[Array, Array]:
+    """Hertz's stress, MPa, and the approach, mm, for a force on 1 mm; NaN of a sharp edge."""
     modulus = contact_modulus_GPa(mechanism.spec) * 1e3
-    stress = None if math.isinf(radius) else math.sqrt(line * modulus / (math.pi * radius))
-    half = math.sqrt(4.0 * line * radius / (math.pi * modulus))
-    wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
-    nu, mu = disc.poisson_ratio, wheel.poisson_ratio
-    soft = (1.0 - nu * nu) / (1e3 * disc.youngs_modulus_GPa)
-    yields = (1.0 - mu * mu) / (1e3 * wheel.youngs_modulus_GPa)
-    if half > 0.25 * thick:
-        return stress, pressure * (soft * lock + yields * thick)
-    round_ = soft * (2.0 * math.log(4.0 * lock / half) - 1.0)
-    flat = yields * (2.0 * math.log(2.0 * thick / half) - mu / (1.0 - mu))
-    return stress, line / math.pi * (round_ + flat)
+    sharp, loose = np.equal(radius, 0.0), np.isfinite(radius)
+    with np.errstate(all="ignore"):
+        stress = np.sqrt(line * modulus / (math.pi * radius))
+        half = np.sqrt(4.0 * line * radius / (math.pi * modulus))
+        wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
+        nu, mu = disc.poisson_ratio, wheel.poisson_ratio
+        soft = (1.0 - nu * nu) / (1e3 * disc.youngs_modulus_GPa)
+        yields = (1.0 - mu * mu) / (1e3 * wheel.youngs_modulus_GPa)
+        round_ = soft * (2.0 * np.log(4.0 * lock / half) - 1.0)
+        flat = yields * (2.0 * np.log(2.0 * thick / half) - mu / (1.0 - mu))
+        local = line / math.pi * (round_ + flat)
+        columns = pressure * (soft * lock + yields * thick)
+    approach = np.where(half > 0.25 * thick, columns, local)
+    return np.where(loose & ~sharp, stress, np.nan), np.where(sharp, np.nan, approach)
 
 
-def _bending(
-    mechanism: Mechanism, half_width: float, recess: float, phi: float
-) -> tuple[float, float, float]:
-    """The weakest horn under 1 N on 1 mm: its end's deflection, mm, stress, MPa, and thickness."""
+def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Bent:
+    """The weakest horn of each of m designs."""
+    every = (mechanism, half_width, recess, phi)
+    m = designs_in(every)
+    if m == 1:
+        return _weakest(*every)
+    groups = [_weakest(*taken(every, slice(i, i + GROUP))) for i in range(0, m, GROUP)]
+    return Bent(*(np.concatenate(row) for row in zip(*groups, strict=True)))
+
+
+def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Bent:
+    """Of designs that are worked out together."""
     material = mechanism.spec.material_wheel
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     every = []
     for side in horns(mechanism, half_width, recess):
-        wall, normal, thick = _sections(side)
+        wall, normal = side.wall(side.places(SECTIONS))
+        thick, turned = side.feet(wall, normal)
         middle = wall + 0.5 * thick * normal
-        towards = -side.centre / math.hypot(*side.centre)  # the wheel's axis
-        ahead = math.acos(min(1.0, abs(float(towards @ side.across))))
+        towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
+        ahead = np.arccos(np.minimum(1.0, towards))  # of the wheel's axis
         tilt = phi - ahead  # of the force, which goes through the disc's axis, against the mouth's
-        x, y = -math.sin(tilt), math.cos(tilt)
-        further = wall[0] >= recess * x
-        moment = np.where(further, middle[0] * y - middle[1] * x, 0.0)
-        across = np.where(further, x * normal[0] + y * normal[1], 0.0)
+        x, y = -np.sin(tilt), np.cos(tilt)
+        moment = middle[0] * y - middle[1] * x
+        across = x * normal[0] + y * normal[1]
         push = abs(x * normal[1] - y * normal[0])
         give = 12.0 * moment**2 / (E * thick**3) + SHEAR * across**2 / (G * thick)
         stress = 6.0 * abs(moment) / thick**2 + push / thick
-        way = np.hypot(*np.diff(wall))
-        sum_ = float(np.sum(0.5 * (give[1:] + give[:-1]) * way))
-        every.append((sum_, float(stress.max()), float(thick.min())))
-    return max(every)
+        past, own = wall[0] - recess * x, side.middle - turned
+        # once another horn has begun, or where no foot is, there is nothing of this one
+        own = np.where(np.logical_and.accumulate(own > 0.0, axis=1), own, np.fmin(own, 0.0))
+        strips = _rises(past), _rises(-own)
+        way = np.hypot(*np.diff(wall)) * np.maximum(strips[1] - strips[0], 0.0)
+        (low, high), stresses = (_ends(of, *strips) for of in (give, stress))
+        rows = (
+            np.where(way > 0.0, 0.5 * (low + high) * way, 0.0).sum(axis=1),
+            np.where(way > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
+            np.where(own > 0.0, thick, np.inf).min(axis=1),
+        )
+        every.append(Bent(*(row[:, None] for row in rows)))
+    return reduce(_weaker, every)
 
 
-def _sections(side: Side) -> tuple[Array, Array, Array]:
-    """The wall at a horn's sections, its normals there, and their thickness."""
-    wall, normal = side.wall(side.places(SECTIONS))
-    thick = side.thickness(wall, normal)
-    real = np.isfinite(thick)
-    return wall[:, real], normal[:, real], thick[real]
+def _ends(of: Array, begins: Array, ends: Array) -> tuple[Array, Array]:
+    """Values where parts of the strips between sections begin and end."""
+    of = np.where(np.isfinite(of), of, 0.0)
+    rise = np.diff(of)
+    return of[:, :-1] + rise * begins, of[:, :-1] + rise * ends
+
+
+def _rises(of: Array) -> Array:
+    """Which share of each strip lies before a quantity becomes positive: 1 where it does not."""
+    low, high = of[:, :-1], of[:, 1:]
+    with np.errstate(all="ignore"):
+        share = np.where(high > 0.0, -low / (high - low), 1.0)
+    return np.where(low >= 0.0, 0.0, share)
+
+
+def _weaker(one: Bent, other: Bent) -> Bent:
+    """That which gives more, of each design."""
+    more = other.deflection > one.deflection
+    return Bent(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))

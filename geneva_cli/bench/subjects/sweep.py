@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.blows import entry_blow, entry_blows, reversal_blow, reversal_blows
-from geneva_cli.analysis.strength import roller, shafts
+from geneva_cli.analysis.strength import horn, roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import motion_plays, used
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 DESIGNS, QUICK = 4096, 100
 LOOP = 5  # designs that are had one after the other
 CHECKED = 20  # designs whose error is measured
+HORN = (5.01, 40.0, 10.0)  # half the slot's width, radius of the recess, the wheel's thickness: mm
 GIVEN = Spec(
     External(6),
     SideCrank(A=0.0),
@@ -65,6 +66,12 @@ def _shafts(machine: Mechanism) -> Any:
     ends = shafts.wheel_shaft(machine.spec.shaft)
     found = shafts.shaft_of_many(machine, ends, shafts.on_wheel)
     return found and found.moment_Nm
+
+
+def _horn(machine: Mechanism) -> float:
+    found = horn.horn(machine, *HORN)
+    assert found is not None
+    return found.stress_MPa
 
 
 def _force(machine: Mechanism) -> float:
@@ -99,6 +106,7 @@ def _plays(machine: Mechanism) -> Any:
 
 ANSWERS = (
     Answer("moment in a shaft", _shaft, _shafts),
+    Answer("stress in a horn", _horn, lambda machine: horn.horn_of_many(machine, *HORN).stress_MPa),
     Answer(
         "equivalent force of a roller",
         _force,
@@ -157,6 +165,7 @@ def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]
 def _again(answer: Answer, machine: Mechanism) -> float:
     """The answer of a design that nothing is known of."""
     roller.passage.cache_clear()
+    horn.horn.cache_clear()
     return answer.one(machine)
 
 

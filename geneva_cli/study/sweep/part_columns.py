@@ -1,4 +1,4 @@
-"""Quantities of many designs at once: what holds, how long, what swings, what is struck.
+"""Quantities of many designs at once: how long they last, what swings, what is struck.
 
 Each is told by the name of its table in a design's report and its own. NaN is what must be asked of
 the design alone; infinite what the design alone has no value of.
@@ -6,8 +6,8 @@ the design alone; infinite what the design alone has no value of.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from collections.abc import Collection
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -20,97 +20,29 @@ from geneva_cli.analysis.loads.quantities import PV
 from geneva_cli.analysis.loads.sizing_many import NAMES as SIZING
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.positive_drive import positive_drives
-from geneva_cli.analysis.strength import pin as pins
-from geneva_cli.analysis.strength import roller, shafts
+from geneva_cli.analysis.strength import roller
 from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.many import Vibrations, vibrations_of_many
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.study.sweep import strength_columns as strength
+from geneva_cli.study.sweep.strength_columns import Columns, QuantityGroup
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
 
-Columns: TypeAlias = "Mapping[str, Number | None]"  # (m,) each, or one number for all
-
-
-class QuantityGroup(NamedTuple):
-    """Quantities of one table that are had together, and what gives those that are asked for."""
-
-    names: tuple[str, ...]
-    of: Callable[[Mechanism, Collection[str]], Columns]
-
-
-def _loaded(machine: Mechanism) -> Array:
-    """1 where something resists the wheel, NaN where the design must be asked why nothing does."""
-    given = setting(machine)
-    return np.ravel(np.where(given.inertia_Nm + given.resists_Nm > 0.0, 1.0, np.nan))
-
-
-def _force(machine: Mechanism) -> Array:
-    return greatest_of_many(machine, ["pin_force_N"])["pin_force_N"].max * _loaded(machine)
-
-
-def _margin(stress: Number, allowed: Number) -> Array:
-    """As ``verdict.life.margin``: none of a stress of 0."""
-    stress = np.asarray(stress)
-    with np.errstate(all="ignore"):
-        return np.where(stress > 0.0, np.ravel(allowed) / stress - 1.0, stress + np.inf)
-
-
-def _pin(machine: Mechanism, asked: Collection[str]) -> Columns:
-    """Under the greatest force, where a face width is known."""
-    pin = pins.pin(machine)
-    if pin is None:
-        return {}
-    force = _force(machine)[:, None]
-    under, allowed = pin.under(force), machine.spec.material_roller.stress_max_MPa
-    stress = np.ravel(under.equivalent)
-    out: dict[str, Number | None] = {
-        "diameter_mm": pin.diameter_mm,
-        "bending_MPa": under.bending,
-        "shear_MPa": under.shear,
-        "stress_MPa": stress,
-    }
-    if allowed is not None:
-        out["least_diameter_mm"] = pins.least_diameter_mm(pin, force, allowed)
-        out["margin"] = _margin(stress, allowed)
-    return out
-
-
-def _wheel_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
-    return _shaft(machine, shafts.wheel_shaft(machine.spec.shaft), shafts.on_wheel)
-
-
-def _crank_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
-    spec = machine.spec
-    on = shafts.on_driven_crank if spec.drive.CRANKED else shafts.on_crank
-    return _shaft(machine, shafts.crank_shaft(spec.shaft), on)
-
-
-def _shaft(machine: Mechanism, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
-    """Of shafts that are parallel, as ``verdict.strength`` has it."""
-    if not machine.spec.wheel.FLAT:
-        return {}
-    found = shafts.shaft_of_many(machine, ends, on)
-    if found is None:
-        return {}
-    moment = cast("Array", found.moment_Nm) * _loaded(machine)
-    rows = {k: v for k, v in found._asdict().items() if v is not None}
-    allowed = machine.spec.shaft.shear_stress_max_MPa
-    if found.stress_MPa is not None and allowed is not None:
-        rows["margin"] = _margin(found.stress_MPa, allowed)
-    return {k: np.where(np.isfinite(moment), v, moment) for k, v in rows.items()}
-
 
 def _life(machine: Mechanism, asked: Collection[str]) -> Columns:
     """Of the roller and its slot."""
-    spec, given, loaded = machine.spec, setting(machine), _loaded(machine)
+    spec, given, loaded = machine.spec, setting(machine), strength.loaded(machine)
     out: dict[str, Number | None] = {}
     if {"pv_max_W_m2"} & set(asked) and spec.size.face_width_mm is not None:
         out["pv_max_W_m2"] = greatest_of_many(machine, [PV])[PV].max * loaded
     if "pin_stress_MPa" in asked:
-        out["pin_stress_MPa"] = _pin(machine, asked).get("stress_MPa")
+        out["pin_stress_MPa"] = strength.pin(machine, asked).get("stress_MPa")
+    if "horn_stress_MPa" in asked:
+        out["horn_stress_MPa"] = strength.horn(machine, asked).get("stress_MPa")
     if not set(asked) - set(out):
         return out
     ways = passages_of_many(machine)
@@ -160,7 +92,7 @@ def _reversal(machine: Mechanism, asked: Collection[str]) -> Columns:
 
 def _sizing(machine: Mechanism, asked: Collection[str]) -> Columns:
     """NaN where nothing resists the wheel: its design says which values it has."""
-    loaded = _loaded(machine)
+    loaded = strength.loaded(machine)
     found = sizings_of_many(machine, asked)
     return {name: np.where(np.isnan(row), np.inf, row) * loaded for name, row in found.items()}
 
@@ -185,18 +117,14 @@ def _jump(machine: Mechanism, asked: Collection[str]) -> Columns:
     return {"worst": np.where(np.isnan(plays.worst_deg), np.nan, found)}
 
 
-PIN = ("diameter_mm", "bending_MPa", "shear_MPa", "stress_MPa", "least_diameter_mm", "margin")
-SHAFT = ("moment_Nm", "at_deg", "stress_MPa", "least_diameter_mm", "twist_deg", "margin")
 LIFE = (
     *("slot_travel_m", "roller_turns_per_motion", "equivalent_force_N", "friction_work_J"),
-    *("pv_max_W_m2", "pin_stress_MPa", "roller_life_turns", "roller_life_motions"),
-    *("roller_life_h", "slot_wear_mm_per_million"),
+    *("pv_max_W_m2", "pin_stress_MPa", "horn_stress_MPa", "roller_life_turns"),
+    *("roller_life_motions", "roller_life_h", "slot_wear_mm_per_million"),
 )
 SLOT = ("not_driven_share", "branch_gap_mm", "branch_gap_at_deg")
 GROUPS = {
-    "strength.pin": QuantityGroup(PIN, _pin),
-    "strength.wheel_shaft": QuantityGroup(SHAFT, _wheel_shaft),
-    "strength.crank_shaft": QuantityGroup(SHAFT, _crank_shaft),
+    **strength.GROUPS,
     "life": QuantityGroup(LIFE, _life),
     "vibration": QuantityGroup(Vibrations._fields, _vibration),
     "shock.entry": QuantityGroup(Blow._fields, _entry),

@@ -1,0 +1,64 @@
+"""The sizes that the strength of lock and horns goes by, of one machine and of many.
+
+Parts are sized one design after the other, as their defaults look at whole paths of rollers.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.many import alone, designs_in
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import parameter
+from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.reliefs import sectors
+from geneva_cli.parts.sizes import Sizes, sizes
+
+
+class LockSizes(NamedTuple):
+    """Sizes of slot and lock, mm; of m designs (m, 1), NaN of those without."""
+
+    half_width: float  # of the slot: roller and clearance
+    lock: Lock  # in its narrowest sector
+
+
+def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
+    """A machine's assembly and its parts' sizes; None where no flat parts can be cut."""
+    if not mechanism.spec.is_flat:
+        return None
+    try:
+        where = assembly(mechanism)
+        return where, sizes(where)
+    except GenevaError:
+        return None  # as the check of the parts says
+
+
+def lock_of(where: Assembly, found: Sizes) -> Lock:
+    """The lock of parts of these sizes, in its narrowest sector."""
+    half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
+    edge = where.given.spec.size.lock_edge_mm or 0.0
+    return Lock(where.L, where.sign, found.lock, found.recess, found.rim, half, edge)
+
+
+def lock_sizes_of_many(mechanism: Mechanism) -> LockSizes | None:
+    """The sizes of m designs; as numbers where no size differs, None where none has a lock."""
+    given = mechanism.spec
+    # of what parts are sized by; designs that differ in loads alone are sized once
+    spec = Spec(given.wheel, given.drive, given.motion, given.size)
+    m = designs_in(spec)
+    rows = np.full((1 + len(Lock._fields), m, 1), np.nan)
+    for i in range(m):
+        one = build(alone(spec, i) if m > 1 else spec)
+        found = sized(one)
+        if found is not None and found[1].lock:
+            rows[:, i, 0] = found[1].half_width, *lock_of(*found)
+    if np.isnan(rows).all():
+        return None
+    half_width, *lock = (parameter(row) if m > 1 else row.item() for row in rows)
+    return LockSizes(half_width, Lock(*lock))
