@@ -34,20 +34,15 @@ CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 
-class Impact(NamedTuple):
-    """A change of sides: where the wheel begins to coast, where it is struck, and how fast."""
-
-    from_deg: float
-    at_deg: float
-    speed: float  # of the wheel against the slot, over the input's
-
-
 class Impacts(NamedTuple):
-    """The same of k changes, (k,) each; NaN where the play is not taken up in the motion."""
+    """Changes of sides: where wheels begin to coast, where they are struck, and how fast.
+
+    (k,) each; NaN where the play is not taken up in the motion.
+    """
 
     from_deg: Array
     at_deg: Array
-    speed: Array
+    speed: Array  # of the wheel against the slot, over the input's
 
 
 class Changes(NamedTuple):
@@ -57,26 +52,11 @@ class Changes(NamedTuple):
     x: Array
 
 
-def impacts(engagement: Engagement, play: float, drag: float = 0.0) -> list[Impact]:
-    """The changes of sides in a motion, for a play of the wheel in radians, both ways together.
-
-    ``drag`` is M_r / (I w²). The wheel coasts from where psi2 = -drag, slowed by it alone, until it
-    is ``play`` ahead of the slot (or behind it, where the torque comes back). None of it where a
-    drag holds the roller on one wall, or where the motion ends before.
-
-        >>> from geneva_cli import Design, External
-        >>> impacts(Design(External(3)).mechanism.engagements[0], 1e-4)
-        [Impact(from_deg=0.0, at_deg=0.55220712276288..., speed=0.03107164009469...)]
-    """
-    over = np.array([[drag]])
-    at = changes(engagement, over)
-    found = impacts_of(engagement, at, np.full(len(at.x), play), over)
-    rows = zip(*[row.tolist() for row in found], strict=True)
-    return [Impact(*row) for row in rows if not math.isnan(row[1])]
-
-
 def changes(engagement: Engagement, drag: Array) -> Changes:
-    """Where the wheel's torque changes its sign inside a motion: psi2 = -drag, (m, 1) of each."""
+    """Where the wheel's torque changes its sign inside a motion: psi2 = -drag, (m, 1) of each.
+
+    Nowhere where a drag holds the roller on one wall.
+    """
     motion, m = engagement.motion, len(drag)
     which, x, torque = landmarks(motion, "acceleration", m)
     torque = torque + drag[which, 0]
@@ -97,9 +77,16 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
 
 
 def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> Impacts:
-    """The changes of sides that begin ``at`` some places, for the play of each, (k,).
+    """The changes of sides that begin ``at`` some places, for the play of each, (k,) in radians.
 
-    The sign of what the wheel gains tells which way it goes. ``drag`` is (m, 1).
+    ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from where psi2 = -drag, slowed by it alone,
+    until it is the play ahead of the slot, or behind it, where the torque comes back.
+
+        >>> from geneva_cli import Design, External
+        >>> [engagement] = Design(External(3)).mechanism.engagements
+        >>> drag = np.array([[0.0]])
+        >>> impacts_of(engagement, changes(engagement, drag), np.array([1e-4]), drag).at_deg
+        array([0.55220712])
     """
     if not len(at.x):
         return Impacts(at.x, at.x, at.x)

@@ -6,8 +6,8 @@ instead, before the entry, and the wheel is struck back at about tan b sqrt(2 ep
 speed: by the root of the error. With R/L too small it never reaches the axis, and meets the mouth.
 
 Speeds are in units of the input's, angles of the wheel in radians, input angles in degrees from
-the engagement's own mid-motion. What begins with many answers for m designs at once: numbers of a
-machine and errors are then (m, 1), and answers (m,).
+the engagement's own mid-motion. Of m designs numbers of a machine and errors are (m, 1), and
+answers (m,).
 """
 
 from __future__ import annotations
@@ -30,18 +30,14 @@ STEPS = 64  # halvings, every half an octave, in which a crossing is bracketed
 SHARES = 0.5 ** (0.5 * np.arange(STEPS, -1, -1))
 
 
-class FirstContact(NamedTuple):
-    """Where a roller first reaches the axis of the slot at rest, and what it does to the wheel."""
-
-    at_deg: float
-    jump: float  # of the wheel's velocity, over the input's; < 0: the wheel is struck back
-
-
 class FirstContacts(NamedTuple):
-    """The same of m designs, (m,) each; NaN where the roller never reaches the axis."""
+    """Where rollers first reach the axis of the slot at rest, and what they do to the wheel.
+
+    (m,) each; NaN where a roller never reaches the axis.
+    """
 
     at_deg: Array
-    jump: Array
+    jump: Array  # of the wheel's velocity, over the input's; < 0: the wheel is struck back
 
 
 class SlotAxis(NamedTuple):
@@ -95,27 +91,20 @@ class SlotAxis(NamedTuple):
         return out
 
 
-def first_contact(engagement: Engagement, crank: float, center: float = 0.0) -> FirstContact | None:
-    """The first contact for relative errors of the crank's radius and of the centre distance.
-
-    Of a roller on a crank's arm; elsewhere only ``center`` has a meaning. None where the roller
-    never reaches the slot's axis, and meets the mouth; where there are no errors; and for slots
-    and grooves that are solved for. A radial slot has sin(phi + b) = sin b / l there.
-
-        >>> from geneva_cli import Design, External
-        >>> first_contact(Design(External(3)).mechanism.engagements[0], crank=1e-4)
-        FirstContact(at_deg=-30.81025092485702, jump=-0.023909826405751...)
-    """
-    found = first_contacts(engagement, crank, center)
-    if found is None or np.isnan(found.jump[0]):
-        return None
-    return FirstContact(float(found.at_deg[0]), float(found.jump[0]))
-
-
 def first_contacts(
     engagement: Engagement, crank: float, center: float = 0.0
 ) -> FirstContacts | None:
-    """The first contacts of m designs, or for m errors; None for slots that are solved for."""
+    """The first contacts for relative errors of the crank's radius and of the centre distance.
+
+    Of m designs, or for m errors (m, 1); of rollers on a crank's arm, elsewhere only ``center`` has
+    a meaning. NaN where a roller never reaches the slot's axis, and meets the mouth, and where
+    there are no errors; None for slots and grooves that are solved for. A radial slot has
+    sin(phi + b) = sin b / l there.
+
+        >>> from geneva_cli import Design, External
+        >>> first_contacts(Design(External(3)).mechanism.engagements[0], crank=1e-4)
+        FirstContacts(at_deg=array([-30.81025092]), jump=array([-0.02390983]))
+    """
     axis = SlotAxis.of(engagement)
     if axis is None:
         return None

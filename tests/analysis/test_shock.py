@@ -3,9 +3,10 @@
 import mpmath as mp
 import numpy as np
 import pytest
+from blow_witness import contact_of, impacts_in
 
 from geneva_cli import Design, External, Internal, Load, SideCrank, Size, Spherical
-from geneva_cli.analysis import change_of_sides, shock
+from geneva_cli.analysis import change_of_sides
 from geneva_cli.analysis.shock_force import force_N, impulse_Nms
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.laws.standard import Cycloidal
@@ -37,10 +38,10 @@ def deg(x):
 
 def test_the_values_of_the_theory():
     """theory-loads.md, section 6: z = 3."""
-    contact = shock.first_contact(of(External(3)), 1e-4)
+    contact = contact_of(of(External(3)), 1e-4)
     near(contact.at_deg, mp.mpf("-30.81025092485702"))
     near(contact.jump, mp.mpf("-0.023909826405751256"))
-    [impact] = change_of_sides.impacts(of(External(3)), 1e-4)
+    [impact] = impacts_in(of(External(3)), 1e-4)
     near(impact.at_deg, mp.mpf("0.55220712276288262"))
     near(impact.speed, mp.mpf("0.031071640094697492"))
 
@@ -54,7 +55,7 @@ def test_first_contact_by_the_law_of_sines(gearing, sign, z, crank, center):
     # the obtuse of the two triangles of the wheel, the crank and the roller on the axis
     a = -(mp.pi - mp.asin(mp.sin(b) / l) - b) if sign > 0 else -(mp.pi - mp.asin(mp.sin(b) / l) + b)
     jump = sign * l * (sign * mp.cos(a) - l) / (1 - 2 * sign * l * mp.cos(a) + l * l)
-    found = shock.first_contact(of(gearing(z)), crank, center)
+    found = contact_of(of(gearing(z)), crank, center)
     near(found.at_deg, deg(a))
     near(found.jump, jump, 1e-12 if crank - center > 1e-6 else 1e-7)  # crank - center is rounded
 
@@ -72,7 +73,7 @@ def test_of_a_side_crank():
         return mp.atan2(l * mp.sin(f), 1 - l * mp.cos(f))
 
     at = mp.findroot(lambda phi: wheel(phi) + b, mp.radians(-94.5))
-    found = shock.first_contact(of(External(6), SideCrank(A=0.6)), 1e-3)
+    found = contact_of(of(External(6), SideCrank(A=0.6)), 1e-3)
     near(found.at_deg, deg(at))
     near(found.jump, mp.diff(wheel, at), 1e-12)
 
@@ -93,7 +94,7 @@ def test_of_slots_beside_the_centre(offset, crank, center):
     a = mp.arg(-(pin - L))  # from the line of centres, clockwise
     velocity = 1j * (pin - L) * -1
     jump = mp.im(velocity * mp.expj(ahead)) / along
-    found = shock.first_contact(of(External(6, offset_mm=offset)), crank, center)
+    found = contact_of(of(External(6, offset_mm=offset)), crank, center)
     near(found.at_deg, -deg(a))
     near(found.jump, jump, 1e-11)
 
@@ -109,7 +110,7 @@ def test_on_a_sphere(axes):
         x = mp.sin(S) * mp.cos(th) - (1 + eps) * mp.sin(th) * mp.cos(S) * mp.cos(a)
         return mp.atan2((1 + eps) * mp.sin(th) * mp.sin(a), x)
 
-    found = shock.first_contact(of(Spherical(5, axes_deg=axes)), 1e-3)
+    found = contact_of(of(Spherical(5, axes_deg=axes)), 1e-3)
     at = mp.findroot(lambda a: wheel(a) + b, mp.radians(found.at_deg))
     near(found.at_deg, deg(at))
     near(found.jump, mp.diff(wheel, at), 1e-12)
@@ -119,23 +120,23 @@ def test_on_a_sphere(axes):
 def test_the_square_root_warning():
     """A hundredth of a percent of R/L costs 1.4 % of tan b."""
     for gearing, z in ((External, 3), (External, 12), (Internal, 6)):
-        size = -shock.first_contact(of(gearing(z)), 1e-4).jump / mp.tan(mp.pi / z)
+        size = -contact_of(of(gearing(z)), 1e-4).jump / mp.tan(mp.pi / z)
         assert 0.0137 < size < 0.0145
         # fourfold the error, twice the jump; the next term is about sqrt(2 eps) of it
-        four = -shock.first_contact(of(gearing(z)), 4e-8).jump
-        one = -shock.first_contact(of(gearing(z)), 1e-8).jump
+        four = -contact_of(of(gearing(z)), 4e-8).jump
+        one = -contact_of(of(gearing(z)), 1e-8).jump
         assert four / one == pytest.approx(2.0, rel=1e-3)
 
 
 def test_a_crank_that_is_too_short_meets_the_mouth():
-    assert shock.first_contact(of(External(5)), -1e-9) is None
-    assert shock.first_contact(of(External(5)), 0.0, 1e-9) is None
-    assert shock.first_contact(of(External(5)), 0.0) is None
+    assert contact_of(of(External(5)), -1e-9) is None
+    assert contact_of(of(External(5)), 0.0, 1e-9) is None
+    assert contact_of(of(External(5)), 0.0) is None
 
 
 def test_slots_and_grooves_that_are_solved_for_have_no_such_entry():
-    assert shock.first_contact(of(External(6), None, Motion(Cycloidal())), 1e-3) is None
-    assert shock.first_contact(of(External(6), Cam(), Motion(Cycloidal())), 1e-3) is None
+    assert contact_of(of(External(6), None, Motion(Cycloidal())), 1e-3) is None
+    assert contact_of(of(External(6), Cam(), Motion(Cycloidal())), 1e-3) is None
 
 
 @pytest.mark.parametrize("gearing, sign", [(External, 1), (Internal, -1)])
@@ -152,7 +153,7 @@ def test_impact_by_search(gearing, sign, z, play, drag):
     def gap(x):
         return w0 + v0 * x - drag * x * x / 2 - wheel(start + x) - play
 
-    [found] = change_of_sides.impacts(of(gearing(z)), play, drag)
+    [found] = impacts_in(of(gearing(z)), play, drag)
     x = mp.findroot(gap, mp.radians(found.at_deg) - start)
     near(found.from_deg, deg(start), 1e-11)
     near(found.at_deg, deg(start + x), 1e-11)
@@ -163,7 +164,7 @@ def test_small_plays_keep_their_digits():
     """phi -> (6 q / |psi3|)^(1/3), and the speed |psi3| phi² / 2."""
     l = mp.sin(mp.pi / 3)
     jerk = l * (1 + l) / (1 - l) ** 3  # -psi3(0)
-    [found] = change_of_sides.impacts(of(External(3)), 1e-15)
+    [found] = impacts_in(of(External(3)), 1e-15)
     phi = (6 * mp.mpf(1e-15) / jerk) ** (mp.mpf(1) / 3)
     near(found.at_deg, deg(phi), 1e-7)  # the next term is of order phi²
     near(found.speed, jerk * phi**2 / 2, 1e-6)
@@ -182,9 +183,9 @@ def test_a_drag_ends_the_change_of_sides():
 
 
 def test_what_does_not_happen():
-    assert change_of_sides.impacts(of(External(6)), 0.0) == []
-    assert change_of_sides.impacts(of(External(6)), 1e-3, 1e9) == []
-    assert change_of_sides.impacts(of(External(6)), 0.53) == []  # pi/3 - pi/6 = 0.52 by the end
+    assert impacts_in(of(External(6)), 0.0) == []
+    assert impacts_in(of(External(6)), 1e-3, 1e9) == []
+    assert impacts_in(of(External(6)), 0.53) == []  # pi/3 - pi/6 = 0.52 by the end
     assert change_of_sides.drag_over(Design(External(6)).mechanism) == mp.inf
 
 

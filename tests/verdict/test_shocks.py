@@ -5,9 +5,10 @@ import re
 
 import numpy as np
 import pytest
+from blow_witness import contact_of, impacts_in
 
 from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
-from geneva_cli.analysis import change_of_sides, shock
+from geneva_cli.analysis import change_of_sides
 from geneva_cli.analysis.blows import entry_blow, reversal_blow
 from geneva_cli.analysis.mouth import mouth_contacts
 from geneva_cli.analysis.shock_force import force_N
@@ -40,7 +41,7 @@ def test_values_are_those_of_the_worst_machine():
     [engagement] = of.mechanism.engagements
     # on the slot's axis, where the slot has room for an arm too short by 0.02 + 0.03 sin(30 deg)
     roomy = design(1e6, size=Size(face_width_mm=18.0, slot_clearance_mm=0.046))
-    contact = shock.first_contact(engagement, 0.02 / 50.0, -0.03 / 100.0)
+    contact = contact_of(engagement, 0.02 / 50.0, -0.03 / 100.0)
     check = row(roomy, "entry_shock_N")
     assert check.value == force_N(roomy.mechanism, contact.jump)
     assert check.at_deg == contact.at_deg
@@ -54,7 +55,7 @@ def test_values_are_those_of_the_worst_machine():
     [start] = change_of_sides.changes(engagement, np.array([[drag]])).x
     x, y = (z.c[0] for z in engagement.path(start, 0))
     play = 2.0 * math.asin(0.03 / (100.0 * math.hypot(x, y)))
-    [impact] = change_of_sides.impacts(engagement, play, drag)
+    [impact] = impacts_in(engagement, play, drag)
     assert row(of, "reversal_shock_N").value == pytest.approx(
         force_N(of.mechanism, impact.speed), rel=1e-12
     )
