@@ -106,6 +106,18 @@ def test_a_program_finds_the_same_names_for_every_machine() -> None:
     assert two["timing"]["dwell_deg"] == pytest.approx(45.0)
 
 
+def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
+    ball = '[wheel]\nz = 6\ngearing = "spherical"\n[tolerance]\ncrank_radius_mm = 0.01\n'
+    spec = written(tmp_path, ball)
+    found = json.loads(run("report", spec, "--format", "json").stdout)["tolerance"]
+    assert found["dwell_position"]["worst_deg"] is None
+    (said, _) = found["warnings"]
+    assert said.startswith("dwell_position is not known: no flat locking disc")
+    page = tmp_path / "page.md"
+    run("report", spec, "-o", str(page))
+    assert said in page.read_text()
+
+
 @pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
 def test_what_is_not_proved_shows_in_every_format(format: str) -> None:
     spec = str(DESIGNS / "spherical-z6.toml")

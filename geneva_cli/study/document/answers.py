@@ -8,7 +8,7 @@ from typing import Any
 from geneva_cli.analysis.figures import OF_NAME
 from geneva_cli.analysis.loads.summary import Summary
 from geneva_cli.design import Design
-from geneva_cli.document import Block, Facts, Grid, Heading, Row
+from geneva_cli.document import Block, Facts, Grid, Heading, Listed, Row
 from geneva_cli.study.document.left import Left, grid
 from geneva_cli.study.document.named import capital, fact, facts, is_known, unit_of
 from geneva_cli.table import Table
@@ -119,10 +119,13 @@ def strength(left: Left) -> Iterator[Block]:
 def swinging(left: Left) -> Iterator[Block]:
     """Vibration and tolerances, where they are given."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):
+        said = left.one(f"{group}.warnings")
         found = facts(text, left.take(group))
         if found:
             yield Heading(text)
             yield from found
+        if said:
+            yield Listed(tuple(said))
 
 
 def parts(left: Left) -> Iterator[Block]:

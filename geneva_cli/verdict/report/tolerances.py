@@ -19,15 +19,19 @@ NAMES = (
     "clearances.slot_needed_mm",
     "clearances.lock_needed_mm",
     "clearances.turns",
+    "warnings",
 )
 
 
 def tolerances(proof: Proof) -> Values:
-    """The first lines of ``geneva tolerance``; None without tolerances."""
-    given = proof.mechanism.spec.tolerance
+    """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
+    mechanism = proof.mechanism
+    given = mechanism.spec.tolerance
     if given == Tolerance(distribution=given.distribution):
         return {f"tolerance.{name}": None for name in NAMES}
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-    answers = tolerance_table(proof.mechanism, proof, SAMPLES, 0).to_dict()
+    # at some radius: micrometres are not among them
+    L = mechanism.center_distance_mm
+    answers = tolerance_table(mechanism, proof, SAMPLES, 0, L).to_dict()
     return {f"tolerance.{name}": answers[name] for name in NAMES}

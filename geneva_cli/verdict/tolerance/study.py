@@ -83,8 +83,8 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         warnings.append(
             Caution(
                 "not-known",
-                "dwell_position is not known: no locking disc that is drawn holds the wheel at "
-                "rest",
+                "dwell_position is not known: no flat locking disc that is drawn holds the wheel "
+                "at rest",
             )
         )
     if farthest:
