@@ -41,7 +41,7 @@ class AnchoredPath:
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors_of(anchors), ahead
-        self._latest = Latest()
+        self._latest, self._latest_nearest = Latest(), Latest()
 
     @property
     def middle(self) -> Anchor:
@@ -58,6 +58,19 @@ class AnchoredPath:
         along, across = self._latest(self.middle.place, input_deg, order)
         return along, across
 
+    def from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        """The pin along the nearest anchor's ray and across it: its distance, and how it turns."""
+        along, across = self._latest_nearest(self._from_nearest, input_deg, order)
+        return along, across
+
+    def _from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+        def solve(anchor: Anchor, x: Number) -> Jet:
+            along, across = anchor.place(x, order)
+            return Jet((*along.c, *across.c))
+
+        both = self.anchors.solved(input_deg, solve).c
+        return Jet(both[: order + 1]), Jet(both[order + 1 :])
+
 
 class RadialSlot(Slot):
     """A straight slot towards the wheel's centre."""
@@ -67,17 +80,13 @@ class RadialSlot(Slot):
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin runs along the slot's straight axis."""
-        depth = self._depth(input_deg, order)
+        depth = _length(self.path.from_middle(input_deg, order))
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = self._depth(input_deg, order + 1)
+        depth = _length(self.path.from_nearest(input_deg, order + 1))
         return SlotAxis(Jet(depth.c[:-1]), depth.derivative())
-
-    def _depth(self, input_deg: Number, order: int) -> Jet:
-        x, y = self.path.from_middle(input_deg, order)
-        return sqrt(x * x + y * y)
 
 
 class MeridianSlot(Slot):
@@ -145,11 +154,7 @@ class Followed(Motion):
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """How fast the pin's direction turns: without an arc tangent."""
-
-        def solve(anchor: Anchor, x: Number) -> Jet:
-            return turning(*anchor.place(x, order + 1))
-
-        return self.path.anchors.solved(input_deg, solve)
+        return turning(*self.path.from_nearest(input_deg, order + 1))
 
 
 class Classic(Followed):
@@ -230,6 +235,11 @@ def engagement(
     """The engagement of a radial slot in a plane."""
     slot = RadialSlot(path)
     return Engagement(mid_deg, path, slot, motion, crank_sense, body=body, reactions=reactions)
+
+
+def _length(vector: tuple[Jet, Jet]) -> Jet:
+    x, y = vector
+    return sqrt(x * x + y * y)
 
 
 def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:

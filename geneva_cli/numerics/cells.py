@@ -209,6 +209,19 @@ class Tops:
                 self.most[number, design] = np.maximum(self.most[number, design], most[k])
                 self.known.append((number, design, first[k], most[k]))
 
+    def may_pass(self, k: Whole, design: Whole, low: Array, high: Array) -> Mask:
+        """Whether functions that come to ``low`` and ``high`` at most may pass what is known.
+
+        Nothing passes what has no bound; what has limits that are not known may.
+        """
+        both = [(2 * k, high), (2 * k + 1, -low)]
+        sides = [(k, np.maximum(-low, high))] if self.sized else both
+        passes = [
+            (self.most[number, design] < np.inf) & ~(reach < self.most[number, design])
+            for number, reach in sides
+        ]
+        return np.asarray(np.logical_or.reduce(passes))
+
     def bounded(self) -> Mask:
         """Whether each function of each design is bounded, as far as is known."""
         finite: Mask = self.most < np.inf

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
@@ -25,6 +25,15 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 T = TypeVar("T", "Array", "Mask")
+
+
+class Matters(Protocol):
+    """Of functions that three samples do not predict, those for which it matters."""
+
+    def __call__(
+        self, missed: Mask, design: Whole, left: Sample, middle: Sample, right: Sample
+    ) -> Mask:
+        """``missed`` (functions, m, ...) without the others; the designs are (m,)."""
 
 
 class Samples(NamedTuple):
@@ -60,12 +69,12 @@ class Samples(NamedTuple):
         ends = zip(*[self._three(index, shift) for shift in (-1, 2)], strict=True)
         return Beside(known, *map(np.stack, ends))
 
-    def open(self, range_: Range, bounded: Mask, differ: Mask) -> Mask:
+    def open(self, range_: Range, bounded: Mask, differ: Mask, matters: Matters) -> Mask:
         """Which of the cells in which no sign changes must be looked at again.
 
         Pairs of cells are judged by the sample where they meet: the 1st with the 2nd, and so on,
         and a cell whose partner has a change of sign with its other neighbour. Of a function that
-        is not ``bounded`` none that is near its pole is.
+        is not ``bounded`` none that is near its pole is, nor of any one that does not matter.
         """
         signs, x, value, slope = len(self.positive), self.x, self.value, self.slope
         left, middle, right = (
@@ -79,7 +88,8 @@ class Samples(NamedTuple):
         if held is not None:
             both = held[..., :-1:2] & held[..., 1::2] & held[..., 2::2]
             missed &= bounded[..., None] | both
-        lost = missed.any(axis=0) & ~crossed
+        missed = matters(missed & ~crossed, self.design, left, middle, right)
+        lost = missed.any(axis=0)
         v, d, width = value[:signs], slope[:signs], x[:, 1:] - x[:, :-1]
         found = touches(width, v[..., :-1], d[..., :-1], v[..., 1:], d[..., 1:]).any(axis=0)
         found |= np.repeat(lost, 2, axis=1)
@@ -94,7 +104,7 @@ class Samples(NamedTuple):
         if held is not None:
             within = [self._at(index, odd + i, held) for i in (-1, 0, 1)]
             missed &= bounded[:, row] | np.logical_and.reduce(within)
-        alone |= missed.any(axis=0)
+        alone |= matters(missed, self.design[row], one, two, three).any(axis=0)
         found[row[alone], column[alone]] = True
         return found & ~differ
 

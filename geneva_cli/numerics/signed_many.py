@@ -16,6 +16,7 @@ import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import choose_record
+from geneva_cli.numerics.between_samples import limits
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
@@ -40,6 +41,7 @@ from geneva_cli.numerics.turns_many import Signed, turn
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Which, Whole
+    from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.jet import Array
 
 BLOCK = 1024  # designs sampled at a time: so many lie in the processor's cache
@@ -123,7 +125,7 @@ class _Search:
         self.range.widen(design[full], value[:, full])
         self.tops.add_samples(design[full], x[full], value[f.signs :, full])
         differ = samples.differ
-        open_ = samples.open(self.range, self._bounded(design), differ)
+        open_ = samples.open(self.range, self._bounded(design), differ, self._matters)
         closed, differ = ~(open_ | differ) & there[:, None], differ & there[:, None]
         self.cells.append(samples.cells(open_ & there[:, None]))
         self.crossed.append((samples.cells(differ), samples.beside(differ)))
@@ -171,6 +173,26 @@ class _Search:
             known |= np.logical_and.reduce([self.range.holds(design, value) for value in ends])
         return known
 
+    def _matters(
+        self, missed: Mask, design: Whole, left: Sample, middle: Sample, right: Sample
+    ) -> Mask:
+        """Of functions that are not predicted, those whose sign counts or that may pass a top.
+
+        Where one whose sign counts is not predicted, it may be 0 twice: it is always looked at.
+        """
+        signs = self.f.signs
+        where = np.nonzero(missed[signs:])
+        if len(where[0]):
+
+            def there(sample: Sample) -> Sample:
+                x, v, d = (np.broadcast_to(p, missed.shape)[signs:][where] for p in sample)
+                return x, v, d
+
+            found = limits(there(left), there(middle), there(right))
+            passes = self.tops.may_pass(where[0], design[where[1]], *found)
+            missed[signs:][where] = passes
+        return missed
+
     def _look(
         self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
     ) -> Look:
@@ -190,6 +212,7 @@ class _Search:
             three = beside.at(end), part.at(end), part.at(1 - end)
             missed = unpredicted_beside(*three, low, high)
             missed &= self._bounded(part.design, *(value for _, value, _ in three))
+            missed = self._matters(missed, part.design, *three)
             open_ = missed.any(axis=0) | ~beside.known[end] | self._may_cross(part)
             open_ |= (part.positive[0] != part.positive[1]).any(axis=0)
             self._close(part, ~open_)
@@ -278,10 +301,11 @@ class _Search:
         look = self._look_within(at, design, cells.positive[0])
         self.tops.add_all(design, x, look.value[f.signs :])
         low, high = (side[:, design] for side in self.range)
-        missed = unpredicted(cells.at(0), (x, *look[1:]), cells.at(1), low, high)
+        three = cells.at(0), (x, look.value, look.slope), cells.at(1)
+        missed = unpredicted(*three, low, high)
         wide = cells.x[1] - cells.x[0] > NARROW * (np.abs(cells.x[0]) + np.abs(cells.x[1]))
         known = self._bounded(design, cells.value[0], look.value, cells.value[1])
-        open_ = (missed & known).any(axis=0) & wide
+        open_ = self._matters(missed & known, design, *three).any(axis=0) & wide
         open_ |= (look.positive != cells.positive[0]).any(axis=0)
         halves = cells.parted(x, (look, look))
         for half in halves:
