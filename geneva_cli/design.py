@@ -591,8 +591,8 @@ class Design:
         """
         from geneva_cli.verdict.advice import judged
 
-        # what has no flat parts is judged without NumPy
-        return judged(self.mechanism, self.proof if self.spec.is_flat else None)
+        # what has no parts is judged without NumPy
+        return judged(self.mechanism, self.proof if self.spec.has_parts else None)
 
     @property
     def passes(self) -> bool:
@@ -660,12 +660,12 @@ class Design:
 
     @answer
     def turn_warnings(self) -> list[Caution]:
-        """What a whole turn of the parts shows that breaks no limit; none without flat parts.
+        """What a whole turn of the parts shows that breaks no limit; none without parts.
 
         >>> Design(External(6)).turn_warnings
         []
         """
-        if not self.spec.is_flat:
+        if not self.spec.has_parts:
             return []
         from geneva_cli.verdict.turn_cautions import turn_cautions
 

@@ -54,7 +54,7 @@ def kept(function, key):
 
 
 def of_outlines(found):
-    return found.assembly.given.spec, found.fine
+    return found.assembly.given.spec, getattr(found, "fine", 0.0)  # shells have no tolerance
 
 
 def of_mechanism(mechanism, tolerance=0.0):

@@ -137,7 +137,7 @@ def run(
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
     proof = design.drawn(tolerance, part)
-    if design.spec.is_flat:
+    if design.spec.has_parts:
         _judge(design, design.judge(proof), force)
     if sheet:
         _refuse(units, kerf, cutter, center_marks)

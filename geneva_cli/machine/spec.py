@@ -230,7 +230,16 @@ class Spec:
         >>> Spec(External(6)).is_flat, Spec(Spherical(6)).is_flat
         (True, False)
         """
-        return self.wheel.FLAT and self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
+        return self.wheel.FLAT and self.has_parts
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether wheel and crank are outlines, of plates or of a sphere's shells.
+
+        >>> Spec(Spherical(6)).has_parts, Spec(External(60)).has_parts
+        (True, False)
+        """
+        return self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """The roller's radius r, by default L/20.

@@ -1,4 +1,4 @@
-"""The assembly of a flat machine: where wheel, crank and rollers stand through a whole turn.
+"""The assembly of a machine: where wheel, crank and rollers stand through a whole turn.
 
 Outlines are drawn in it, and the full turn is proved with it. Lengths are in millimetres, angles in
 radians; the wheel's axis is the origin and the crank's axis is at (L, 0). A drive in front of the
@@ -136,7 +136,12 @@ def assembly(mechanism: Mechanism) -> Assembly:
         raise GenevaError(
             f"z = {spec.wheel.z}: parts are drawn for up to {Z_DRAWN} slots", ("wheel", "z")
         )
-    given = mechanism
+    return assembled(mechanism)
+
+
+def assembled(mechanism: Mechanism) -> Assembly:
+    """The same of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
+    given, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
     if mechanism.law is None and spec.drive.CRANKED:
         to_input = spec.drive.input_deg

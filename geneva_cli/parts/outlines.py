@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,7 +16,7 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.crank import crank_contours, is_whole
 from geneva_cli.parts.reliefs import without_lock
 from geneva_cli.parts.sizes import Sizes, sizes
-from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.gaps import Gaps, turned_points
 from geneva_cli.parts.walls.curved import curved_walls
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
@@ -30,7 +31,6 @@ CURVED = 2e-6  # of the centre distance: how nearly curved walls are known
 CONTACT = CURVED
 TRIES = 5
 SPARE = 3.0  # times an overlap that was found, kept more from the wheel
-BESIDE = np.geomspace(0.01, 3.0, 12)  # degrees of the input, beside a place that is looked at
 SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
 
 
@@ -56,22 +56,22 @@ class Outlines(NamedTuple):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
+    def in_wheel(self, roller: int, at: Array) -> Array:
+        """A roller's centre in the wheel's frame, mm, at input angles (n,): (n, 2)."""
+        return turned_points(self.assembly.pin(roller, at), -self.assembly.wheel(at))
+
+    def past_mouth(self, roller: int, at: Array) -> Array:
+        """How far a roller's centre is in its slot, past the mouth's corners, mm, (n,)."""
+        # these are half a slot's width beside its middle, on the rim
+        level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
+        far = np.hypot(*self.assembly.pin(roller, at).T)
+        past: Array = self.assembly.sign * (level - far)
+        return past
+
     @property
     def relief_depth(self) -> float:
         """The distance of the crank's outline from its axis at the bottom of a relief, mm."""
         return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
-
-    def gap_about(self, shown_deg: float) -> float:
-        """The smallest gap of any two parts, mm, at positions about one input angle.
-
-        A few positions instead of a whole turn: to look for a size that frees a machine there.
-        """
-        start, turn = self.assembly.start_deg, self.assembly.turn_deg
-        place = self.assembly.place_deg(shown_deg)
-        at = start + (place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
-        pose = self.gaps.pose(at)
-        gap = float(self.gaps.rollers(pose).min())
-        return min(gap, float(self.gaps.locking(pose).min())) if self.crank else gap
 
 
 def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:

@@ -6,8 +6,10 @@ from functools import cached_property
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.outlines import Outlines, outlines
+from geneva_cli.parts.sphere.shells import Shells, shells
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import NotProved
+from geneva_cli.parts.turn.turned import Turned
 
 
 class Proof:
@@ -22,6 +24,16 @@ class Proof:
         """The outlines; raises GenevaError where the sizes leave none."""
         return self.made or outlines(self.mechanism)
 
+    @cached_property
+    def shells(self) -> Shells:
+        """The shells of a machine on a sphere; raises GenevaError likewise."""
+        return shells(self.mechanism)
+
+    @property
+    def turned(self) -> Turned:
+        """What is turned: outlines or shells."""
+        return self.found if self.mechanism.spec.wheel.FLAT else self.shells
+
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises NotProved where that takes too long."""
@@ -33,6 +45,6 @@ class Proof:
     def _turned(self) -> FullTurn | NotProved:
         # That it takes too long is found out once, too.
         try:
-            return full_turn(self.found)
+            return full_turn(self.turned)
         except NotProved as error:
             return error

@@ -10,10 +10,10 @@ from geneva_cli.verdict.checks.play import motion_play_max
 
 def turn_cautions(proof: Proof) -> list[Caution]:
     """Cautions of the parts' whole turn; none where there is no such turn."""
-    if not proof.mechanism.spec.is_flat:
+    if not proof.mechanism.spec.has_parts:
         return []
     try:
-        ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.found)
+        ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.turned)
     except GenevaError:
         return []
     # Freedom both ways is play, which has a limit of its own.

@@ -100,7 +100,7 @@ ROWS = [
     # SciPy: its Sobol sequence, which brings json
     Row("tolerance tolerances.toml --samples 9", "tomli numpy scipy json"),
     Row("check limits.toml", "tomli numpy"),
-    Row("check spherical-z6.toml", "tomli"),
+    Row("check spherical-z6.toml", "tomli numpy"),
     Row("check press-curved.toml", "tomli numpy"),
     Row("vibration press-straight.toml --period-ratio 10", "tomli numpy"),
     Row("vibration press-straight.toml --period-ratio 10 --format csv", "tomli numpy"),

@@ -424,10 +424,9 @@ def more(command):
     return few.get(command, ())
 
 
-# spherical: without parts that would be turned for each title; and what each command asks for
+# without parts that would be turned for each title; and what each command asks for
 ANSWERED = """[wheel]
-z = 6
-gearing = "spherical"
+z = 400
 [load]
 inertia_kgm2 = 0.1
 [shaft]

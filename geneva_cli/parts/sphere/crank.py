@@ -6,19 +6,21 @@ In the crank's frame: its axis z, the first roller on the azimuth 0, the others 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, Vector, cross, opposite, place
-from geneva_cli.errors import GenevaError
-from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.sizes import Ball, NoRoom
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-STEPS = 181  # positions of a motion
+STEPS = 361  # positions of a motion
+EACH = 100  # points of an arc of the wheel's edge
+SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
 POINTED = 0.2  # of the locking sector's angle: it is left out nearer to the axis
 THIN = 0.05  # of it: a ring as thin as this holds nothing
 SAME = 1e-9  # radians
@@ -27,20 +29,27 @@ SAME = 1e-9  # radians
 def sectors(found: Ball) -> list[Region]:
     """Where the crank locks: outside of what the wheel sweeps in a motion.
 
-    Raises GenevaError where nothing is left of them.
+    Between two rollers, or over as much of that as the wheel leaves free.
+    Raises NoRoom where nothing is left of them.
     """
-    if not found.lock:
-        return []
     spare = min(0.25 * (found.recess - found.lock) + 0.1 * found.roller, 0.1 * found.lock)
-    low = max(swept(found) + spare, POINTED * found.lock)
-    if low > (1.0 - THIN) * found.lock:
-        raise GenevaError(
-            "the wheel sweeps over the whole locking sector: another lock_radius_mm, or a smaller "
-            "roller, may leave room for one; 0 leaves it out, where the wheel is held in another "
-            "way",
-            ("size", "lock_radius_mm"),
-        )
-    return [_sector(found.lock, low, a, b) for a, b in locked(found)]
+    regions = []
+    for start, end in locked(found):
+        middle, whole = 0.5 * (start + end), 0.5 * (end - start)
+        reached = _reached(found, middle)
+        for share in SHARES:
+            low = max(reached(share * whole) + spare, POINTED * found.lock)
+            if low <= (1.0 - THIN) * found.lock:
+                half = share * whole
+                regions.append(_sector(found.lock, low, middle - half, middle + half))
+                break
+        else:
+            raise NoRoom(
+                "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
+                "room for one; 0 leaves it out, where the wheel is held in another way",
+                ("size", "lock_radius_mm"),
+            )
+    return regions
 
 
 def locked(found: Ball) -> list[tuple[float, float]]:
@@ -90,21 +99,40 @@ def at_mid_motion(found: Ball) -> Rotation:
     return Rotation(ahead, cross(axis, ahead), axis)
 
 
-def swept(found: Ball) -> float:
-    """How near to the locking sectors' edge the wheel comes in a motion, from the crank's axis.
+def _reached(found: Ball, middle: float) -> Callable[[float], float]:
+    """How near to the locking edge, from the crank's axis, the wheel comes within so much on either
+    side of an azimuth, in all motions; radians, 0 where it stays clear of it."""
+    polar, azimuth = swept(found)
+    ahead = [azimuth + turn - middle for turn in found.rollers]
+    off = np.abs(np.remainder(np.stack(ahead) + math.pi, math.tau) - math.pi)
+    near = polar < found.lock * (1.0 - SAME)
 
-    Radians; 0 where it stays clear of the sectors. The crank turns clockwise about its axis where
-    the wheel turns counterclockwise.
+    def reached(half: float) -> float:
+        inside = near & (off < half * (1.0 - SAME))
+        # what comes in or goes out from one position to the next does so on its way
+        inside[:, 1:] |= inside[:, :-1]
+        inside[:, :-1] |= inside[:, 1:]
+        return min(found.lock, float((polar * inside).max(initial=0.0)))
+
+    return reached
+
+
+def swept(found: Ball) -> tuple[Array, Array]:
+    """The ways of the wheel's edge in the crank's frame, in the motion of the first roller.
+
+    Polar angles from the crank's axis and azimuths about it, radians, a row a position; only what
+    comes within the locking edge. The crank turns clockwise about its axis where the wheel turns
+    counterclockwise.
     """
     frame = np.column_stack(at_mid_motion(found))
-    wheel, most = edge_points(found), 0.0
+    wheel = edge_points(found, EACH)
     wheel = wheel[np.abs(np.arccos(wheel[:, 2]) - found.axes) < found.lock]
+    rows = []
     for turn in np.linspace(-found.half_motion, found.half_motion, STEPS):
         polar, azimuth = _seen(wheel @ _index(found, frame, turn), frame)
-        off = np.abs(np.remainder(azimuth + turn + math.pi, math.tau) - math.pi)
-        inside = (polar < found.lock * (1.0 - SAME)) & (off > found.half_motion)
-        most = max(most, float(polar[inside].max(initial=0.0)))
-    return most
+        rows.append((polar, azimuth + turn))
+    ways = np.array(rows)
+    return tuple(ways[:, :, (ways[:, 0] < found.lock).any(axis=0)].swapaxes(0, 1))
 
 
 def _index(found: Ball, frame: Array, turn: float) -> Array:

@@ -13,9 +13,9 @@ from geneva_cli.curves.shapes import Contour, Drawing, Line, Point, Segment, Sha
 from geneva_cli.curves.sphere import Region, Rotation
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sphere.crank import at_mid_motion, locked, rollers, sectors
+from geneva_cli.parts.sphere.crank import at_mid_motion, locked, rollers
 from geneva_cli.parts.sphere.laid_flat import Cone
-from geneva_cli.parts.sphere.sizes import Ball, ball
+from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.wheel import edge, wheel_regions
 
 APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
@@ -25,7 +25,7 @@ CUT = ("WHEEL", "CRANK")  # layers of sheet
 
 def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
     """The wheel's cone, cut open amid two slots; x along the first slot."""
-    found = ball(proof.mechanism)
+    found = proof.shells.ball
     cone = wheel_cone(found)
     title = f"{titled(proof.mechanism)}: wheel, flat: {cone.said('wheel')}"
     shapes = _wheel_flat(found, cone, tolerance, curves)
@@ -34,8 +34,8 @@ def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
 
 def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
     """The crank's cone: locking sectors, and the rollers where they pass through it."""
-    found = ball(proof.mechanism)
-    cone, locks = crank_cone(found), sectors(found)
+    found, locks = proof.shells.ball, proof.shells.crank
+    cone = crank_cone(found)
     title = f"{titled(proof.mechanism)}: crank, flat: {cone.said('crank')}"
     shapes = _crank_flat(found, locks, cone, tolerance, curves)
     return _drawing(found, title, shapes, _crank(crank_shells(found, locks)))
@@ -43,8 +43,8 @@ def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
 
 def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
     """Both laid flat, side by side; as a solid the machine at input angle 0."""
-    found = ball(proof.mechanism)
-    locks, title = sectors(found), titled(proof.mechanism)
+    found, locks = proof.shells.ball, proof.shells.crank
+    title = titled(proof.mechanism)
     left = _wheel_flat(found, wheel_cone(found), tolerance, curves)
     right = _crank_flat(found, locks, crank_cone(found), tolerance, curves)
     shift = APART * found.radius_mm + max(bounds(shape).x1 for shape in left)

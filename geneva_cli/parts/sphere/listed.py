@@ -10,7 +10,7 @@ from geneva_cli.curves.sphere import Vector
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sphere.crank import rollers, sectors
+from geneva_cli.parts.sphere.crank import rollers
 from geneva_cli.parts.sphere.drawings import crank_cone, crank_shells, wheel_cone, wheel_shell
 from geneva_cli.parts.sphere.sizes import Ball, ball
 from geneva_cli.parts.sphere.wheel import POLE
@@ -22,8 +22,7 @@ def shell_rows(proof: Proof) -> Iterator[dict[str, object]]:
     Raises GenevaError where the sizes leave none.
     """
     mechanism = proof.mechanism
-    found, spec = ball(mechanism), mechanism.spec
-    locks = sectors(found)
+    spec, found, locks = mechanism.spec, proof.shells.ball, proof.shells.crank
     yield _row(wheel_shell(found), POLE, 1, "wheel", spec.material_wheel.density_kgm3)
     shells = crank_shells(found, locks)
     for count, name, axis in (

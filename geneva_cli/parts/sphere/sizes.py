@@ -20,6 +20,10 @@ from geneva_cli.spec.tables import Z_DRAWN
 LEAST_HORN = 1e-3  # of the roller's angle: a horn at the rim thinner than this is none
 
 
+class NoRoom(GenevaError):
+    """Raised where there is no room for a part, which a smaller roller leaves."""
+
+
 class Ball(NamedTuple):
     """Of a machine whose slots are meridians.
 
@@ -35,6 +39,7 @@ class Ball(NamedTuple):
     roller: float  # half angle of its cone
     half_width: float  # of the slots
     bottom: float  # of the slot's last round, its polar angle
+    mouth: float  # where a roller enters
     rim: float  # the wheel's edge
     inner: float  # where its shell ends towards its axis
     lock: float  # of the locking sectors, 0 for none
@@ -73,8 +78,8 @@ class Ball(NamedTuple):
         return place(self.axes, azimuth)
 
 
-def ball(mechanism: Mechanism) -> Ball:
-    """The sizes of a machine on a sphere.
+def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
+    """The sizes of a machine on a sphere; with another roller than its own, if one is named.
 
     Raises GenevaError, naming the key, where they leave no wheel or no lock.
     """
@@ -87,10 +92,11 @@ def ball(mechanism: Mechanism) -> Ball:
     engagement = mechanism.engagements[0]
     mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
     axes = deepest + arm
-    roller = mechanism.roller_radius_mm / L
+    radius_mm = mechanism.roller_radius_mm if roller_mm is None else roller_mm
+    roller = radius_mm / L
     w = roller + size.allowances.slot_clearance_mm / L
     gap = size.slot_bottom_clearance_mm
-    usual = max(size.allowances.slot_clearance_mm, mechanism.roller_radius_mm / 20.0)
+    usual = max(size.allowances.slot_clearance_mm, radius_mm / 20.0)
     bottom = deepest - (usual if gap is None else gap) / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
@@ -111,6 +117,7 @@ def ball(mechanism: Mechanism) -> Ball:
         roller=roller,
         half_width=w,
         bottom=bottom,
+        mouth=mouth,
         rim=rim,
         inner=inner,
         lock=lock,
@@ -132,10 +139,10 @@ def _lock(mechanism: Mechanism, room: float, least: float, roller: float) -> flo
     room -= size.allowances.lock_clearance_mm / L
     low, high = (L * math.sin(max(0.0, x)) for x in (least, room))
     if room <= least:
-        raise GenevaError(
+        raise NoRoom(
             f"no room for a locking sector: it would have to reach {low:.4g} mm from the crank's "
-            f"axis, to the rim, and the roller leaves {high:.4g} mm; a smaller roller, or "
-            "lock_radius_mm = 0, where the wheel is held in another way",
+            f"axis, to the rim, and the roller leaves {high:.4g} mm; lock_radius_mm = 0 leaves it "
+            "out, where the wheel is held in another way",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
@@ -147,7 +154,7 @@ def _lock(mechanism: Mechanism, room: float, least: float, roller: float) -> flo
 def _refuse(found: Ball) -> None:
     L, b = found.radius_mm, found.half_step
     if found.bottom <= 0.0 or math.sin(found.bottom) * math.sin(b) <= math.sin(found.half_width):
-        raise GenevaError(
+        raise NoRoom(
             "the slots meet beside their ends: roller_radius_mm, slot_clearance_mm and "
             "slot_bottom_clearance_mm are too large for so many slots",
             ("size", "roller_radius_mm"),
@@ -160,9 +167,9 @@ def _refuse(found: Ball) -> None:
             ("size", "wheel_bore_mm"),
         )
     if found.opened() + found.corner() > (1.0 - LEAST_HORN) * b:
-        raise GenevaError(
-            "no horn is left between slot and recess at the rim: a smaller roller or lock_radius_mm"
-            " leaves one",
+        raise NoRoom(
+            "no horn is left between slot and recess at the rim: a smaller lock_radius_mm may "
+            "leave one",
             ("size", "roller_radius_mm"),
         )
     if found.thickness_mm >= L:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.numerics.roots_many import End, boundary_many
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.turn.gaps import Pose
+from geneva_cli.parts.turn.turned import Pose, Turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,36 +23,36 @@ EXACT = 1e-10  # radians: an angle is found to this,
 SHARE = 1e-7  # or to this share of it
 
 
-def search_deg(outlines: Outlines) -> float:
+def search_deg(parts: Turned) -> float:
     """The largest play that is looked for, half a step: beyond it the wheel's position is lost."""
-    return math.degrees(min(engagement.half_step for engagement, _ in outlines.assembly.rollers))
+    return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.rollers))
 
 
-def free_angles(outlines: Outlines, at: Array) -> tuple[Array, Array]:
+def free_angles(parts: Turned, at: Array) -> tuple[Array, Array]:
     """How far the wheel can be turned back and on at input angles (n,), radians, (n,) each."""
     count = len(at)
-    pose = outlines.gaps.pose(at)
+    pose = parts.gaps.pose(at)
     both = np.concatenate((np.arange(count), np.arange(count)))
-    found = _stopped(outlines, pose.at(both), np.repeat((-1.0, 1.0), count))
+    found = _stopped(parts, pose.at(both), np.repeat((-1.0, 1.0), count))
     return found[:count], found[count:]
 
 
-def touching(outlines: Outlines) -> float:
+def touching(parts: Turned) -> float:
     """The largest play, radians, that may be none: parts that touch tangentially part slowly.
 
     It is the angle by which two circles of the rim's radius overlap by ``close``.
     """
-    return math.sqrt(2.0 * outlines.close / outlines.sizes.rim)
+    return math.sqrt(2.0 * parts.close / parts.sizes.rim)
 
 
-def _stopped(outlines: Outlines, pose: Pose, way: Array) -> Array:
+def _stopped(parts: Turned, pose: Pose, way: Array) -> Array:
     """How far the wheel can be turned one way (1 on, -1 back) in each pose until parts touch.
 
     It is turned in steps in which no point of it moves farther than the gap, or than STEP: what a
-    step of that size could skip is less deep than the outlines are exact.
+    step of that size could skip is less deep than the parts are exact.
     """
-    most, together = math.radians(search_deg(outlines)), TOGETHER // len(outlines.gaps.around)
-    count, gaps, close = len(way), outlines.gaps, outlines.close
+    most, together = math.radians(search_deg(parts)), TOGETHER // len(parts.gaps.around)
+    count, gaps, close = len(way), parts.gaps, parts.close
     low, high = np.zeros(count), np.full(count, np.inf)
     g_low = gaps.gap(pose, low, gaps.near) + close
     g_high = np.full(count, -1.0)
@@ -61,7 +60,7 @@ def _stopped(outlines: Outlines, pose: Pose, way: Array) -> Array:
     high[g_low < 0.0] = 0.0
     ahead = 1
     while len(here):
-        first = low[here] + np.maximum(g_low[here] / _reach(outlines), STEP)
+        first = low[here] + np.maximum(g_low[here] / _reach(parts), STEP)
         x = np.minimum(first[:, None] + STEP * np.arange(ahead), most)
         turned = (way[here, None] * x).ravel()
         g = gaps.gap(pose.at(np.repeat(here, ahead)), turned, gaps.near).reshape(x.shape) + close
@@ -76,7 +75,7 @@ def _stopped(outlines: Outlines, pose: Pose, way: Array) -> Array:
     here = np.flatnonzero((high < np.inf) & (high > 0.0))
 
     def left(which: NDArray[np.intp], x: Array, width: float) -> Array:
-        near = min(_reach(outlines) * width, gaps.near)
+        near = min(_reach(parts) * width, gaps.near)
         return gaps.gap(pose.at(here[which]), way[here[which]] * x, near) + close
 
     good, bad = End(low[here], g_low[here]), End(high[here], g_high[here])
@@ -84,6 +83,6 @@ def _stopped(outlines: Outlines, pose: Pose, way: Array) -> Array:
     return low
 
 
-def _reach(outlines: Outlines) -> float:
+def _reach(parts: Turned) -> float:
     """The greatest distance of the wheel's points from its axis."""
-    return max(outlines.sizes.rim, outlines.sizes.outer)
+    return max(parts.sizes.rim, parts.sizes.outer)

@@ -1,4 +1,4 @@
-"""The proof that a machine turns: its outlines through a whole turn of the crank.
+"""The proof that a machine turns: its parts through a whole turn of the crank.
 
 The wheel is turned as the mechanism says, and pushed back and on from there as far as slot and
 lock let it: its play. No parts may overlap, in every dwell something must hold the wheel, and
@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.freedom import EXACT, free_angles, search_deg
 from geneva_cli.parts.turn.play import NEAR, Play, play_of, push_deg, windows
+from geneva_cli.parts.turn.turned import Turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,6 +33,7 @@ DIPS = 12  # smallest gaps that are looked at more closely
 FINER = 9  # positions put around each of them, each time
 ROUNDS = 6
 CHANGE_DEG = 15.0  # of the input, on either side of entry and exit,
+BESIDE = np.geomspace(0.01, 3.0, 12)  # degrees of the input, beside a place that is looked at
 ENDS = 24  # there are that many positions
 
 
@@ -89,22 +90,22 @@ class FullTurn(NamedTuple):
         return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
-def full_turn(outlines: Outlines) -> FullTurn:
-    """Turn the outlines of a machine through a whole turn of its crank.
+def full_turn(parts: Turned) -> FullTurn:
+    """Turn the parts of a machine through a whole turn of its crank.
 
     Raises NotProved where that takes more than ``gaps.WORK``.
     """
-    outlines.gaps.begin()
-    earlier = _earlier(outlines)
-    driving, idle, lock = _smallest(outlines, positions(outlines), earlier)
-    play = play_of(outlines)
-    most = search_deg(outlines)
-    middles = np.array([0.5 * (w.start + w.end) for w in windows(outlines) if w.rests])
-    dwell = np.degrees(np.maximum(*free_angles(outlines, middles))) if len(middles) else np.zeros(0)
-    push = push_deg(outlines, play)
+    parts.gaps.begin()
+    earlier = _earlier(parts)
+    driving, idle, lock = _smallest(parts, positions(parts), earlier)
+    play = play_of(parts)
+    most = search_deg(parts)
+    middles = np.array([0.5 * (w.start + w.end) for w in windows(parts) if w.rests])
+    dwell = np.degrees(np.maximum(*free_angles(parts, middles))) if len(middles) else np.zeros(0)
+    push = push_deg(parts, play)
 
     def shown(found: Place) -> Place:
-        return found._replace(at_deg=outlines.assembly.shown_deg(found.at_deg))
+        return found._replace(at_deg=parts.assembly.shown_deg(found.at_deg))
 
     def most_of(values: Array, at: Array) -> Most:
         return shown(_most(values, at, earlier))
@@ -113,7 +114,7 @@ def full_turn(outlines: Outlines) -> FullTurn:
     return FullTurn(
         shown(driving),
         shown(idle) if idle else None,
-        shown(lock) if outlines.crank else None,
+        shown(lock) if parts.crank else None,
         most_of(dwell, middles),
         most_of(play.either[~play.guided], play.input_deg[~play.guided]),
         most_of(play.both[play.guided], led),
@@ -125,14 +126,27 @@ def full_turn(outlines: Outlines) -> FullTurn:
     )
 
 
-def _earlier(outlines: Outlines) -> Earlier:
+def gap_about(parts: Turned, shown_deg: float) -> float:
+    """The smallest gap of any two parts, mm, at positions about one input angle.
+
+    A few positions instead of a whole turn: to look for a size that frees a machine there.
+    """
+    start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
+    place = parts.assembly.place_deg(shown_deg)
+    at = start + (place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
+    pose = parts.gaps.pose(at)
+    gap = float(parts.gaps.rollers(pose).min())
+    return min(gap, float(parts.gaps.locking(pose).min())) if parts.crank else gap
+
+
+def _earlier(parts: Turned) -> Earlier:
     """What tells which of two input angles of a turn is the earlier, as they are shown.
 
     A turn of the input is shown from half a turn before mid-motion on, so that the second half of
     the last dwell comes first; a period of several turns from the first entry.
     """
-    *_, last = windows(outlines)
-    turn, several = outlines.assembly.turn_deg, outlines.assembly.given.spec.drive.turns > 1
+    *_, last = windows(parts)
+    turn, several = parts.assembly.turn_deg, parts.assembly.given.spec.drive.turns > 1
     middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
     return lambda input_deg: input_deg - turn if input_deg > middle else input_deg
 
@@ -148,9 +162,9 @@ def _most(values: Array, at: Array, earlier: Earlier) -> Most:
     return Most(size, min(at[(first + last) // 2].tolist(), key=earlier))
 
 
-def positions(outlines: Outlines) -> Array:
+def positions(parts: Turned) -> Array:
     """Input angles of one turn, between which no part moves by much of the thinnest feature."""
-    assembly, sizes = outlines.assembly, outlines.sizes
+    assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, 721)
     crank = np.unwrap(assembly.crank(grid))
     way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
@@ -166,12 +180,12 @@ def positions(outlines: Outlines) -> Array:
     return np.unique(np.concatenate((found, near)))
 
 
-def _smallest(outlines: Outlines, at: Array, earlier: Earlier) -> tuple[Gap, Gap | None, Gap]:
+def _smallest(parts: Turned, at: Array, earlier: Earlier) -> tuple[Gap, Gap | None, Gap]:
     """The smallest gaps: of rollers at their own slots, of others meanwhile, of the crank."""
-    gaps = outlines.gaps
+    gaps = parts.gaps
 
     def rollers(x: Array, idle: bool) -> Array:
-        drives = _drives(outlines, x)
+        drives = _drives(parts, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
         out: Array = np.where(meanwhile == idle, gaps.rollers(gaps.pose(x)), np.inf).min(axis=1)
         return out
@@ -180,17 +194,17 @@ def _smallest(outlines: Outlines, at: Array, earlier: Earlier) -> tuple[Gap, Gap
         return gaps.locking(gaps.pose(x))
 
     own, others = partial(rollers, idle=False), partial(rollers, idle=True)
-    several = len(outlines.assembly.rollers) > 1
+    several = len(parts.assembly.rollers) > 1
     return (
-        _least(own, at, outlines.close, earlier, "roller and slot"),
-        _least(others, at, outlines.close, earlier, "idle roller and wheel") if several else None,
-        _least(crank, at, outlines.close, earlier, "locking disc and wheel"),
+        _least(own, at, parts.close, earlier, "roller and slot"),
+        _least(others, at, parts.close, earlier, "idle roller and wheel") if several else None,
+        _least(crank, at, parts.close, earlier, "locking disc and wheel"),
     )
 
 
-def _drives(outlines: Outlines, x: Array) -> NDArray[np.bool_]:
+def _drives(parts: Turned, x: Array) -> NDArray[np.bool_]:
     """Which rollers move the wheel at input angles, (n, m)."""
-    assembly = outlines.assembly
+    assembly = parts.assembly
     half = 0.5 * assembly.turn_deg
     columns = []
     for engagement, behind in assembly.rollers:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from geneva_cli.numerics.budget import check_time
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.contacts import candidates
+from geneva_cli.parts.turn.turned import Pose
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -32,18 +33,6 @@ LONGEST = 0.02  # of the centre distance, between samples of a line
 
 class NotProved(GenevaError):
     """Raised where a full turn would take too long."""
-
-
-class Pose(NamedTuple):
-    """The positions of a machine's parts at n input angles."""
-
-    wheel: Array  # (n,) radians
-    crank: Array  # (n,) radians
-    pins: Array  # (n, m, 2) of the m rollers, mm
-
-    def at(self, which: NDArray[np.intp]) -> Pose:
-        """Some of the positions."""
-        return Pose(self.wheel[which], self.crank[which], self.pins[which])
 
 
 class Gaps:

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.freedom import free_angles, search_deg, touching
-from geneva_cli.parts.turn.gaps import turned_points
+from geneva_cli.parts.turn.turned import Turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,9 +74,9 @@ class Window(NamedTuple):
     rests: bool
 
 
-def windows(outlines: Outlines) -> Iterator[Window]:
+def windows(parts: Turned) -> Iterator[Window]:
     """The motions and dwells of a turn."""
-    assembly, rollers = outlines.assembly, outlines.assembly.rollers
+    assembly, rollers = parts.assembly, parts.assembly.rollers
     for i, (engagement, behind) in enumerate(rollers):
         after, later = rollers[(i + 1) % len(rollers)]
         turns = assembly.turn_deg if i + 1 == len(rollers) else 0.0
@@ -88,18 +87,18 @@ def windows(outlines: Outlines) -> Iterator[Window]:
             yield Window(exit_, following, i, True)
 
 
-def play_of(outlines: Outlines) -> Play:
+def play_of(parts: Turned) -> Play:
     """The play over a turn, ever closer where it is greatest and where it closes fastest."""
-    found = _measured(outlines, _places(outlines))
+    found = _measured(parts, _places(parts))
     for _ in range(CLOSER):
-        more = np.unique(np.concatenate([*_peaks(outlines, found), *_closing(outlines, found)]))
+        more = np.unique(np.concatenate([*_peaks(parts, found), *_closing(parts, found)]))
         if not len(more):
             break
-        found = _merged(found, _measured(outlines, more))
+        found = _merged(found, _measured(parts, more))
     return found
 
 
-def push_deg(outlines: Outlines, play: Play) -> Array:
+def push_deg(parts: Turned, play: Play) -> Array:
     """The pressure angle at which the wheel is pushed into line between positions; 0 if it is not.
 
     While the play becomes less as the crank turns, something pushes the wheel. Where that is a
@@ -111,50 +110,41 @@ def push_deg(outlines: Outlines, play: Play) -> Array:
     free = ~(play.guided[:-1] | play.guided[1:])
     found = np.zeros(len(step))
     for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-        closing = outlines.sizes.rim * np.radians(-np.diff(edge))
+        closing = parts.sizes.rim * np.radians(-np.diff(edge))
         angle = np.where(closing > JUMP * moved, 90.0, push[1:])
-        known = np.radians(edge[:-1]) > touching(outlines)
+        known = np.radians(edge[:-1]) > touching(parts)
         found = np.maximum(found, np.where(free & known & (closing > 0.0), angle, 0.0))
     return found
 
 
-def _places(outlines: Outlines) -> Array:
+def _places(parts: Turned) -> Array:
     """Input angles of a turn, closely where lock and roller change over."""
     close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
     found = []
-    for a, b, _, rests in windows(outlines):
+    for a, b, _, rests in windows(parts):
         near = close * min(CHANGE_DEG, 0.5 * (b - a))
         found += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
     return np.unique(np.concatenate(found))
 
 
-def _measured(outlines: Outlines, at: Array) -> Play:
-    assembly, sizes = outlines.assembly, outlines.sizes
-    back, on = free_angles(outlines, at)
-    pushes = [_pressure(outlines, at, lead) for lead in (-back, on)]
+def _measured(parts: Turned, at: Array) -> Play:
+    assembly = parts.assembly
+    back, on = free_angles(parts, at)
+    pushes = [_pressure(parts, at, lead) for lead in (-back, on)]
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
-    # Level with the mouth's corners: half a slot's width beside its middle, on the rim.
-    level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
     last = assembly.start_deg + assembly.turn_deg
-    for a, b, roller, rests in windows(outlines):
+    for a, b, roller, rests in windows(parts):
         here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
         x = at[here]
         low, high = np.maximum(x - SMALL, assembly.start_deg), np.minimum(x + SMALL, last)
-        moved = _in_wheel(outlines, roller, high) - _in_wheel(outlines, roller, low)
-        speed[here] = np.maximum(speed[here], np.hypot(*moved.T) / (high - low))
+        moved = parts.in_wheel(roller, high) - parts.in_wheel(roller, low)
+        speed[here] = np.maximum(speed[here], np.linalg.norm(moved, axis=1) / (high - low))
         if rests:
             resting[here] = True
         else:
-            far = np.hypot(*assembly.pin(roller, x).T)
-            guided[here] |= assembly.sign * (level - far) > -NEAR * assembly.L
+            guided[here] |= parts.past_mouth(roller, x) > -NEAR * assembly.L
     return Play(at, np.degrees(back), np.degrees(on), resting, guided & ~resting, speed, *pushes)
-
-
-def _in_wheel(outlines: Outlines, roller: int, at: Array) -> Array:
-    """A roller's centre in the wheel's frame, (n, 2)."""
-    assembly = outlines.assembly
-    return turned_points(assembly.pin(roller, at), -assembly.wheel(at))
 
 
 def _merged(a: Play, b: Play) -> Play:
@@ -173,9 +163,9 @@ def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
     return found
 
 
-def _peaks(outlines: Outlines, play: Play) -> Iterator[Array]:
+def _peaks(parts: Turned, play: Play) -> Iterator[Array]:
     """Places beside the greatest plays, in slots and elsewhere."""
-    least, most = math.degrees(touching(outlines)), search_deg(outlines)
+    least, most = math.degrees(touching(parts)), search_deg(parts)
     for edge in (play.back, play.on, play.both):
         for where in (play.guided, ~play.guided):
             value = np.where(where & (edge < most) & (edge > least), edge, -1.0)
@@ -190,18 +180,18 @@ def _peaks(outlines: Outlines, play: Play) -> Iterator[Array]:
             yield _cut(play, np.concatenate((top - 1, top)))
 
 
-def _closing(outlines: Outlines, play: Play) -> Iterator[Array]:
+def _closing(parts: Turned, play: Play) -> Iterator[Array]:
     """Places where the wheel's play closes fastest."""
-    angle = push_deg(outlines, play)
+    angle = push_deg(parts, play)
     if angle.max() > 0.0:
         top = np.argsort(-angle, kind="stable")[:MOST]
         yield _cut(play, np.concatenate((top - 1, top, top + 1)))
 
 
-def _pressure(outlines: Outlines, at: Array, lead: Array) -> Array:
+def _pressure(parts: Turned, at: Array, lead: Array) -> Array:
     """Pressure angles, degrees, of rollers that stop the wheel at its play ``lead``, radians."""
-    gaps, out = outlines.gaps, np.zeros(len(at))
-    here = np.flatnonzero(np.abs(lead) > touching(outlines))
+    gaps, out = parts.gaps, np.zeros(len(at))
+    here = np.flatnonzero(np.abs(lead) > touching(parts))
     if len(here):
         pose, lead = gaps.pose(at[here]), lead[here]
         stops = gaps.rollers(pose, lead).min(axis=1) <= gaps.locking(pose, lead)

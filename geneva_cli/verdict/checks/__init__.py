@@ -18,6 +18,7 @@ from geneva_cli.verdict.checks.registry import (
     MOTION,
     check_named,
     motion_checks,
+    shell_checks,
     static_checks,
     turn_checks,
 )
@@ -51,11 +52,11 @@ def single_check(mechanism: Mechanism, name: str) -> Check | None:
 
 
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
-    """Walls, shafts and the full turn of a machine with flat parts.
+    """Walls, shafts and the full turn of a machine whose parts are drawn.
 
     Where the parts cannot be made, or turned, one check says so in place of the rest.
     """
-    if not mechanism.spec.is_flat:
+    if not mechanism.spec.has_parts:
         yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
         return
     from geneva_cli.parts.proof import Proof
@@ -63,7 +64,8 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
 
     proof = proof or Proof(mechanism)
     try:
-        rows = list(static_checks(proof.found))
+        flat = mechanism.spec.wheel.FLAT
+        rows = list(static_checks(proof.found) if flat else shell_checks(proof.shells))
     except GenevaError as error:
         yield Check("parts", 0.0, "at least", 1.0, False, str(error))
         return
@@ -73,14 +75,12 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     except NotProved as error:
         yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
         return
-    yield from turn_checks(proof.found, turn)
+    yield from turn_checks(proof.turned, turn)
 
 
 def _unturned(mechanism: Mechanism) -> str:
     """Why no full turn is made."""
     spec = mechanism.spec
-    if not spec.wheel.FLAT:
-        return "the parts of a spherical wheel are not drawn or turned against each other"
     if spec.wheel.z > Z_DRAWN:
         return f"wheels of more than {Z_DRAWN} slots are not drawn"
     return f'the parts of kind = "{spec.drive.NAME}" are not drawn or turned against each other'

@@ -15,7 +15,9 @@ from geneva_cli.verdict.checks.check import Check
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.parts.sphere.shells import Shells
     from geneva_cli.parts.turn.full_turn import FullTurn
+    from geneva_cli.parts.turn.turned import Turned
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
@@ -70,7 +72,16 @@ STATIC: Checks = {
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
 }
-# Of flat parts in a whole turn.
+# Of the shells of a sphere, without turning them.
+SPHERE: Checks = {
+    "wall_between_slots_mm": "sphere:between_slots",
+    "horn_mm": "sphere:horn",
+    "wheel_bore_wall_mm": "sphere:wheel_bore",
+    "crank_shaft_mm": "sphere:crank_shaft",
+    "wheel_shaft_mm": "sphere:wheel_shaft",
+    "arm_to_hub_mm": "sphere:arm_to_hub",
+}
+# Of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
     "gap_mm": "touching:smallest_gap",
@@ -92,7 +103,12 @@ def static_checks(found: Outlines) -> Iterator[Check]:
     yield from _made(STATIC, found)
 
 
-def turn_checks(found: Outlines, turn: FullTurn) -> Iterator[Check]:
+def shell_checks(found: Shells) -> Iterator[Check]:
+    """The checks of a sphere's shells at rest: walls, shafts."""
+    yield from _made(SPHERE, found)
+
+
+def turn_checks(found: Turned, turn: FullTurn) -> Iterator[Check]:
     """The checks of a whole turn: no parts overlap; the wheel is held and led."""
     yield from _made(TURNING, found, turn)
 

@@ -26,26 +26,39 @@ NAMES = [
 
 
 def parts(proof: Proof) -> Values:
-    """None where there are no flat parts; ``parts.none`` says why they cannot be made."""
+    """None where there are no parts; ``parts.none`` says why they cannot be made.
+
+    Of a sphere what a turn shows, and the horn: its sizes are angles, in the list of parts.
+    """
     values: Values = dict.fromkeys(NAMES)
-    if not proof.mechanism.spec.is_flat:
+    if not proof.mechanism.spec.has_parts:
         return values
     try:
-        found, turn = proof.found, proof.turn
+        return values | _turned(proof) | (_sizes(proof) if proof.mechanism.spec.is_flat else {})
     except GenevaError as error:
         return values | {"parts.none": str(error)}
-    size, gap = found.sizes, turn.smallest
+
+
+def _turned(proof: Proof) -> Values:
+    found, turn = proof.turned, proof.turn
+    gap, locked = turn.smallest, bool(found.crank)
+    return {
+        "parts.horn_mm": found.sizes.horn if locked else None,
+        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > found.contact else 0.0,
+        "parts.smallest_gap_at_deg": gap.at_deg,
+        "parts.dwell_play_deg": turn.dwell.deg if locked else None,
+    }
+
+
+def _sizes(proof: Proof) -> Values:
+    found, size = proof.found, proof.found.sizes
     locked = bool(found.crank)
-    return values | {
+    return {
         "parts.rim_radius_mm": size.rim,
         "parts.slot_end_radius_mm": size.slot_end,
         "parts.lock_radius_mm": size.lock,
         "parts.recess_radius_mm": size.recess if locked else None,
         "parts.relief": found.relief if locked else None,
-        "parts.horn_mm": size.horn if locked else None,
         "parts.wheel_bore_mm": 2.0 * size.wheel_bore,
         "parts.crank_bore_mm": 2.0 * size.crank_bore,
-        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > found.contact else 0.0,
-        "parts.smallest_gap_at_deg": gap.at_deg,
-        "parts.dwell_play_deg": turn.dwell.deg if locked else None,
     }

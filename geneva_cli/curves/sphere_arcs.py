@@ -1,0 +1,107 @@
+"""Arcs of circles on a unit sphere, all together: how far points are from them, what faces them.
+
+The distance of two points is the angle between them; where two boundaries of such arcs are nearest
+to each other, one has a corner, or both circles' axes and the place lie on one great circle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.sphere import SphereArc
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+FLAT = 1e-9  # radians: a corner that turns by less is none
+
+
+class Arcs:
+    """A boundary of arcs, each from where the one before it ends; what it bounds is to its left.
+
+    One that is not closed is a stretch of a boundary: it goes on smoothly at its ends.
+
+    >>> import math
+    >>> from geneva_cli.curves.sphere import place
+    >>> cap = Arcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
+    >>> away, _ = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
+    >>> away.round(12).tolist()  # outside, and inside
+    [0.2, -0.3]
+    """
+
+    def __init__(self, arcs: Sequence[SphereArc], closed: bool = True) -> None:
+        self.axis = np.array([arc.axis for arc in arcs])
+        self.x = np.array([arc.ahead for arc in arcs])
+        self.y = np.cross(self.axis, self.x)
+        self.angle = np.array([arc.angle for arc in arcs])
+        self.sweep = np.array([arc.sweep for arc in arcs])
+        self.start = np.array([arc.start for arc in arcs])
+        self.middle = self.at(np.arange(len(arcs)), 0.5 * self.sweep)
+        half = np.sin(self.angle) * np.sin(0.25 * self.sweep)
+        self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # from its middle to its ends
+        turns = [_turn(before, arc) for before, arc in zip((arcs[-1], *arcs), arcs, strict=False)]
+        if not closed:
+            turns[0] = 0.0
+        self.first = np.array(turns)  # how far it turns to the left before each arc,
+        self.last = np.array([*turns[1:], turns[0]])  # and after it
+
+    def __len__(self) -> int:
+        return len(self.angle)
+
+    def at(self, which: NDArray[np.intp], turn: Array) -> Array:
+        """Points of some of the arcs, (n, 3), at angles about their axes from their starts."""
+        c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
+        flat = np.sin(self.angle[which])[:, None]
+        ahead = c * self.x[which] + s * self.y[which]
+        out: Array = np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
+        return out
+
+    def signed(self, points: Array) -> tuple[Array, Array]:
+        """The distance of points (n, 3) from the boundary, radians, negative inside; and the
+        nearest points of it, (n, 3)."""
+        along, aside = points @ self.x.T, points @ self.y.T
+        across = np.hypot(along, aside)
+        off = np.arctan2(across, points @ self.axis.T) - self.angle
+        turn = np.remainder(np.arctan2(aside, along), 2.0 * np.pi)
+        past, short = turn - self.sweep, 2.0 * np.pi - turn
+        beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
+        # of the triangle of axis, point and the arc's end, without cancellation
+        square = np.sin(0.5 * off) ** 2
+        square = square + np.sin(self.angle) * across * np.sin(0.5 * beyond) ** 2
+        near = np.argmin(square, axis=1)
+        row = np.arange(len(points))
+        away = 2.0 * np.arcsin(np.sqrt(np.minimum(square[row, near], 1.0)))
+        at_start = short[row, near] < past[row, near]
+        corner = np.where(at_start, self.first[near], self.last[near])
+        corner = np.where((beyond[row, near] > 0.0) & (np.abs(corner) > FLAT), corner, 0.0)
+        outside = np.where(corner != 0.0, corner > 0.0, off[row, near] > 0.0)
+        end = np.where(at_start, 0.0, self.sweep[near])
+        foot = np.where(past[row, near] <= 0.0, turn[row, near], end)
+        return np.where(outside, away, -away), self.at(near, foot)
+
+    def facing(self, which: NDArray[np.intp], towards: Array) -> tuple[NDArray[np.intp], Array]:
+        """Points of some of the arcs that face directions (n, 3), or are turned away from them.
+
+        On the great circle through the arc's axis and the direction; which of the n each is for
+        comes first.
+        """
+        along = (towards * self.x[which]).sum(axis=1)
+        turn = np.arctan2((towards * self.y[which]).sum(axis=1), along)
+        owner, points = [], []
+        for opposite in (0.0, np.pi):
+            at = np.remainder(turn + opposite, 2.0 * np.pi)
+            on = np.flatnonzero(at <= self.sweep[which])
+            owner.append(on)
+            points.append(self.at(which[on], at[on]))
+        return np.concatenate(owner), np.concatenate(points)
+
+
+def _turn(before: SphereArc, after: SphereArc) -> float:
+    """How far a boundary turns to the left from one arc to the next."""
+    back, on = np.array(before.way(before.end)), np.array(after.way(after.start))
+    return float(np.arctan2(np.cross(back, on) @ np.array(after.start), back @ on))

@@ -1,0 +1,165 @@
+"""The full turn of spherical machines: gaps by sampled points, plays by the flat wheel's limit."""
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli import Crank, Design, External, Size, Spherical
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sphere.crank import at_mid_motion
+from geneva_cli.parts.sphere.gaps import BallGaps
+from geneva_cli.parts.sphere.shells import shells
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.gaps import NEAR
+from geneva_cli.verdict.checks import all_pass, checks
+
+CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
+
+
+def turned(u, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack((u[:, 0] * c - u[:, 1] * s, u[:, 0] * s + u[:, 1] * c, u[:, 2]))
+
+
+def sampled(arcs, each=400):
+    share = np.linspace(0.0, 1.0, each)
+    every = [arcs.at(np.full(each, i), share * arcs.sweep[i]) for i in range(len(arcs))]
+    return np.concatenate(every)
+
+
+def angles(a, b):
+    return 2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(a[:, None] - b[None], axis=2), 1.0))
+
+
+def test_distances_are_those_of_sampled_points():
+    """Within half a step of the samples, squared, over twice the distance; nearest points too."""
+    found = shells(Design(Spherical(5, axes_deg=70), size=Size(80.0, 5.0, **CLEAR)).mechanism)
+    for arcs in (found.gaps.wheel, *found.gaps.sectors):
+        edge = sampled(arcs)
+        rng = np.random.default_rng(1)
+        points = np.concatenate((rng.normal(size=(60, 3)), edge[::97] + 0.02))
+        points /= np.linalg.norm(points, axis=1)[:, None]
+        away, foot = arcs.signed(points)
+        least = angles(points, edge).min(axis=1)
+        step = (arcs.sweep * np.sin(arcs.angle)).max() / 400
+        assert (np.abs(away) <= least + 1e-12).all()
+        assert (least - np.abs(away) <= step).all()
+        assert np.abs(angles(points, foot).diagonal() - np.abs(away)).max() < 1e-12
+
+
+def test_nearly_parallel_shafts_are_a_flat_machine():
+    """At 0.2 degrees the sphere's radius is 287 L; what is left is of the order of L/R, squared
+    for curvature, and of the first order where the deepest roller is 3e-3 L farther in."""
+    size = {**CLEAR, "slot_bottom_clearance_mm": 0.3}
+    far = 100.0 / math.radians(0.2)
+    flat = Proof(Design(External(6), size=Size(100.0, 5.0, **size)).mechanism).turn
+    ball = Design(Spherical(6, axes_deg=0.2), size=Size(far, 5.0, wheel_bore_mm=10.0, **size))
+    found = Proof(ball.mechanism).turn
+    for name in ("dwell", "hand_over", "motion", "push"):
+        assert getattr(found, name).deg == pytest.approx(getattr(flat, name).deg, rel=2e-3)
+    for name in ("driving", "lock"):
+        assert getattr(found, name).mm == pytest.approx(getattr(flat, name).mm, rel=1e-6)
+    assert found.hand_over.at_deg == pytest.approx(flat.hand_over.at_deg, abs=0.01)
+
+
+def least_gap(found, at):
+    """In mm, at one input angle: sampled points of the wheel's edge against the sectors, which are
+    between two azimuths and two angles from the crank's axis."""
+    gaps, lead = found.gaps, float(found.assembly.wheel(np.array([at]))[0])
+    wheel = turned(sampled(gaps.wheel, 1500), lead) @ np.array(at_mid_motion(found.ball)).T
+    seen = turned(wheel, math.radians(at))
+    least = math.inf
+    for sector in gaps.sectors:
+        edge = sampled(sector)
+        polar, azimuth = np.arccos(edge[:, 2]), np.arctan2(edge[:, 1], edge[:, 0])
+        seen_polar, seen_azimuth = np.arccos(seen[:, 2]), np.arctan2(seen[:, 1], seen[:, 0])
+        off = np.remainder(seen_azimuth - azimuth[0], math.tau)
+        wide = np.remainder(azimuth - azimuth[0], math.tau).max()
+        inside = (off < wide) & (seen_polar < polar.max()) & (seen_polar > polar.min())
+        near = np.flatnonzero(seen_polar < polar.max() + 0.03)
+        away = angles(seen[near], edge).min(axis=1, initial=math.pi)
+        least = min(least, float(np.where(inside[near], -away, away).min(initial=math.pi)))
+    return found.ball.radius_mm * least
+
+
+@pytest.mark.parametrize(("axes", "z"), [(60.0, 5), (90.0, 6), (120.0, 7)])
+def test_gaps_are_those_of_sampled_edges(axes, z):
+    """Through a turn, within a sample's step; and where they are wide, as that."""
+    size = Size(80.0, 4.0, lock_clearance_mm=0.5, slot_clearance_mm=0.1)
+    found = shells(Design(Spherical(z, axes_deg=axes), size=size).mechanism)
+    start = found.assembly.start_deg
+    at = start + np.linspace(1.0, 350.0, 13)
+    told = found.gaps.locking(found.gaps.pose(at))
+    wide = NEAR * 80.0
+    for x, gap in zip(at, told, strict=True):
+        by_points = min(least_gap(found, x), wide)
+        # the sectors' corners are looked at besides, and may be nearer than the wheel's points are
+        assert -1e-9 < gap <= by_points + 1e-9
+        assert by_points - gap < 0.15 or gap < wide
+
+
+@pytest.mark.parametrize("design", [
+    Design(Spherical(6), size=Size(80.0, 5.0)),
+    Design(Spherical(5, axes_deg=60), Crank(rollers=2), size=Size(80.0, 5.0, **CLEAR)),
+    Design(Spherical(8, axes_deg=120), size=Size(80.0, 3.0, **CLEAR)),
+])  # fmt: skip
+def test_machines_of_default_sizes_pass(design):
+    rows = {c.name: c for c in checks(design.mechanism)}
+    assert all_pass(rows.values())
+    assert rows["gap_mm"].value == pytest.approx(
+        design.spec.size.lock_clearance_mm or 0.0, abs=1e-9
+    )
+    assert rows["dwell_hold"].value == 1.0
+
+
+def spoilt(**sizes):
+    """The gaps of a machine of which some angles are larger by so many mm."""
+    found = shells(Design(Spherical(6, axes_deg=100), size=Size(80.0, 5.0, **CLEAR)).mechanism)
+    ball = found.ball._replace(**{k: getattr(found.ball, k) + v / 80.0 for k, v in sizes.items()})
+    return full_turn(found._replace(gaps=BallGaps(found.assembly, ball, found.crank)))
+
+
+def test_spoilt_machines_overlap_by_as_much():
+    assert spoilt(roller=0.15).driving.mm == pytest.approx(-0.10, abs=1e-9)
+    assert spoilt(recess=-0.10).lock.mm == pytest.approx(-0.06, abs=1e-9)
+    assert spoilt(rim=0.5).smallest.mm < -0.01
+
+
+def test_a_sector_is_narrower_where_the_wheel_sweeps_over_its_ends():
+    """Shafts at 140 degrees and 16 slots: not all of the way between two rollers is free."""
+    design = Design(Spherical(16, axes_deg=140), size=Size(100.0, 5.0))
+    (sector,) = shells(design.mechanism).crank
+    whole = math.radians(360.0 - design.timing.motion_deg)
+    assert 0.5 * whole < sector.boundary[0].sweep < 0.95 * whole
+    rows = {c.name: c for c in checks(design.mechanism)}
+    assert rows["gap_mm"].passes
+    assert rows["dwell_hold"].passes
+
+
+def test_a_roller_that_leaves_room_is_named():
+    design = Design(Spherical(6, axes_deg=170), size=Size(80.0, 5.0))
+    with pytest.raises(GenevaError, match="whole locking sector") as error:
+        shells(design.mechanism)
+    most = float(str(error.value).rpartition("a roller of ")[2].partition(" mm")[0])
+    assert shells(design.with_("size.roller_radius_mm", most).mechanism).crank
+    with pytest.raises(GenevaError, match="whole locking sector"):
+        shells(design.with_("size.roller_radius_mm", 1.2 * most).mechanism)
+
+
+def test_shafts_and_arm_have_room_or_not():
+    given = Size(80.0, 5.0, wheel_hub_mm=30.0, arm_eye_mm=20.0, wheel_bore_mm=20.0)
+    design = Design(Spherical(6, axes_deg=75), size=given)
+    rows = {c.name: c for c in checks(design.mechanism)}
+    ball = shells(design.mechanism).ball
+    hub = math.asin(15.0 / 80.0)
+    eye = math.radians(75.0) - ball.arm - 10.0 / 80.0
+    assert rows["arm_to_hub_mm"].value == pytest.approx(80.0 * (eye - hub), rel=1e-12)
+    deepest = ball.bottom - ball.half_width
+    assert rows["wheel_shaft_mm"].value == pytest.approx(80.0 * (deepest - hub), rel=1e-12)
+    assert not next(
+        c
+        for c in checks(design.with_("size.arm_eye_mm", 110.0).mechanism)
+        if c.name == "arm_to_hub_mm"
+    ).passes
