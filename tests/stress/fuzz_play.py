@@ -40,6 +40,8 @@ def deeper(found, more_lock):
     Raises GenevaError where that leaves no horn.
     """
     size = found.sizes._replace(recess=found.sizes.recess + more_lock)
+    if size.horn <= 0.0:
+        raise GenevaError("the recess breaks into the slot")  # as the check of the horn says
     wheel = wheel_contour(found.assembly, size, found.slots)
     gaps = Gaps(found.assembly, size, wheel, found.crank)
     return found._replace(sizes=size, wheel=wheel, gaps=gaps)
