@@ -9,7 +9,6 @@ import json
 import math
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -80,8 +79,7 @@ def new(kind: str) -> str:
     return shown.stdout
 
 
-@dataclass(frozen=True, kw_only=True)
-class Reduced(Transmission):
+class Reduced(Transmission, kw_only=True):
     """A reduction gear before the crank."""
 
     NAME: ClassVar[str] = "reduced"
@@ -119,7 +117,6 @@ def test_a_drive(add: Add, run: Callable[..., Any]) -> None:
     assert run("check", text)["rows"]  # and exit status 0
 
 
-@dataclass(frozen=True)
 class Leaning(Gearing):
     """A wheel with grooves, whose crank's shaft leans about the line of centres, above it.
 
@@ -218,7 +215,6 @@ def test_a_wheel_whose_crank_is_at_an_angle_and_offset(add: Add, run: Callable[.
     assert run("report", text)["timing"]["index_deg"] == 60.0
 
 
-@dataclass(frozen=True)
 class Flattened(Law):
     """ds/du as (u (1 - u))^n, n a number of the user's."""
 

@@ -52,7 +52,6 @@ NEEDED = {
 }
 
 
-@dataclass(frozen=True)
 class Motion(SpecTable):
     """``[motion]``: present when the motion is given and the slots are solved for.
 

@@ -19,6 +19,7 @@ from typing import (
     NamedTuple,
     Self,
     TypeAlias,
+    dataclass_transform,
     get_args,
     get_origin,
     get_type_hints,
@@ -57,11 +58,19 @@ class Field(NamedTuple):
     meaning: str
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class SpecTable:
-    """A table of the spec. Raises GenevaError, naming table and key, for a value it cannot have."""
+    """A table of the spec. Raises GenevaError, naming table and key, for a value it cannot have.
+
+    Each class of tables is a frozen dataclass of its annotated fields, without a decorator. What
+    all of them do alike is written here, and not generated for each, which takes a run longer.
+    """
 
     TABLE: ClassVar[str] = ""  # its name in the file
+
+    def __init_subclass__(cls, kw_only: bool = False) -> None:
+        dataclasses.dataclass(frozen=True, eq=False, repr=False, kw_only=kw_only)(cls)
 
     def __post_init__(self) -> None:
         for field in fields(type(self)):
@@ -69,6 +78,22 @@ class SpecTable:
             if value is not field.default:
                 value = checked(self.TABLE, field, value)
                 object.__setattr__(self, field.attribute, value)
+
+    def _values(self) -> dict[str, Any]:
+        """The values by their fields."""
+        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+
+    def __eq__(self, other: object) -> bool:
+        if not (isinstance(other, SpecTable) and type(other) is type(self)):
+            return NotImplemented
+        return self._values() == other._values()
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._values().values()))
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value!r}" for name, value in self._values().items())
+        return f"{type(self).__qualname__}({values})"
 
     def as_dict(self) -> dict[str, Any]:
         """The values by their keys.

@@ -3,9 +3,6 @@
 A key that is a Python keyword ends in an underscore here. ``None`` means: derived from the rest.
 """
 
-from __future__ import annotations
-
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
@@ -18,7 +15,6 @@ Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
 Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
 
 
-@dataclass(frozen=True)
 class Size(SpecTable):
     """``[size]``.
 
@@ -162,7 +158,6 @@ class Size(SpecTable):
         return usual._replace(**{key: v for key, v in given.items() if v is not None})
 
 
-@dataclass(frozen=True)
 class Load(SpecTable):
     """``[load]``.
 
@@ -191,7 +186,6 @@ class Load(SpecTable):
         return self.friction_at == "slot"
 
 
-@dataclass(frozen=True)
 class Mass(SpecTable):
     """One ``[[mass]]``: a body that the wheel carries, or several alike.
 
@@ -255,7 +249,6 @@ class Mass(SpecTable):
             )
 
 
-@dataclass(frozen=True)
 class Support(SpecTable):
     """``[support]``: the bearing of the table that the wheel turns, and the gears to it.
 
@@ -283,7 +276,6 @@ class Support(SpecTable):
         return self.friction * self.force_N * self.radius_mm * 1e-3
 
 
-@dataclass(frozen=True)
 class Motor(SpecTable):
     """``[motor]``: what is behind the input shaft.
 
@@ -304,7 +296,6 @@ class Motor(SpecTable):
     ] = None
 
 
-@dataclass(frozen=True)
 class Shaft(SpecTable):
     """``[shaft]``: the shafts of wheel and crank, and what is elastic between wheel and load.
 
@@ -334,7 +325,6 @@ class Shaft(SpecTable):
     shear_modulus_GPa: Annotated[float, POSITIVE, "shear modulus G"] = 80.8
 
 
-@dataclass(frozen=True)
 class Material(SpecTable):
     """What a part is made of; steel where nothing is said."""
 
@@ -344,7 +334,6 @@ class Material(SpecTable):
     stress_max_MPa: Annotated[float | None, POSITIVE, "allowable stress"] = None
 
 
-@dataclass(frozen=True)
 class WheelMaterial(Material):
     """``[material.wheel]``.
 
@@ -359,7 +348,6 @@ class WheelMaterial(Material):
     ] = None
 
 
-@dataclass(frozen=True)
 class RollerMaterial(Material):
     """``[material.roller]``: of the roller and its pin.
 
@@ -374,7 +362,6 @@ class RollerMaterial(Material):
     ] = None
 
 
-@dataclass(frozen=True)
 class Tolerance(SpecTable):
     """``[tolerance]``: the dimensions' deviations, each plus or minus.
 
@@ -396,7 +383,6 @@ class Tolerance(SpecTable):
     ] = "uniform"
 
 
-@dataclass(frozen=True)
 class Limits(SpecTable):
     """``[limits]``: what ``geneva check`` holds the design against.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
@@ -28,8 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
 
 
-@dataclass(frozen=True, kw_only=True)
-class Cam(PinPath):
+class Cam(PinPath, kw_only=True):
     """A fixed groove guides the roller along the crank.
 
     Needs a ``Motion``: its law is what the groove is cut to. The slots stay straight and radial.

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from geneva_cli.machine.drives.transmission import About, Transmission, same
 
 
-@dataclass(frozen=True, kw_only=True)
-class Crank(Transmission):
+class Crank(Transmission, kw_only=True):
     """The plain crank: crank angle and input angle are one.
 
     ``n_rpm`` is its constant speed, ``rollers`` how many it carries, evenly unless

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
@@ -54,8 +53,7 @@ class FirstWheel(NamedTuple):
     distance_mm: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Drive(SpecTable):
+class Drive(SpecTable, kw_only=True):
     """A kind of drive; its fields are the keys of ``[drive]``."""
 
     TABLE: ClassVar[str] = "drive"

@@ -9,7 +9,6 @@ Source: the focal property of the ellipse; the same law is Kepler's true anomaly
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -28,8 +27,7 @@ from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 MOST = 1.0 - 0.999e-12
 
 
-@dataclass(frozen=True, kw_only=True)
-class EllipticalGears(Transmission):
+class EllipticalGears(Transmission, kw_only=True):
     """Two equal ellipses: the index in their slow phase, or in their quick one.
 
     ``eccentricity`` is that of the pitch ellipses, 0 or more and below 1; they turn about a focus.

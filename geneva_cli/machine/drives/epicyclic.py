@@ -9,7 +9,6 @@ this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b. The
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse
@@ -31,8 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-@dataclass(frozen=True, kw_only=True)
-class Epicyclic(PinPath):
+class Epicyclic(PinPath, kw_only=True):
     """A planet carries the roller.
 
     ``planet_ratio`` is the planet's crank over the centre distance, or "shockless" for the one

@@ -7,7 +7,6 @@ not given but solved for.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple
 
@@ -22,8 +21,7 @@ from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 
-@dataclass(frozen=True, kw_only=True)
-class FourBar(Linkage):
+class FourBar(Linkage, kw_only=True):
     """A point of a four-bar's coupler carries the roller.
 
     Links in mm, ``point_deg`` from the coupler's line to the roller's; the wheel that the path can

@@ -10,7 +10,6 @@ where a_t = 0 and the pitch circles are R and L - R. The step is 2 (b - psi_t) +
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -33,8 +32,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-@dataclass(frozen=True, kw_only=True)
-class GearSector(PinPath):
+class GearSector(PinPath, kw_only=True):
     """Slot, gears at constant ratio, slot.
 
     ``sector_deg`` is the crank's angle in gear; ``gear_ratio`` the wheel's speed over the crank's

@@ -8,7 +8,6 @@ squared times tan b: none where both motions begin together (as with four slots 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.drives.drive import FirstWheel, Plan
@@ -28,8 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-@dataclass(frozen=True, kw_only=True)
-class GenevaPair(Transmission):
+class GenevaPair(Transmission, kw_only=True):
     """An external wheel in front of the crank: one index in many turns of the input.
 
     ``first_z`` is the number of its slots: so many turns of the input are one index.

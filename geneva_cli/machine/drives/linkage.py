@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import math
 from abc import abstractmethod
-from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import reduce
 from typing import (
@@ -48,8 +47,7 @@ Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
 LENGTHS = 1e4  # greatest ratio of two links: beyond it the path is a point, or rounding
 
 
-@dataclass(frozen=True, kw_only=True)
-class Linkage(PinPath):
+class Linkage(PinPath, kw_only=True):
     """A linkage; the position of the wheel's centre is solved for.
 
     Its crank does not carry the roller, and so no locking disc.

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
 from decimal import ROUND_FLOOR, Decimal, localcontext
 from functools import lru_cache
 from typing import Annotated, ClassVar, NamedTuple
@@ -35,8 +34,7 @@ TURN = FIFTY.multiply(2, PI)
 MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
 
 
-@dataclass(frozen=True, kw_only=True)
-class NoncircularGears(Transmission):
+class NoncircularGears(Transmission, kw_only=True):
     """Gears of any ratio that closes over a turn.
 
     Either the side-crank's ``A``, or the points of a ratio, output speed over input speed, over a

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
@@ -10,8 +9,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
 
 
-@dataclass(frozen=True, kw_only=True)
-class PinPath(Drive):
+class PinPath(Drive, kw_only=True):
     """A drive whose roller is not carried on the crank's circle."""
 
     GEARINGS: ClassVar[tuple[str, ...]] = ("external",)

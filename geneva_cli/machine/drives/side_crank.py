@@ -6,7 +6,6 @@ of the Maltese cross mechanism with a side-crank drive".
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
@@ -24,8 +23,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-@dataclass(frozen=True, kw_only=True)
-class SideCrank(Transmission):
+class SideCrank(Transmission, kw_only=True):
     """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 quickens it.
 
     ``A`` is the distance of the two axes over the input crank's length, between -1 and 1.

@@ -7,7 +7,6 @@ centre is not given but solved for.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -20,8 +19,7 @@ from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 
 
-@dataclass(frozen=True, kw_only=True)
-class SliderCrank(Linkage):
+class SliderCrank(Linkage, kw_only=True):
     """A point of a connecting rod carries the roller.
 
     Links in mm, ``point_deg`` from the rod's line to the roller's; the wheel that the path can

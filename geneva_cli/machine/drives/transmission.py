@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -59,8 +58,7 @@ class PinTravel(NamedTuple):
         return self.pose.displacement(*self.advance(tau, order))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Transmission(Drive):
+class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and no more if it needs no more."""
 
     LAW: ClassVar[Needs] = Needs.MAY

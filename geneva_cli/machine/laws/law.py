@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.spline import Doubt
 
 
-@dataclass(frozen=True)
 class Law(SpecTable):
     """A motion law; its fields are the keys that it adds to ``[motion]``."""
 

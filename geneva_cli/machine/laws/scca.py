@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
@@ -15,7 +14,6 @@ LEAST = 1e-3  # the least share: of a shorter rise the jerk is a jump in all but
 ROUNDED = 2e-6  # by which b + c + d may miss 1: thirds are written with six digits
 
 
-@dataclass(frozen=True)
 class SineConstantCosine(Law):
     """SCCA(b, c, d): harmonic (0, 0, 1), cycloidal (1/2, 0, 1/2), modified sine (1/4, 0, 3/4),
     modified trapezoid (1/4, 1/2, 1/4), constant acceleration (0, 1, 0) and what lies between.

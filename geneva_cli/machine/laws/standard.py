@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from geneva_cli.machine.laws.law import Law, from_velocity
@@ -17,7 +16,6 @@ def _sine(x: Jet) -> Jet:
     return sin_cos(x)[0]
 
 
-@dataclass(frozen=True)
 class Harmonic(Law):
     """Simple sine line: ds/du = (pi/2) sin(pi u).
 
@@ -40,7 +38,6 @@ class Harmonic(Law):
         )
 
 
-@dataclass(frozen=True)
 class Cycloidal(Law):
     """Inclined sine line: ds/du = 2 sin²(pi u).
 
@@ -65,7 +62,6 @@ class Cycloidal(Law):
         )
 
 
-@dataclass(frozen=True)
 class _InShares(Law):
     """A law whose acceleration is a sine, constant and a cosine in fixed shares of the time."""
 
@@ -82,7 +78,6 @@ class _InShares(Law):
         return first_half(u, order, *self.SHARES)
 
 
-@dataclass(frozen=True)
 class ModifiedTrapezoid(_InShares):
     """Modified acceleration trapezoid: constant acceleration, joined by quarter sines.
 
@@ -98,7 +93,6 @@ class ModifiedTrapezoid(_InShares):
     SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.25, 0.0)
 
 
-@dataclass(frozen=True)
 class ModifiedSine(_InShares):
     """Modified sine line: sine acceleration of period 1/2 for u < 1/8, of period 3/2 between.
 
@@ -114,7 +108,6 @@ class ModifiedSine(_InShares):
     SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.0)
 
 
-@dataclass(frozen=True)
 class ModifiedConstantVelocity(_InShares):
     """MCV50: the modified sine's acceleration in half the time, constant velocity between.
 
@@ -130,7 +123,6 @@ class ModifiedConstantVelocity(_InShares):
     SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.5)
 
 
-@dataclass(frozen=True)
 class Polynomial345(Law):
     """Polynomial 3-4-5: ds/du = 30 u² (1-u)².
 
@@ -153,7 +145,6 @@ class Polynomial345(Law):
         return from_velocity(u, order, lambda u: u**3 * (10.0 - u * (15.0 - 6.0 * u)), velocity)
 
 
-@dataclass(frozen=True)
 class Polynomial4567(Law):
     """Polynomial 4-5-6-7: ds/du = 140 u³ (1-u)³.
 
@@ -179,7 +170,6 @@ class Polynomial4567(Law):
         return from_velocity(u, order, position, velocity)
 
 
-@dataclass(frozen=True)
 class SineGroup(Law):
     """Krasniqi's law: ds/du = (8/3) sin⁴ x (1 - 8 lambda cos x), x = pi u.
 

@@ -6,7 +6,6 @@ conditions put velocity and acceleration to zero at both ends.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -21,7 +20,6 @@ from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import Points
 
 
-@dataclass(frozen=True)
 class TableLaw(Law):
     """A spline through the points of a CSV file.
 

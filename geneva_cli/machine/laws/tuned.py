@@ -12,7 +12,6 @@ Omega = 2 pi lambda, lambda the period ratio: so the law is a pure shape, and it
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, ClassVar
 
@@ -27,7 +26,6 @@ SMOOTH = 3  # derivatives of y that must not jump: the wheel's velocity has the 
 ROUNDING = 1e-9  # of a derivative that vanishes
 
 
-@dataclass(frozen=True)
 class Tuned(Law):
     """A law of the load's flat output, turned into the wheel's.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Displacement, Slot
 
 
-@dataclass(frozen=True)
 class External(Gearing):
     """The crank turns outside the wheel: less motion than dwell.
 

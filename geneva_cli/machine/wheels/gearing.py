@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.example import Example
@@ -46,7 +46,6 @@ class RollerPlace(NamedTuple):
         return farthest
 
 
-@dataclass(frozen=True)
 class Gearing(SpecTable):
     """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
 

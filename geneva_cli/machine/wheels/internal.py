@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import ClassVar
 
 from geneva_cli.machine.example import Example
@@ -13,7 +12,6 @@ from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose
 
 
-@dataclass(frozen=True)
 class Internal(Gearing):
     """The crank turns inside the wheel: more motion than dwell, and no peak inside the motion.
 

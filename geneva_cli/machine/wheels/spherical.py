@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
 AXES_MIN = 1e-6  # degrees
 
 
-@dataclass(frozen=True)
 class Spherical(Gearing):
     """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal.
 
