@@ -2,10 +2,8 @@
 
 Start-up is measured (`make bench-start`): the group below knows each command by name and one line
 of help, so that --help, completion and suggestions import no command, and a command imports only
-what it shows.
+what it shows. Annotations are objects here and in the commands, as Typer reads them.
 """
-
-from __future__ import annotations
 
 import importlib
 import os

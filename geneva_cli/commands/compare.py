@@ -1,7 +1,5 @@
 """``geneva compare``."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import typer

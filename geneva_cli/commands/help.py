@@ -1,7 +1,5 @@
 """``geneva help``."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
 import typer

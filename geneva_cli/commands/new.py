@@ -1,7 +1,5 @@
 """``geneva new``."""
 
-from __future__ import annotations
-
 import os
 from typing import Annotated
 

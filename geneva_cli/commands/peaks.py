@@ -1,7 +1,5 @@
 """``geneva peaks``."""
 
-from __future__ import annotations
-
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
 
 EXAMPLES = (

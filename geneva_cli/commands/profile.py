@@ -1,7 +1,5 @@
 """``geneva profile``."""
 
-from __future__ import annotations
-
 import sys
 from typing import TYPE_CHECKING, Annotated
 
@@ -195,7 +193,7 @@ def _refuse(
         raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")
 
 
-def _judge(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:
+def _judge(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
     """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
     path = design.spec.path
     refused, warned = verdict

@@ -1,7 +1,5 @@
 """``geneva schema``."""
 
-from __future__ import annotations
-
 from geneva_cli.commands.options import Output
 
 EXAMPLES = ("geneva schema -o geneva.schema.json",)

@@ -1,7 +1,5 @@
 """``geneva sweep``."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
@@ -116,7 +114,7 @@ def run(
         )
 
 
-def _write_rows(asked: Request, output: str, resume: bool) -> tuple[int, int]:
+def _write_rows(asked: "Request", output: str, resume: bool) -> tuple[int, int]:
     """All rows as they come, or the choice of them; how many designs there were, and not built."""
     from geneva_cli.output.rows import Growth
 
@@ -138,7 +136,7 @@ def _write_rows(asked: Request, output: str, resume: bool) -> tuple[int, int]:
     return count, failed
 
 
-def _show_rows(asked: Request, output: str, format: str) -> tuple[int, int]:
+def _show_rows(asked: "Request", output: str, format: str) -> tuple[int, int]:
     """The same as a table of another format, which is made when all rows are there."""
     from geneva_cli.output import show
     from geneva_cli.table import rows_table
@@ -151,7 +149,7 @@ def _show_rows(asked: Request, output: str, format: str) -> tuple[int, int]:
     return len(whole), sum(row[-1] is not None for row in whole)
 
 
-def _write_best(asked: Request, output: str) -> None:
+def _write_best(asked: "Request", output: str) -> None:
     from geneva_cli.output import show_text
 
     if output != "-" and not output.endswith(".toml"):
@@ -159,7 +157,7 @@ def _write_best(asked: Request, output: str) -> None:
     show_text("\n".join(asked.best(_shown(asked, 0))) + "\n", output)
 
 
-def _shown(asked: Request, done: int) -> Iterator[Rows]:
+def _shown(asked: "Request", done: int) -> Iterator[Rows]:
     """The rows, with a progress bar where a person looks and nothing else is printed."""
     blocks = asked.blocks(done)
     if not sys.stderr.isatty() or sys.stdout.isatty():

@@ -1,7 +1,5 @@
 """``geneva synth``."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
@@ -154,13 +152,13 @@ def run(
         _write(wish, write, output, format)
 
 
-def _frame(path: str, given: Sequence[str]) -> Spec:
+def _frame(path: str, given: Sequence[str]) -> "Spec":
     from geneva_cli.design import load
 
     return load(path, given).spec
 
 
-def _show(wish: Wish, checked: int, buildable: bool, output: str, format: str) -> None:
+def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import show
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.synthesis.shown import for_people
@@ -173,7 +171,7 @@ def _show(wish: Wish, checked: int, buildable: bool, output: str, format: str) -
     show(for_people(table) if name in ("table", "md") else table, output, format)
 
 
-def _write(wish: Wish, number: int, output: str, format: str) -> None:
+def _write(wish: "Wish", number: int, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synthesis.search import search

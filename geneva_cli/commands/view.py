@@ -1,7 +1,5 @@
 """``geneva view``."""
 
-from __future__ import annotations
-
 from geneva_cli.commands.options import Given, SpecPath, warn
 
 EXAMPLES = ("geneva view spec.toml",)

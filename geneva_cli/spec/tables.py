@@ -1,6 +1,7 @@
 """The spec's tables and keys: type, default, range and meaning, one line each.
 
 A key that is a Python keyword ends in an underscore here. ``None`` means: derived from the rest.
+The annotations are objects, not text that would have to be evaluated when they are read.
 """
 
 from typing import Annotated, ClassVar
