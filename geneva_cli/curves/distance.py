@@ -55,28 +55,36 @@ class Polyarc:
             pieces = [s for s in contour.segments if isinstance(s, Line | Arc)]
             assert len(pieces) == len(contour.segments), "cubics have no exact distance here"
             rows += [_row(piece) for piece in pieces]
-            ends = [directions(piece) for piece in pieces]
-            turns += [_corner(ends[i - 1][1], ends[i][0]) for i in range(len(ends))]
-        table = np.array(rows)
-        self.x0, self.y0, self.x1, self.y1, self.cx, self.cy, self.radius, self.sense = table[
-            :, :8
-        ].T
-        self.mx, self.my, self.cos_half = table[:, 8:].T
-        self.arc = self.sense != 0.0
-        self.dx, self.dy = self.x1 - self.x0, self.y1 - self.y0
-        self.square = np.maximum(self.dx * self.dx + self.dy * self.dy, 1e-300)
-        # A circle about the middle of each piece's ends that holds it.
-        self.ox, self.oy = 0.5 * (self.x0 + self.x1), 0.5 * (self.y0 + self.y1)
-        wide = self.arc & (self.cos_half < 0.0)
-        self.size = np.where(wide, 2.0 * self.radius, 0.5 * np.sqrt(self.square))
-        # How the outline turns at each piece's start and end: left (1) or right (-1) or not (0).
-        self.turn_start = np.array(turns)
+            ways = [directions(piece) for piece in pieces]
+            turns += [_corner(ways[i - 1][1], ways[i][0]) for i in range(len(ways))]
+        x0, y0, x1, y1, *rest = np.array(rows).T
+        radius, sense, cos_half = rest[2], rest[3], rest[6]
+        dx, dy = x1 - x0, y1 - y0
+        square = np.maximum(dx * dx + dy * dy, 1e-300)
+        length = np.sqrt(square)
+        wide = (sense != 0.0) & (cos_half < 0.0)
+        size = np.where(wide, 2.0 * radius, 0.5 * length)
         after, first = [], 0
         for contour in contours:
             count = len(contour.segments)
             after += [first + (i + 1) % count for i in range(count)]
             first += count
-        self.turn_end = self.turn_start[after]
+        turn = np.array(turns)
+        ends = (x0, y0, x1, y1, *rest, dx, dy, square, length)
+        self._name(np.array((*ends, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size, turn, turn[after])))
+
+    def _name(self, columns: Array) -> None:
+        """Take the pieces' numbers, a row of ``columns`` each."""
+        self._columns = columns
+        self.x0, self.y0, self.x1, self.y1, *rest = columns
+        # of arcs the centre, the radius, left (1) or right (-1), the direction of the middle and
+        # the cosine of half the sweep; 0 of lines
+        self.cx, self.cy, self.radius, self.sense, self.mx, self.my, self.cos_half, *rest = rest
+        self.arc = self.sense != 0.0
+        self.dx, self.dy, self.square, self.length, *rest = rest  # of the chord
+        # A circle about the middle of each piece's ends that holds it, and how the outline turns at
+        # each piece's start and end: left (1) or right (-1) or not (0).
+        self.ox, self.oy, self.size, self.turn_start, self.turn_end = rest
 
     def __len__(self) -> int:
         return len(self.x0)
@@ -84,8 +92,7 @@ class Polyarc:
     def subset(self, keep: NDArray[np.intp]) -> Polyarc:
         """The boundary's pieces at some indices, for points that are near no other."""
         out = object.__new__(Polyarc)
-        for name, column in vars(self).items():
-            setattr(out, name, column[keep])
+        out._name(self._columns[:, keep])
         return out
 
     def near(self, points: Array, reach: float) -> Polyarc:
@@ -139,7 +146,7 @@ class Polyarc:
         side = np.where(
             self.arc,
             self.sense * (self.radius - far),
-            (self.dx * ay - self.dy * ax) / np.sqrt(self.square),
+            (self.dx * ay - self.dy * ax) / self.length,
         )
         bx, by = x - self.x1, y - self.y1
         start, end = ax * ax + ay * ay, bx * bx + by * by
@@ -163,7 +170,7 @@ class Polyarc:
         """
         dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
         away = np.sqrt(dx * dx + dy * dy)
-        most = (away + 0.5 * np.sqrt(self.square)).min(axis=1, keepdims=True)
+        most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
         row, piece = np.nonzero(away - self.size <= most * (1.0 + ROUNDING))
         return row, piece
 

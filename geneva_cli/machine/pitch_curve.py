@@ -25,6 +25,15 @@ WALLED = (
 RETRACE = 1e-9  # |M'| at mid-motion, below which the pin leaves on the way it came
 
 
+class Way(NamedTuple):
+    """Where the pin is in the wheel, over L, and its direction of travel there."""
+
+    x: Number
+    y: Number
+    tangent_x: Number
+    tangent_y: Number
+
+
 class Pitch(NamedTuple):
     """The pitch curve M at one or many input angles.
 
@@ -66,6 +75,14 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
         (x1 * y2 - y1 * x2) / (speed * speed),
         m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1)),
     )
+
+
+def way(engagement: Engagement, input_deg: Number) -> Way:
+    """What ``pitch`` begins with, without the second derivatives that the rest of it takes."""
+    x, y = engagement.slot(input_deg, 1)
+    (x0, x1), (y0, y1) = x.derivatives(), y.derivatives()
+    speed = library(x0).hypot(x1, y1)
+    return Way(x0, y0, x1 / speed, y1 / speed)
 
 
 def pitch_at_retrace(engagement: Engagement) -> Pitch:

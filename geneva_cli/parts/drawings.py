@@ -60,7 +60,7 @@ def arm(found: Outlines, tolerance: float, curves: str) -> Drawing:
 def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The first slot, closed along the rim, and the roller's way in it."""
     engagement = found.assembly.slots[0][0]
-    walls = slot_walls(found.assembly, found.sizes, engagement, tolerance, curves)
+    walls = _walls(found, engagement, tolerance, curves)
     start, end = walls.segments[0].start, walls.segments[-1].end
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
     level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.assembly.L
@@ -103,11 +103,23 @@ def wheel_shapes(
 
 
 def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
-    """The wheel's outline: that of the full turn, unless other curves, or finer, are asked for."""
-    if curves == "arcs" and tolerance == found.fine:
+    """The wheel's outline, with the walls of its slots as they are asked for."""
+    if _as_turned(found, tolerance, curves):
         return found.wheel
-    walls = {s: slot_walls(found.assembly, found.sizes, s, tolerance, curves) for s in found.slots}
+    walls = {slot: _walls(found, slot, tolerance, curves) for slot in found.slots}
     return wheel_contour(found.assembly, found.sizes, walls)
+
+
+def _walls(found: Outlines, slot: Engagement, tolerance: float, curves: str) -> Contour:
+    """The walls of a slot: those of the full turn, unless other curves, or finer, are asked for."""
+    if _as_turned(found, tolerance, curves):
+        return found.slots[slot]
+    return slot_walls(found.assembly, found.sizes, slot, tolerance, curves)
+
+
+def _as_turned(found: Outlines, tolerance: float, curves: str) -> bool:
+    """Whether curved walls are asked for as they were fitted for the full turn."""
+    return curves == "arcs" and tolerance == found.fine
 
 
 def crank_shapes(found: Outlines) -> list[Shape]:

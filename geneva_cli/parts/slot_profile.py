@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.pitch_curve import Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.machine.pitch_curve import Pitch, Way, pitch, pitch_at_retrace, retraces, way
 from geneva_cli.numerics.arrays import array
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.jet import Array, Number
+
+T = TypeVar("T", Way, Pitch)
 
 # Nearer to mid-motion than this a sample is at it: where the pin stops there, its direction would
 # be rounding, and the curve has turned by less than that rounding since.
@@ -37,46 +40,78 @@ class Slot(NamedTuple):
 
 def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     """The slot of a mechanism at ascending input angles of its first engagement."""
-    engagement, size = mechanism.engagements[0].through, mechanism.spec.size
-    L = mechanism.center_distance_mm
-    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
+    engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     back = retraces(engagement)
-    if back:
-        input_deg = np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg)
+    input_deg = _snapped(input_deg, back)
     at = pitch_at(engagement, input_deg, back)
-    # Where the pin leaves on the way it came, its travel is reversed after mid-motion; the
-    # flanks keep the sides they had on the way in.
-    straight = engagement.slot.axis(engagement.entry_deg) is not None
-    if straight:
-        first = pitch(engagement, engagement.entry_deg)
-        ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
-        side = np.where(ahead < 0.0, -1.0, 1.0)
-    else:
-        side = np.where(back & (input_deg > 0.0), -1.0, 1.0)
-    normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
-    centre = L * np.column_stack((at.x, at.y))
+    side = _side(engagement, input_deg, at, back)
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
-    radius = np.where(straight | (at.turning == 0.0), np.inf, radius)
+    straight = engagement.slot.axis(engagement.entry_deg) is not None
     return Slot(
         input_deg,
         np.degrees(engagement.motion(input_deg, 0).c[0]),
-        centre,
-        centre + offset * normal,
-        centre - offset * normal,
+        *_beside(mechanism, at, side),
         np.degrees(at.pressure),
-        radius,
+        np.where(straight | (at.turning == 0.0), np.inf, radius),
     )
+
+
+def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]:
+    """Pitch curve and both flanks, (n, 2) each, as ``slot`` has them and without the rest of it."""
+    engagement = mechanism.engagements[0].through
+    back = retraces(engagement)
+    input_deg = _snapped(input_deg, back)
+    at = way_at(engagement, input_deg, back)
+    return _beside(mechanism, at, _side(engagement, input_deg, at, back))
+
+
+def _snapped(input_deg: Array, back: bool) -> Array:
+    """Input angles, those at a retracing mid-motion exactly there."""
+    return np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg) if back else input_deg
+
+
+def _side(engagement: Engagement, input_deg: Array, at: Way | Pitch, back: bool) -> Array:
+    """1, or -1 where the pin leaves on the way it came.
+
+    Its travel is reversed after mid-motion; the flanks keep the sides they had on the way in.
+    """
+    if engagement.slot.axis(engagement.entry_deg) is None:
+        return np.where(back & (input_deg > 0.0), -1.0, 1.0)
+    first = way(engagement, engagement.entry_deg)
+    ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
+    return np.where(ahead < 0.0, -1.0, 1.0)
+
+
+def _beside(mechanism: Mechanism, at: Way | Pitch, side: Array) -> tuple[Array, Array, Array]:
+    """The pitch curve and its two offsets, mm, by the roller's radius and its clearance."""
+    L, size = mechanism.center_distance_mm, mechanism.spec.size
+    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
+    normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
+    centre = L * np.column_stack((at.x, at.y))
+    return centre, centre + offset * normal, centre - offset * normal
 
 
 def pitch_at(engagement: Engagement, input_deg: Array, back: bool) -> Pitch:
     """The pitch curve, with its limit put in at a retracing mid-motion."""
-    middle = np.flatnonzero(np.abs(input_deg) < MIDDLE_DEG) if back else np.array([], dtype=int)
+    return _with_limit(pitch, engagement, input_deg, back)
+
+
+def way_at(engagement: Engagement, input_deg: Array, back: bool) -> Way:
+    """The pin's way in the wheel, with its limit put in at a retracing mid-motion."""
+    return _with_limit(way, engagement, input_deg, back)
+
+
+def _with_limit(
+    of: Callable[[Engagement, Number], T], engagement: Engagement, input_deg: Array, back: bool
+) -> T:
+    middle = np.flatnonzero(np.abs(input_deg) < MIDDLE_DEG) if back else ()
+    if not len(middle):
+        return of(engagement, input_deg)
     safe = input_deg.copy()
     safe[middle] = 0.5 * engagement.entry_deg  # any regular place; overwritten below
-    at = pitch(engagement, safe)
-    if len(middle):
-        limit = pitch_at_retrace(engagement)
-        for column, value in zip(at, limit, strict=True):
-            array(column)[middle] = value
+    at = of(engagement, safe)
+    limit = pitch_at_retrace(engagement)  # which begins as a way does
+    for column, value in zip(at, limit, strict=False):
+        array(column)[middle] = value
     return at

@@ -12,7 +12,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED, pitch, retraces
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
-from geneva_cli.parts.slot_profile import pitch_at, slot
+from geneva_cli.parts.slot_profile import flanks, pitch_at, slot
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -157,10 +157,9 @@ def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
 def _chord_errors(mechanism: Mechanism, input_deg: Array, places: Array) -> Array:
     steps = np.diff(input_deg)
     inner = input_deg[:-1, None] + steps[:, None] * places
-    ends, between = slot(mechanism, input_deg), slot(mechanism, inner.ravel())
+    ends, between = flanks(mechanism, input_deg), flanks(mechanism, inner.ravel())
     worst = np.zeros(len(steps))
-    for name in ("centre", "left", "right"):
-        knots, points = getattr(ends, name), getattr(between, name)
+    for knots, points in zip(ends, between, strict=True):
         chord = np.diff(knots, axis=0)[:, None, :]
         way = points.reshape(len(steps), len(places), 2) - knots[:-1, None, :]
         # To the nearest point of the chord itself: an undercut flank folds back beyond its ends.
