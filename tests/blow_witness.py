@@ -4,6 +4,7 @@ import numpy as np
 
 from geneva_cli.analysis.change_of_sides import Impacts, changes, impacts_of
 from geneva_cli.analysis.shock import FirstContacts, first_contacts
+from geneva_cli.analysis.shock_force import forces_N
 
 
 def contact_of(engagement, crank, center=0.0):
@@ -20,3 +21,9 @@ def impacts_in(engagement, play, drag=0.0):
     at = changes(engagement, over)
     rows = zip(*impacts_of(engagement, at, np.full(len(at.x), play), over), strict=True)
     return [Impacts(*row) for row in rows if not np.isnan(row[1])]
+
+
+def force_of(mechanism, jump):
+    """The force of one design's blow; None where it is not known."""
+    found = forces_N(mechanism, np.array([[jump]]))
+    return None if found is None or np.isnan(found).any() else found.item()

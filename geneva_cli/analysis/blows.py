@@ -15,7 +15,7 @@ from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, first_of, library, parameter
+from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -44,9 +44,9 @@ class Blows(NamedTuple):
     moment_Nms: Array
 
     @property
-    def first(self) -> Blow | None:
-        """That of the first design, or of the only one."""
-        at_deg, jump, *cost = first_of(self)
+    def only(self) -> Blow | None:
+        """That of the one design."""
+        at_deg, jump, *cost = only_of(self)
         return None if at_deg is None or jump is None else Blow(at_deg, jump, *cost)
 
 
@@ -56,7 +56,7 @@ def entry_blow(mechanism: Mechanism, share: float = 1.0) -> Blow | None:
     On the slot's axis, or on a corner of the mouth where the slot is too narrow to let the roller
     in beside its axis. The jump is negative where the wheel is struck back.
     """
-    return entry_blows(mechanism, share).first
+    return entry_blows(mechanism, share).only
 
 
 def entry_blows(mechanism: Mechanism, share: float = 1.0) -> Blows:
@@ -105,11 +105,12 @@ def _on_mouth(
     return [mouth_contacts(engagement, *error, roller, room) for error in errors]
 
 
-def mouth_jump_worst(mechanism: Mechanism) -> float:
-    """The size of the worst jump on a mouth's corner; 0 where the roller has room in each."""
+def mouth_jumps_worst(mechanism: Mechanism) -> Array:
+    """The sizes of the worst jumps on a mouth's corner, (m,); 0 where a roller has room in each."""
     every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
-    sizes = [float(np.nan_to_num(abs(one.jump)).max()) for one in every if one is not None]
-    return max(sizes, default=0.0)
+    sizes = [np.nan_to_num(abs(one.jump)) for one in every if one is not None]
+    worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
+    return worst
 
 
 def clearance_mm(mechanism: Mechanism) -> float:
@@ -125,7 +126,7 @@ def reversal_blow(mechanism: Mechanism) -> Blow | None:
     The play is that of the clearance at the lever where the wheel begins to coast. Without an
     inertia there is none that coasts; with a drag above ``lasting_drag_Nm`` nothing changes.
     """
-    return reversal_blows(mechanism).first
+    return reversal_blows(mechanism).only
 
 
 def reversal_blows(mechanism: Mechanism) -> Blows:

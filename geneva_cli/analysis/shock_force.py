@@ -44,14 +44,10 @@ def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
     return size(jump) * (inertia_kgm2(mechanism.spec) * w)
 
 
-def force_N(mechanism: Mechanism, jump: float) -> float | None:
-    """The greatest force of an elastic blow; None without a ``face_width_mm`` or an inertia."""
-    found = forces_N(mechanism, np.array([[jump]]))
-    return None if found is None or np.isnan(found[0]) else float(found[0])
-
-
 def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
-    """The same for jumps (m, 1) of m designs: (m,), NaN without an inertia."""
+    """The greatest forces of elastic blows, for jumps (m, 1) of m designs: (m,), NaN without an
+    inertia; None without a ``face_width_mm``.
+    """
     spec = mechanism.spec
     face, inertia = spec.size.face_width_mm, inertia_kgm2(spec)
     if face is None:

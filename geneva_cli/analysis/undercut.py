@@ -8,12 +8,13 @@ roller's radius: the flank then runs backwards, and the roller cuts away what it
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import Pitch, pitch, retraces
+from geneva_cli.numerics.arrays import only_of
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
@@ -51,9 +52,9 @@ class Undercuts(NamedTuple):
 def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, on the way in or out; None if there is none."""
     found = undercuts(mechanism, samples)
-    if found is None or np.isnan(found.depth_mm[0]):
+    if found is None or None in (one := only_of(found)):
         return None
-    left, from_deg, to_deg, at_deg, radius, depth, to_cusp = (float(row[0]) for row in found)
+    left, from_deg, to_deg, at_deg, radius, depth, to_cusp = cast("list[float]", one)
     wall = "left" if left else "right"
     return Undercut(wall, from_deg, to_deg, at_deg, radius, depth, bool(to_cusp))
 

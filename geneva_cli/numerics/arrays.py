@@ -202,13 +202,15 @@ def array(x: Number) -> Array:
     return numpy.asarray(x)
 
 
-def first_of(rows: Iterable[Number | None]) -> list[float | None]:
-    """Of answers (m,) for m designs those of the first: None where there is none, or it is NaN.
+def only_of(rows: Iterable[Number | None]) -> list[float | None]:
+    """Of answers (m,) those of the one design: None where there is none, or it is NaN.
 
-    >>> first_of([2.0, math.nan, None])
+    Raises ValueError for answers of several designs.
+
+    >>> only_of([2.0, math.nan, None])
     [2.0, None, None]
     """
-    found = [None if row is None else float(array(row).flat[0]) for row in rows]
+    found = [None if row is None else array(row).item() for row in rows]
     return [None if x is None or math.isnan(x) else x for x in found]
 
 

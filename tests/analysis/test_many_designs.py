@@ -117,8 +117,17 @@ def test_shocks(name):
     for i, one in each:
         records(entry, i, blows.entry_blow(one))
         records(back, i, blows.reversal_blow(one))
+        same(blows.mouth_jumps_worst(machine), i, blows.mouth_jumps_worst(one).item())
         # what the inertia asks for less what resists: in units of either
         same(drag, i, change_of_sides.lasting_drag_Nm(one), size=one.spec.load.torque_Nm)
+
+
+def test_answers_of_one_design_are_not_the_first_of_many():
+    """Asked of several, they refuse."""
+    machine, _ = designs("modified-trapezoid")
+    for ask in (blows.entry_blow, blows.reversal_blow, undercut.undercut, positive.positive_drive):
+        with pytest.raises(ValueError, match=r"size 1|ambiguous"):
+            ask(machine)
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -3,11 +3,11 @@
 import mpmath as mp
 import numpy as np
 import pytest
-from blow_witness import contact_of, impacts_in
+from blow_witness import contact_of, force_of, impacts_in
 
 from geneva_cli import Design, External, Internal, Load, SideCrank, Size, Spherical
 from geneva_cli.analysis import change_of_sides
-from geneva_cli.analysis.shock_force import force_N, impulse_Nms
+from geneva_cli.analysis.shock_force import impulse_Nms
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.laws.standard import Cycloidal
 from geneva_cli.machine.spec import Motion
@@ -198,7 +198,7 @@ def test_force_by_the_energy():
         material_roller=RollerMaterial(210.0, 0.3),
         material_wheel=WheelMaterial(3.0, 0.35),
     )
-    Q = mp.mpf(force_N(design.mechanism, 0.02))
+    Q = mp.mpf(force_of(design.mechanism, 0.02))
     eta = sum((1 - nu**2) / E for E, nu in ((210, mp.mpf("0.3")), (3, mp.mpf("0.35"))))
     soft = eta / (2 * (1 - mp.mpf("0.09")) / 210)
 
@@ -218,13 +218,13 @@ def test_force_of_a_stiff_contact_is_that_of_the_pin():
     load = Load(inertia_kgm2=1.2)
     design = Design(External(6), size=soft_pin, load=load, material_wheel=WheelMaterial(**hard))
     k = 3 * 210e3 * mp.pi * mp.mpf("0.02") ** 4 / 64 / mp.mpf(9) ** 3 * 1000
-    near(force_N(design.mechanism, 0.02), 0.02 * 2 * mp.pi * mp.sqrt(k * mp.mpf("1.2")), 1e-3)
+    near(force_of(design.mechanism, 0.02), 0.02 * 2 * mp.pi * mp.sqrt(k * mp.mpf("1.2")), 1e-3)
 
 
 def test_force_and_impulse_need_something_to_strike():
     bare = Design(External(6)).mechanism
-    assert force_N(bare, 0.1) is None
+    assert force_of(bare, 0.1) is None
     assert impulse_Nms(bare, 0.1) == 0.0
     loaded = Design(External(6), load=Load(inertia_kgm2=2.0)).mechanism
-    assert force_N(loaded, 0.1) is None  # no line of contact
+    assert force_of(loaded, 0.1) is None  # no line of contact
     assert impulse_Nms(loaded, -0.1) == pytest.approx(0.4 * float(mp.pi), rel=1e-15)

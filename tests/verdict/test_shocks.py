@@ -5,13 +5,12 @@ import re
 
 import numpy as np
 import pytest
-from blow_witness import contact_of, impacts_in
+from blow_witness import contact_of, force_of, impacts_in
 
 from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
 from geneva_cli.analysis import change_of_sides
 from geneva_cli.analysis.blows import entry_blow, reversal_blow
 from geneva_cli.analysis.mouth import mouth_contacts
-from geneva_cli.analysis.shock_force import force_N
 from geneva_cli.verdict.checks import single_check
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
@@ -43,13 +42,13 @@ def test_values_are_those_of_the_worst_machine():
     roomy = design(1e6, size=Size(face_width_mm=18.0, slot_clearance_mm=0.046))
     contact = contact_of(engagement, 0.02 / 50.0, -0.03 / 100.0)
     check = row(roomy, "entry_shock_N")
-    assert check.value == force_N(roomy.mechanism, contact.jump)
+    assert check.value == force_of(roomy.mechanism, contact.jump)
     assert check.at_deg == contact.at_deg
     assert check.passes
     # and on its mouth's far corner where it has but 0.02 - 0.02/2
     harder = mouth_contacts(engagement, 0.02 / 50.0, -0.03 / 100.0, 0.05, 1e-4)
     check = row(of, "entry_shock_N")
-    assert check.value == force_N(of.mechanism, harder.jump[0])
+    assert check.value == force_of(of.mechanism, harder.jump[0])
     assert check.at_deg == harder.at_deg[0]
     drag = change_of_sides.drag_over(of.mechanism)
     [start] = change_of_sides.changes(engagement, np.array([[drag]])).x
@@ -57,7 +56,7 @@ def test_values_are_those_of_the_worst_machine():
     play = 2.0 * math.asin(0.03 / (100.0 * math.hypot(x, y)))
     [impact] = impacts_in(engagement, play, drag)
     assert row(of, "reversal_shock_N").value == pytest.approx(
-        force_N(of.mechanism, impact.speed), rel=1e-12
+        force_of(of.mechanism, impact.speed), rel=1e-12
     )
 
 

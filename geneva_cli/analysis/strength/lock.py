@@ -32,7 +32,7 @@ from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import designs_in, taken
-from geneva_cli.numerics.arrays import all_true, first_of, parameter
+from geneva_cli.numerics.arrays import all_true, only_of, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -89,7 +89,7 @@ def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorqu
     if found is None:
         return None
     on, *rows = found
-    return LockUnderTorque(on, *cast("list[float]", first_of(rows)))
+    return LockUnderTorque(on, *cast("list[float]", only_of(rows)))
 
 
 def lock_of_many(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:

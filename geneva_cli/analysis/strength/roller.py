@@ -20,7 +20,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import Forces, setting, sliding
 from geneva_cli.analysis.loads.stretches import Signs, whole
-from geneva_cli.numerics.arrays import all_true, first_of, parameter
+from geneva_cli.numerics.arrays import all_true, only_of, parameter
 from geneva_cli.numerics.quadrature import integrals
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def life(mechanism: Mechanism) -> Life | None:
     """
     if not mechanism.spec.is_loaded:
         return None
-    force, turns, *lasts = first_of(lives(mechanism, passages(mechanism)))
+    force, turns, *lasts = only_of(lives(mechanism, passages(mechanism)))
     assert force is not None and turns is not None
     return Life(force, turns, *lasts)
 
@@ -168,7 +168,7 @@ def wear_mm(mechanism: Mechanism) -> float | None:
     """
     if not mechanism.spec.is_loaded:
         return None
-    return first_of([wears_mm(mechanism, passages(mechanism))])[0]
+    return only_of([wears_mm(mechanism, passages(mechanism))])[0]
 
 
 def wears_mm(mechanism: Mechanism, each: Sequence[Passage]) -> Array | None:

@@ -23,7 +23,7 @@ from geneva_cli.analysis.loads.forces import Row, setting
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.peaks import maxima
-from geneva_cli.numerics.arrays import first_of, parameter
+from geneva_cli.numerics.arrays import only_of, parameter
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
@@ -145,7 +145,7 @@ def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
         most = max(most, turned.max)
         if found.max > both * (1.0 + TIE):
             both, at_deg = found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg)
-    moment, _, *rest = first_of(_turned(mechanism, ends, np.array([both]), at_deg, most))
+    moment, _, *rest = only_of(_turned(mechanism, ends, np.array([both]), at_deg, most))
     assert moment is not None
     return Turned(moment, at_deg, *rest)
 

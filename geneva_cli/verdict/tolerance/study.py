@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import mouth_jump_worst
+from geneva_cli.analysis.blows import mouth_jumps_worst
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.tolerance.dimensions import (
     Deviations,
@@ -102,7 +102,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         jump = drawn.jump
         worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        mouth = mouth_jump_worst(mechanism)
+        mouth = mouth_jumps_worst(mechanism).item()
         mean, deviation = float(jump.mean()), float(jump.std())
         entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
