@@ -9,10 +9,14 @@ from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.many import summaries_of_many
+from geneva_cli.analysis.loads.quantities import ends_of
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.scan import hopeful, scan
 from geneva_cli.spec.tables import Limits, Load, Size
@@ -282,3 +286,23 @@ def test_beside_a_cusp_the_stress_goes_to_nought():
     assert less / more == pytest.approx(math.sqrt(0.1), rel=1e-3)
     found = design.loads["contact_stress_MPa"]
     assert (found.min, found.min_at_deg) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+@pytest.mark.parametrize("share", [0.3, 0.9])
+def test_a_torque_that_changes_its_sign_beside_mid_motion_leaves_no_stress_there(share, friction):
+    """Nearer to it than stretches of a curved slot come: at ``share`` of a ten-thousandth.
+
+    A harmonic motion's torque is I w² (step/2) (pi/beta)² cos(pi u) + M: 0 there, and nowhere else.
+    """
+    machine = build(curved("harmonic"))
+    beta, step = math.radians(machine.engagements[0].motion_deg), math.pi / 3.0
+    x = share * 1e-4 * beta / 2.0
+    resists = OMEGA**2 * 0.5 * step * (math.pi / beta) ** 2 * math.sin(math.pi * x / beta)
+    spec = curved("harmonic", load=Load(1.0, resists, friction=friction))
+    names = ("contact_stress_MPa", "wheel_bearing_N")
+    together = summaries_of_many(many(spec, {"wheel.z": np.array([6])}).machine, names, told=())
+    for name, one in zip(names, ends_of(Cycle(build(spec)), *names), strict=True):
+        assert (one.min, together[name].min[0]) == (0.0, 0.0)
+        for at in (one.min_at_deg, together[name].min_at_deg[0]):
+            assert at == pytest.approx(math.degrees(x), rel=1e-9)  # of a torque that all but is 0

@@ -23,14 +23,11 @@ from geneva_cli.analysis.loads.forces import Row, Setting, setting
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
-    at_mid_motion,
     look,
     machine,
-    spans_of,
-    stretches_of,
-    to_mid_motion,
 )
 from geneva_cli.analysis.loads.many import GROUP, is_analytic
+from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
@@ -99,8 +96,7 @@ def _works(
     every = machine(engagement, given, UNEVEN, {UNEVEN[0]: Unevenness(mean)})
     load = Loaded(every, UNEVEN, ("feeds", "wanted"))
     spans = spans_of(engagement, n)
-    known = at_mid_motion(load, n) if engagement.slot.curved else []
-    found = search(load, spans, n, True, known)
+    found = search(load, spans, n, True, load.at_mid_motion(n))
     whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
     design, _, (a, b), positive = whole
     signs = np.where(positive, 1.0, -1.0)

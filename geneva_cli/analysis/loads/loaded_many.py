@@ -1,7 +1,7 @@
 """Loads of many designs of one engagement, as searches and sums ask for them.
 
 The formulas are those of one design (``contact``, ``forces``, ``instant``); here is what differs:
-which signs count, and the moments that no smooth stretch reaches.
+what is wanted of the designs, and which signs count.
 """
 
 from __future__ import annotations
@@ -11,27 +11,25 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR, Contact, column, contact, mirrored
+from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored
 from geneva_cli.analysis.loads.cycle import Quantity
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant
+from geneva_cli.analysis.loads.mid_motion import Known, at_mid_motion
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
 from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
-from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.cells import Cuts
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array, Number
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
-ALIKE = 1e-9  # share of a stretch by which the ends of its mirror image may be off
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
 # The setting, the contact, the shape of the places, and what is wanted of the designs there.
 At: TypeAlias = "tuple[Setting, Contact[Jet], tuple[int, ...], Sequence[Wanted]]"
@@ -120,6 +118,16 @@ class Loaded:
 
     def _contact(self, engagement: Engagement, x: Array, order: int) -> Contact[Jet]:
         return contact(engagement, x, order, self.reactions, self.spins)
+
+    def at_mid_motion(self, n: int) -> list[Known]:
+        """What n designs' quantities are at mid-motion, which no span of curved slots reaches."""
+        engagement, given, wanted = self.machine
+
+        def rows(at: Contact[Jet], drives: Number, slides: Number, feeds: Number) -> list[Row[Jet]]:
+            found = Instant(given, at, drives, slides, feeds)
+            return [quantity(found, at) for quantity in wanted]
+
+        return at_mid_motion(engagement, given, rows, n) if engagement.slot.curved else []
 
     def column(self, at: At, number: int) -> At:
         """The same at one place of each design: (m, 1)."""
@@ -238,116 +246,3 @@ def look(
     if wanted is not None and "wanted" in kinds:
         sign("wanted", wanted(found, at).value)
     return Look(signs, jets, found)
-
-
-def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
-    """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
-    places = [
-        np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
-    ]
-    out = []
-    for i, (a, b) in enumerate(zip(places, places[1:], strict=False)):
-        start = np.nextafter(a, np.inf) if i else a
-        end = np.nextafter(b, -np.inf) if i + 2 < len(places) else b
-        if engagement.slot.curved:
-            start = np.where(a == 0.0, NEAR * engagement.exit_deg, start)
-            end = np.where(b == 0.0, NEAR * engagement.entry_deg, end)
-        out.append((start, end))
-    return out
-
-
-def at_mid_motion(load: Loaded, n: int) -> list[tuple[int, Array, Array]]:
-    """The quantities at mid-motion of curved slots, which no span reaches; infinite, or a limit."""
-    engagement, given, wanted = load.machine
-    place, near = np.zeros(n), NEAR * np.reshape(engagement.entry_deg, (-1, 1))
-    out = []
-    with np.errstate(all="ignore"):
-        at = contact(engagement, np.zeros((n, 1)))
-        torque = value(wheel_torque(given, at))
-        common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
-        loaded = np.abs(torque) > ZERO * (common + given.resists_Nm)
-        limits = [_towards(load, np.broadcast_to(x, (n, 1))) for x in (near, -near)]
-        # The tangent points away from the axis on the way in and out; at a cusp they are one.
-        crosses = np.broadcast_to(~np.asarray(retraces(engagement)), (n, 1))
-        for way in (1.0, -1.0):
-            here = at._replace(
-                along=at.along * way, aside=at.aside * way, curvature=at.curvature * way
-            )
-            found = look(load.kinds, given, here, None).instant
-            for k, quantity in enumerate(wanted):
-                row = quantity(found, here)
-                known = np.broadcast_to(value(row.value), (n, 1))
-                room = np.inf if row.room is None else value(row.room)
-                there = (room > ZERO) & np.isfinite(known)
-                # at a cusp the wall turns away on one side: what is lost on the other goes to 0
-                away = np.isinf(room) & np.isfinite(known)
-                out.append((k, place, np.where(away, known, np.nan)[:, 0]))
-                for limit in limits:
-                    none = np.where(loaded, np.inf * row.way, limit[k])
-                    here_ = np.where(there, known, none)
-                    if way < 0.0:
-                        here_ = np.where(crosses, here_, np.nan)
-                    out.append((k, place, here_[:, 0]))
-    return out
-
-
-def _towards(load: Loaded, x: Array) -> list[Array]:
-    """The limits of 0/0 at mid-motion, from beside it."""
-    given, at, _, wanted = load.at(x, slice(0, len(x)), 2)
-    h = np.radians(x)
-    found = look(load.kinds, given, at, None).instant
-    rows = [quantity(found, at) for quantity in wanted]
-    return [c[0] - h * (c[1] - h * c[2]) for c in (row.value.c for row in rows)]
-
-
-def stretches_of(load: Loaded, spans: Sequence[tuple[Array, Array]], cuts: Cuts) -> Cuts:
-    """The spans between cuts: ``x`` their two ends, ``positive`` their signs."""
-    at = [(np.flatnonzero((b > a)[:, 0]), a[:, 0], b[:, 0]) for a, b in spans]
-    firsts, lasts = [], []
-    with np.errstate(all="ignore"):
-        for number, (which, a, b) in enumerate(at):
-            span = np.full(len(which), number)
-            middle = 0.5 * (a + b)[which, None]
-            signs = load.look(load.at(middle, which, 0))[0][..., 0]
-            firsts.append((which, span, a[which], signs))
-            lasts.append((which, span, b[which], signs))
-    firsts.append((cuts.design, cuts.span, cuts.x, cuts.positive[1]))
-    lasts.append((cuts.design, cuts.span, cuts.x, cuts.positive[0]))
-    starts, stops = (
-        [np.concatenate(part, axis=-1) for part in zip(*ends, strict=True)]
-        for ends in (firsts, lasts)
-    )
-    by = [np.lexsort((x, span, design)) for design, span, x, _ in (starts, stops)]
-    (design, span, a, positive), (_, _, b, before) = (
-        [part[..., order] for part in parts]
-        for parts, order in zip((starts, stops), by, strict=True)
-    )
-    # of a span's first stretch the signs are known at its end, of the others at their start too
-    first = np.ones(len(design), dtype=bool)
-    first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
-    signs = np.where(first, before, positive)
-    there = b > a
-    return Cuts(design[there], span[there], np.stack((a, b))[:, there], signs[:, there])
-
-
-def mirror_images(pieces: Cuts) -> Whole:
-    """Of each stretch of symmetric motions the number of its mirror image, or else its own."""
-    design, (a, b), every = pieces.design, pieces.x, np.arange(len(pieces.design))
-    count = np.bincount(design, minlength=1)
-    start = np.cumsum(count) - count
-    other = 2 * start[design] + count[design] - 1 - every
-    close = ALIKE * (b - a)
-    alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
-    images: Whole = np.where(alike & alike[other], other, every)
-    return images
-
-
-def to_mid_motion(engagement: Engagement, stretches: Cuts, n: int) -> Cuts:
-    """Stretches of n designs up to the mid-motion of a curved slot; searches stop short of it."""
-    if not engagement.slot.curved:
-        return stretches
-    x = stretches.x
-    for end in (engagement.entry_deg, engagement.exit_deg):
-        near = np.broadcast_to(np.ravel(NEAR * end), n)[stretches.design]
-        x = np.where(x == near, 0.0, x)
-    return stretches._replace(x=x)

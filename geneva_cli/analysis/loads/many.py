@@ -30,15 +30,12 @@ from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
     Machine,
     Wanted,
-    at_mid_motion,
     look,
     machine,
-    mirror_images,
-    spans_of,
-    stretches_of,
 )
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
+from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of, stretches_of
 from geneva_cli.analysis.loads.summary import rounded, shares
 from geneva_cli.analysis.peaks_many import PeakOfMany
 from geneva_cli.machine.many import taken
@@ -201,8 +198,7 @@ def _group(
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
-    known = at_mid_motion(load, n) if load.machine[0].slot.curved else []
-    found = search(load, spans, n, sized, known)
+    found = search(load, spans, n, sized, load.at_mid_motion(n))
     sums = _sums(load, found, spans, n, "mean" in told, analytic) if told else found.most
     return found.most, found.x, sums
 

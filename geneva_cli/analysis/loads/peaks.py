@@ -7,24 +7,20 @@ their maxima are roots of their slopes.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR, Contact, contact, is_straight
-from geneva_cli.analysis.loads.forces import Greatest, Row, Setting, gain, sliding
-from geneva_cli.analysis.loads.stretches import (
-    ZERO,
-    Stretch,
-    at_break,
-    stretches,
-)
+from geneva_cli.analysis.loads.contact import contact, is_straight
+from geneva_cli.analysis.loads.forces import Greatest, Row, Setting
+from geneva_cli.analysis.loads.mid_motion import Rows, at_mid_motion
+from geneva_cli.analysis.loads.stretches import Stretch, at_break, stretches
 from geneva_cli.analysis.loads.zeros import STEP, between_samples, columns, inside
 from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import rows_of, scalar
+from geneva_cli.numerics.arrays import rows_of
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots_many import roots_many
 from geneva_cli.numerics.scan import Scan, hopeful, scan
@@ -37,10 +33,6 @@ TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier
 # So are values that differ by less of their greatest size: a length is looked for as its square,
 # and where that is 0 some units in the last place of the length are left, squared.
 NOUGHT = 1e-28
-
-
-# contact, signs of torque, of sliding and of the input's torque -> the quantities
-Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]
 
 
 def maxima(
@@ -58,16 +50,13 @@ def looked(
     signs = np.array([piece[2:] for piece in pieces]).T
 
     first = rows(contact(engagement, np.array([pieces[0].end]), 1), *pieces[0][2:])
-    count, each = (
-        len(first),
-        {id(row.room): i for i, row in enumerate(first) if row.room is not None},
-    )
-    bounds = list(each.values())  # a row for each room
+    rooms = {id(row.room): i for i, row in enumerate(first) if row.room is not None}
+    bounds, signed = list(rooms.values()), slice(len(first), None)
 
     def sampled(x: Array, span: Whole) -> tuple[Array, Array]:
         asked = rows(contact(engagement, x, 1), *signs[:, span])
-        rooms = [room for i in bounds if (room := asked[i].room) is not None]
-        value, slope = columns([*(row.value for row in asked), *rooms], x)
+        bound = [room for i in bounds if (room := asked[i].room) is not None]
+        value, slope = columns([*(row.value for row in asked), *bound], x)
         for i, row in enumerate(asked):
             if row.room is None:
                 continue
@@ -77,10 +66,8 @@ def looked(
         return value, slope
 
     # no two changes of sign of a room are stepped over: between them there is no bound
-    found = scan(sampled, [(p.start, p.end) for p in pieces], signed=slice(count, None)).first(
-        count
-    )
-    ends = _at_mid_motion(engagement, given, pieces, rows, least)
+    found = scan(sampled, [(p.start, p.end) for p in pieces], signed).first(len(first))
+    middle = _middle(engagement, given, rows)
     tops = _tops(engagement, found, rows, signs)
     brinks: dict[int, float] = {}
     out = []
@@ -95,9 +82,10 @@ def looked(
             if number not in brinks:
                 brinks[number] = _brink(found, lost, pieces, at)
             brink = brinks[number]
-            out.append(Greatest(math.inf, min(brink, 0.0) if ends[i] == math.inf else brink))
+            endless = [x for x, value in middle[i] if value == math.inf]
+            out.append(Greatest(math.inf, min([brink, *endless])))
         else:
-            places = [(0.0, ends[i]), *tops[i], *_ends(found, i)]
+            places = [*middle[i], *tops[i], *_ends(found, i)]
             value = found.value[i]
             size = float(np.abs(value[np.isfinite(value)]).max(initial=0.0))
             out.append(_greatest(places, engagement, least, size))
@@ -162,55 +150,16 @@ def _greatest(
     return Greatest(most, at_break(first, engagement))
 
 
-def _at_mid_motion(
-    engagement: Engagement, given: Setting, pieces: tuple[Stretch, ...], rows: Rows, least: float
-) -> list[float]:
-    """The quantities at mid-motion of a curved slot, which no stretch reaches; infinite or a limit.
-
-    Straight slots are scanned through mid-motion: nothing is added there.
-    """
-    x = np.zeros(1)
-    at = contact(engagement, x)
-    torque = at.acceleration * given.inertia_Nm + given.resists_Nm
-    needed = float(torque.arrays()[0][0])
-    beside = [p for p in pieces if NEAR * engagement.entry_deg in (p.end, -p.start)]
-    if is_straight(engagement):
-        with np.errstate(all="ignore"):
-            return [least for _ in rows(at, 1.0, 1.0, 1.0)]
-    # The tangent points away from the axis on the way in and out; at a cusp they are one.
-    ways = (1.0,) if retraces(engagement) else (1.0, -1.0)
-    common = given.inertia_Nm * abs(scalar(engagement.motion(0.5 * engagement.entry_deg, 2).c[2]))
-    loaded = abs(needed) > ZERO * (common + given.resists_Nm)
-    limits = [_towards_mid_motion(engagement, piece, rows) for piece in beside]
-    out: list[float] = []
-    for way in ways:
-        here = at._replace(along=at.along * way, aside=at.aside * way, curvature=at.curvature * way)
-        drives = math.copysign(1.0, needed)
-        slides = math.copysign(1.0, float(sliding(here, drives, given.radius).arrays()[0][0]))
-        with np.errstate(all="ignore"):
-            feeds = float(np.ravel(gain(given, here, drives, slides).c[0])[0]) * drives
-            asked = rows(here, drives, slides, math.copysign(1.0, feeds))
-        values = []
-        for row, limit in zip(asked, zip(*limits, strict=True), strict=True):
-            room = math.inf if row.room is None else float(np.ravel(row.room.c[0])[0])
-            value = float(np.ravel(row.value.c[0])[0])
-            away = math.isinf(room) and row.way < 0.0  # a cusp: on one side of it the wall turns
-            if (room > ZERO or away) and math.isfinite(value):  # away, and its stress goes to 0
-                values.append(value)
-            elif loaded:
-                values.append(math.copysign(math.inf, row.way))
-            else:
-                values.append(max(limit))
-        out = [max(pair) for pair in zip(out, values, strict=True)] if out else values
+def _middle(
+    engagement: Engagement, given: Setting, rows: Rows
+) -> Mapping[int, Sequence[tuple[float, float]]]:
+    """Places and values that no stretch reaches, of each row; straight slots are all scanned."""
+    out = defaultdict[int, list[tuple[float, float]]](list)
+    if not is_straight(engagement):
+        for row, x, most in at_mid_motion(engagement, given, rows):
+            if not np.isnan(most[0]):
+                out[row].append((float(x[0]), float(most[0])))
     return out
-
-
-def _towards_mid_motion(engagement: Engagement, piece: Stretch, rows: Rows) -> list[float]:
-    """The limits of 0/0 there, from the stretch beside it."""
-    x = piece.end if piece.end < 0.0 else piece.start
-    h = math.radians(x)
-    every = [row.value.c for row in rows(contact(engagement, x, 2), *piece[2:])]
-    return [float(c[0] - h * (c[1] - h * c[2])) for c in every]
 
 
 def _brink(

@@ -23,13 +23,10 @@ from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
     Machine,
-    at_mid_motion,
     machine,
-    spans_of,
-    stretches_of,
-    to_mid_motion,
 )
 from geneva_cli.analysis.loads.many import GROUP, NONE, count
+from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
 from geneva_cli.analysis.strength.roller import Passage, passing, turns_back
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
@@ -65,8 +62,7 @@ def _group(every: Machine, n: int) -> Array:
     engagement = every[0]
     load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
     spans = spans_of(engagement, n)
-    known = at_mid_motion(load, n) if engagement.slot.curved else []
-    found = search(load, spans, n, True, known)
+    found = search(load, spans, n, True, load.at_mid_motion(n))
     whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
     design, _, (a, b), positive = whole
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))

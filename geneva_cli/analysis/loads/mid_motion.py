@@ -1,0 +1,121 @@
+"""Mid-motion of curved slots, which no stretch reaches: what is beside it has slopes of rounding.
+
+There the pin stops and goes back in a cusp of its pitch curve, or crosses the radius.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import NEAR, Contact, contact
+from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
+from geneva_cli.analysis.loads.stretches import ZERO
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.pitch_curve import retraces
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.jet import Jet, Number
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+STEPS = 2  # of Newton's, from a chord of a ten-thousandth of the motion: what is left is rounding
+
+# contact, signs of torque, of sliding and of the input's torque -> the quantities
+Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]
+
+
+class Known(NamedTuple):
+    """Values of one of the quantities, of n designs: (n,) each."""
+
+    row: int  # the quantity's number
+    x: Array
+    value: Array  # infinite without a bound; NaN where there is none
+
+
+def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1) -> list[Known]:
+    """The values that ``rows`` have at mid-motion and nearer to it than any stretch comes.
+
+    Where the pin crosses the radius, its lever is 0 and a torque takes a force without a bound; of
+    0/0 it is the limit from both sides. At a cusp the wall turns away from the roller on one side:
+    what has no room on the other goes to 0 there. So does what goes with a torque that changes its
+    sign nearer to mid-motion than the stretches come.
+    """
+    middle, near = np.zeros(n), NEAR * np.reshape(engagement.entry_deg, (-1, 1))
+    out = []
+    with np.errstate(all="ignore"):
+        at = contact(engagement, np.zeros((n, 1)))
+        torque = value(wheel_torque(given, at))
+        common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
+        loaded = np.abs(torque) > ZERO * (common + given.resists_Nm)
+        beside = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
+        limits = [_limits(engagement, given, rows, x) for x in beside]
+        # The tangent points away from the axis on the way in and out; at a cusp they are one.
+        crosses = np.broadcast_to(~np.asarray(retraces(engagement)), (n, 1))
+        for way in (1.0, -1.0):
+            here = at._replace(
+                along=at.along * way, aside=at.aside * way, curvature=at.curvature * way
+            )
+            for k, row in enumerate(rows(here, *_signs(given, here))):
+                known = np.broadcast_to(value(row.value), (n, 1))
+                room = np.inf if row.room is None else value(row.room)
+                there = (room > ZERO) & np.isfinite(known)
+                away = np.isinf(room) & np.isfinite(known)
+                out.append(Known(k, middle, np.where(away, known, np.nan)[:, 0]))
+                for limit in limits:
+                    none = np.where(loaded, np.inf * row.way, limit[k])
+                    told = np.where(there, known, none)
+                    told = np.where(crosses, told, np.nan) if way < 0.0 else told
+                    out.append(Known(k, middle, told[:, 0]))
+        for x in beside:
+            out += _without_torque(engagement, given, rows, torque, x)
+    return out
+
+
+def _signs(given: Setting, at: Contact[Jet]) -> tuple[Array, Array, Array]:
+    """Of the wheel's torque, the sliding and the input's torque."""
+    drives = np.copysign(1.0, value(wheel_torque(given, at)))
+    slides = np.copysign(1.0, value(sliding(at, drives, given.radius)))
+    return drives, slides, np.copysign(1.0, value(gain(given, at, drives, slides)) * drives)
+
+
+def _limits(engagement: Engagement, given: Setting, rows: Rows, x: Array) -> list[Array]:
+    """The limits of 0/0 at mid-motion, from beside it."""
+    at, h = contact(engagement, x, 2), np.radians(x)
+    every = [row.value.c for row in rows(at, *_signs(given, at))]
+    return [c[0] - h * (c[1] - h * c[2]) for c in every]
+
+
+def _without_torque(
+    engagement: Engagement, given: Setting, rows: Rows, middle: Number, near: Array
+) -> list[Known]:
+    """The values where the torque changes its sign between mid-motion and beside it."""
+
+    def torque(x: Array) -> tuple[Array, Array]:
+        _, _, acceleration, jerk = engagement.motion(x, 3).derivatives()
+        left = acceleration * given.inertia_Nm + given.resists_Nm
+        return array(left), array(jerk * (given.inertia_Nm * DEGREE))
+
+    end = torque(near)[0]
+    changes = np.broadcast_to(middle * end < 0.0, near.shape)[:, 0]
+    if not changes.any():
+        return []
+    x = near * (middle / (middle - end))
+    for _ in range(STEPS):
+        left, rise = torque(x)
+        x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
+    at = contact(engagement, x)
+    _, slides, feeds = _signs(given, at)
+    unforced = at._replace(lever=at.lever + np.inf)  # what is left of the torque takes no force
+    out = []
+    for drives in (1.0, -1.0):  # it is 0 on both sides
+        pairs = zip(*(rows(here, drives, slides, feeds) for here in (at, unforced)), strict=True)
+        for k, (row, none) in enumerate(pairs):
+            known = np.broadcast_to(value(none.value), near.shape)[:, 0]
+            room = np.inf if row.room is None else value(row.room)
+            there = np.broadcast_to(room > ZERO, near.shape)[:, 0] & np.isfinite(known) & changes
+            out.append(Known(k, x[:, 0], np.where(there, known, np.nan)))
+    return out
