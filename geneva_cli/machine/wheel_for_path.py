@@ -15,9 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.machine.exact_path import Exact, ExactPoint, cross, length
+from geneva_cli.machine.path_choice import chosen
 from geneva_cli.machine.path_pairs import FLAT
 from geneva_cli.machine.path_samples import joined
-from geneva_cli.machine.path_wheels import Wheels, chosen, followed, wheels
+from geneva_cli.machine.path_wheels import Wheels, followed, wheels
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
+from geneva_cli.machine.path_choice import chosen
 from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
-from geneva_cli.machine.path_wheels import chosen, wheels
+from geneva_cli.machine.path_wheels import wheels
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.jet import Jet

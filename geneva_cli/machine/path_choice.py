@@ -1,0 +1,122 @@
+"""Of the wheels that a roller path can drive that which is taken: the gentlest, or the one asked.
+
+The gentlest has the least peak velocity, of which a few places of each wheel tell bounds.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.path_samples import blocks, joined, points
+from geneva_cli.machine.path_wheels import Wheels
+from geneva_cli.machine.roller_path import RollerPath
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Number, Whole
+
+PLACES = 16  # intervals in which a peak is looked for
+NEARER = 12  # times that the look is narrowed, to the three about the greatest
+HIGHER = 0.5  # of the bend at the greatest place: a parabola rises above it by an eighth at most
+BLOCK = 256  # wheels at a time: they stay in the processor's cache
+TIE = 1e-8  # share by which two wheels' peak velocities may differ and be the same
+
+
+def chosen(path: RollerPath, found: Wheels, wanted: Number | None = None) -> Whole:
+    """The numbers of the wheels that are taken, one of each design that has any, in their order.
+
+    The gentlest, which has the least peak velocity, or the one entered nearest to ``wanted``
+    (radians, of all designs (n, 1)). Of equal ones, as those of a path that is its own mirror
+    image, the one entered first.
+    """
+    which = found.which
+    cost = np.zeros(len(which))
+    several = np.flatnonzero(np.bincount(which, minlength=1)[which] > 1)
+    some = found.taken(several)
+    if wanted is not None:
+        goal = np.ravel(wanted)
+        off = some.phi[:, 0] - (goal[some.which] if len(goal) > 1 else goal)
+        cost[several] = np.abs(off - math.tau * np.round(off / math.tau))
+    elif len(several):
+        cost[several] = _peaks(path, some)
+    least = np.full(int(which.max(initial=-1)) + 1, np.inf)
+    np.minimum.at(least, which, cost)
+    tied = np.flatnonzero(cost <= least[which] * (1.0 + TIE))
+    order = tied[np.lexsort((found.phi[tied, 0] % math.tau, which[tied]))]
+    first = np.ones(len(order), dtype=bool)
+    first[1:] = np.diff(which[order]) != 0
+    return order[first]
+
+
+def _peaks(path: RollerPath, found: Wheels) -> Array:
+    """The peak velocities of several wheels a design, as near as it takes to know the least.
+
+    Each is looked at at a few places, which bound its peak. Wheels whose bounds leave open which
+    of a design's is the least are looked at nearer.
+    """
+    known = _velocities(path, found)
+    open_ = _open_peaks(found.which, known)
+    for _ in range(NEARER):
+        if not len(open_):
+            break
+        near = _velocities(path, found.taken(open_), known.beside[open_])
+        near = near._replace(most=np.minimum(near.most, known.most[open_]))
+        for all_, some in zip(known, near, strict=True):
+            all_[open_] = some
+        open_ = _open_peaks(found.which, known)
+    return known.least
+
+
+def _open_peaks(which: Whole, known: _Velocities) -> Whole:
+    """The wheels that may be the least of their design's, where another may be so too."""
+    bar = np.full(int(which.max()) + 1, np.inf)
+    np.minimum.at(bar, which, known.most)
+    may = known.least <= bar[which] * (1.0 + TIE)
+    rivals = np.bincount(which[may], minlength=len(bar))[which] > 1
+    return np.flatnonzero(may & rivals & (known.most - known.least > 1e-3 * TIE * known.least))
+
+
+class _Velocities(NamedTuple):
+    """Bounds of peak velocities, and the crank's angles between which the peaks are."""
+
+    least: Array
+    most: Array
+    beside: Array
+
+
+def _velocities(path: RollerPath, found: Wheels, between: Array | None = None) -> _Velocities:
+    """Peak velocities between crank angles, (n, 2), from entry to exit without."""
+    between = found.phi if between is None else between
+    looked: _Velocities = joined(
+        [
+            _looked(path.roughly(found.which[i]), found.phi[i], between[i])
+            for i in blocks(len(between), BLOCK)
+        ]
+    )
+    return looked
+
+
+def _looked(path: RollerPath, phi: Array, between: Array) -> _Velocities:
+    """Peak velocities of a block of wheels, each with its path."""
+    ends = points(path, phi)
+    (p, q), (t, u) = ends.p.T, ends.t.T
+    rho = np.abs(q - p) / np.abs(t + u)
+    centre = (0.5 * ((p + rho * t) + (q - rho * u)))[:, None]
+    low, high = between[:, :1], between[:, 1:]
+    phi = low + (high - low) * (np.arange(PLACES + 1) / PLACES)
+    x, y = path.at(phi, 1)
+    ray = x.c[0] + 1j * y.c[0] - centre
+    velocity = np.abs(((x.c[1] + 1j * y.c[1]) / ray).imag)
+    # what the wheel turns between two places, over the crank's turn, is no more than the peak
+    mean = np.abs(np.angle(ray[:, 1:] * ray[:, :-1].conj())) / np.diff(phi, axis=1)
+    steepest = np.maximum(mean, np.maximum(velocity[:, :-1], velocity[:, 1:]))
+    i = steepest.argmax(axis=1)[:, None]
+    sides = np.hstack((np.maximum(i - 1, 0), np.minimum(i + 2, PLACES)))
+    j = velocity.argmax(axis=1)[:, None]
+    beside = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, PLACES)))
+    top, least = velocity.max(axis=1), steepest.max(axis=1)
+    bend = 2.0 * top - np.take_along_axis(velocity, beside, axis=1).sum(axis=1)
+    most = np.where(least > top, np.inf, top + HIGHER * bend)
+    return _Velocities(least, most, np.take_along_axis(phi, sides, axis=1))

@@ -1,0 +1,102 @@
+"""Whether a roller on its path keeps to its slot in a wheel, from entry to exit and back.
+
+From entry to exit the roller turns the wheel one way and is nearer to its centre than at both; on
+the way back it is farther. Both are quantities of which samples of the path have values and
+slopes, and hold all along where the cubics through these have no coefficient (Bernstein) of the
+other sign; elsewhere it is looked at more closely.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.path_pairs import Pairs
+from geneva_cli.machine.path_samples import PathPoints, points
+from geneva_cli.machine.roller_path import RollerPath
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
+
+THIRD = 1.0 / 3.0
+ROUNDING = 1e-9  # share of its greatest by which a quantity may be below zero where it is zero
+CLOSER = 8  # parts into which an interval is cut that is looked at more closely
+LOOKS = 4  # times that it is
+
+
+class PinCourse(NamedTuple):
+    """What must be above zero, with its slope: the pin's moment about the wheel's centre, and the
+    square of its distance from the centre, short of that at entry.
+    """
+
+    moment: Array
+    moment_slope: Array
+    short: Array
+    short_slope: Array
+
+
+class PlacedWheel(NamedTuple):
+    """Wheels by their centres and senses, in a column."""
+
+    centre: Complex
+    square: Array  # of the distance of entry and exit
+    sense: Array
+
+    def course(self, at: PathPoints) -> PinCourse:
+        """At places of the path, a row a wheel."""
+        ray = (at.p - self.centre).conj()
+        moment, slope = (self.sense * (ray * x).imag for x in (at.v, at.a))
+        short = self.square - (ray.real**2 + ray.imag**2)
+        return PinCourse(moment, slope, short, -2.0 * (ray * at.v).real)
+
+    def taken(self, where: Which) -> PlacedWheel:
+        """Some of the wheels."""
+        return PlacedWheel._make(part[where] for part in self)
+
+
+def leaves_slot(
+    path: RollerPath,
+    wheel: PlacedWheel,
+    ends: Pairs,
+    nodes: Array,
+    course: PinCourse,
+    motion: Array,
+) -> Mask:
+    """Whether the roller leaves its slot between samples ``nodes`` since entry, a row a wheel."""
+    bar = [ROUNDING * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
+    fails = np.zeros(len(nodes), dtype=bool)
+    inside = nodes[:, :-1] < motion
+    row, column = np.nonzero(_open(nodes, course, inside, *(x[:, None] for x in bar)))
+    left, right, inside = nodes[row, column], nodes[row, column + 1], inside[row, column]
+    for _ in range(LOOKS):
+        if not len(row):
+            break
+        share = np.arange(CLOSER + 1) / CLOSER
+        places = left[:, None] + (right - left)[:, None] * share
+        phi = places + ends.at.phi[row, :1]
+        some = wheel.taken(row).course(points(path.roughly(ends.which[row]), phi))
+        low, far = (x[row, None] for x in bar)
+        wrong = np.where(
+            inside[:, None], (some.moment < -low) | (some.short < -far), some.short > far
+        )
+        fails[row[wrong.any(axis=1)]] = True
+        i, j = np.nonzero(_open(places, some, inside[:, None], low, far) & ~fails[row][:, None])
+        row, left, right, inside = row[i], places[i, j], places[i, j + 1], inside[i]
+    return fails
+
+
+def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:
+    """Intervals in which cubics do not show that all is well."""
+    width = np.diff(places, axis=1)
+    sign = np.where(inside, 1.0, -1.0)
+    short = _least(width, course.short, course.short_slope, sign) < -far
+    return short | (inside & (_least(width, course.moment, course.moment_slope, 1.0) < -low))
+
+
+def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
+    """The least coefficient of a cubic between neighbours."""
+    a, c = value[:, :-1], value[:, 1:]
+    b, d = a + THIRD * width * slope[:, :-1], c - THIRD * width * slope[:, 1:]
+    least: Array = np.minimum.reduce([sign * x for x in (a, b, c, d)])
+    return least
