@@ -130,6 +130,16 @@ def face_properties(face: Moments, thickness_mm: float, density_kgm3: float) -> 
     return MassProperties(per * face.area * MM**2, face.centroid, per * face.polar * MM**4)
 
 
+def added(one: MassProperties, other: MassProperties) -> MassProperties:
+    """Of two bodies with one origin."""
+    mass = one.mass_kg + other.mass_kg
+    x, y = (
+        (one.mass_kg * a + other.mass_kg * b) / mass
+        for a, b in zip(one.centroid_mm, other.centroid_mm, strict=True)
+    )
+    return MassProperties(mass, (x, y), one.inertia_kgm2 + other.inertia_kgm2)
+
+
 def with_material_left(shape: Contour, outside: bool) -> Contour:
     """A contour that runs counterclockwise as an outline, and clockwise as a hole."""
     return shape if (area(shape) > 0.0) is outside else backwards(shape)

@@ -19,6 +19,8 @@ INKS = {
     "ARM": Ink(23, "#a56752"),
     "LINK": Ink(134, "#007f7f"),
     "FRAME": Ink(153, "#527ca5"),
+    "HUB": Ink(213, "#a552a5"),
+    "SHAFT": Ink(45, "#7f6f3f"),
     "ROLLER": Ink(200, "#bf00ff"),
     "BORE": Ink(1, "#ff0000"),
     "COUPON": Ink(124, "#007f5f"),

@@ -1,7 +1,7 @@
 """Drawings of the parts, each in its own frame; ``machine_drawing`` puts them together.
 
 Layers: WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut; ROLLER is a circle; PITCH is where rollers
-run, and where gears roll; CENTER has marks.
+run, and where gears roll; CENTER has marks; HUB is where a hub stands, a part of its own.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import crank_circles
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.outlines import Outlines, slot_walls
-from geneva_cli.parts.plates import arm_plate, crank_group, wheel_plate
+from geneva_cli.parts.plates import arm_plate, crank_group, wheel_part
+from geneva_cli.parts.shafts import crank_hub, wheel_hub
 from geneva_cli.parts.walls.ways import beside
 from geneva_cli.parts.wheel import wheel_circles, wheel_contour
 
@@ -38,7 +39,7 @@ PITCH = "PITCH"
 def wheel(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The wheel: its axis the origin, the first slot ahead."""
     contour, *circles = wheel_shapes(found, tolerance, curves)
-    solid = wheel_plate(found, contour)
+    solid = wheel_part(found, contour)
     return Drawing(_title(found, "wheel"), (contour, *circles), solid=solid)
 
 
@@ -99,7 +100,9 @@ def wheel_shapes(
 ) -> tuple[Contour, *tuple[Shape, ...]]:
     """The wheel's outline, and its circles."""
     assembly, sizes = found.assembly, found.sizes
-    return (_outline(found, tolerance, curves), *wheel_circles(assembly, sizes))
+    hub = wheel_hub(assembly, sizes)
+    circles = [*wheel_circles(assembly, sizes), *([hub.outline] if hub else [])]
+    return (_outline(found, tolerance, curves), *circles)
 
 
 def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
@@ -124,7 +127,9 @@ def _as_turned(found: Outlines, tolerance: float, curves: str) -> bool:
 
 def crank_shapes(found: Outlines) -> list[Shape]:
     """The locking disc, or its sectors, with their holes, and the rollers."""
-    return [*found.crank, *crank_circles(found.assembly, found.sizes), *bolts(found)]
+    hub = crank_hub(found)
+    circles = [*crank_circles(found.assembly, found.sizes), *([hub.outline] if hub else [])]
+    return [*found.crank, *circles, *bolts(found)]
 
 
 def pitch_line(

@@ -94,6 +94,13 @@ def standing_plates(
     yield Member(frame_plate(Proof(found.assembly.given, found), fixed, bars))
 
 
+def lowest(standing: list[Member]) -> float:
+    """The lower face of the frame, the last of the plates that stand."""
+    frame = standing[-1].part
+    assert isinstance(frame, Plate)
+    return frame.low
+
+
 def standing(mechanism: Mechanism) -> Iterator[Point]:
     """Where shafts stand in the frame: the wheel's, the crank's, and those of what drives it."""
     L, turns = mechanism.center_distance_mm, mechanism.spec.drive.turns

@@ -28,11 +28,13 @@ from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_line, wheel_shapes
 from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import standing_plates
+from geneva_cli.parts.frame import lowest, standing_plates
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.plates import crank_group, wheel_plate
+from geneva_cli.parts.plates import crank_group, wheel_part
+from geneva_cli.parts.shafts import shafts
+from geneva_cli.parts.turn.planes import crank_stop
 
 BEYOND = 0.04  # of the centre distance: between a part and the arrow that says how it turns
 
@@ -50,6 +52,7 @@ def machine(found: Outlines, tolerance: float, curves: str) -> Drawing:
     drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
     first = list(first_members(assembly.given, bars))
     fixed = list(standing_plates(found, bars, tolerance, curves))
+    on_axes = list(shafts(found, lowest(fixed), crank_stop(found, bars)))
     # a first wheel is drawn itself, and not its pitch circle
     drawn += together(bars._replace(gears=()) if first else bars)
     drawn += [*shapes(first), *shapes(fixed)]
@@ -58,11 +61,12 @@ def machine(found: Outlines, tolerance: float, curves: str) -> Drawing:
     solid = Group(
         title,
         (
-            Member(wheel_plate(found, contour), turn=psi),
+            Member(wheel_part(found, contour), turn=psi),
             Member(crank_group(found, carrier, bars.pin_low), (assembly.L, 0.0), angle),
             *bars.cut,
             *bars.joined,
             *first,
+            *on_axes,
             *fixed,
         ),
     )

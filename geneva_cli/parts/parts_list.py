@@ -3,7 +3,7 @@
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
 axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
 turns on: the wheel's, the crank's, a roller's own, a link's first joint. z is along the axis, from
-the wheel's lower face. Hubs and shafts are left out.
+the wheel's lower face: the stack. Shafts that carry links alone are left out.
 """
 
 from __future__ import annotations
@@ -21,12 +21,14 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import frame_plate, standing_plates
+from geneva_cli.parts.frame import frame_plate, lowest, standing_plates
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.plates import crank_group, wheel_plate
+from geneva_cli.parts.plates import crank_group, wheel_part
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.shafts import shafts
 from geneva_cli.parts.sphere.listed import dimensions, shell_rows
+from geneva_cli.parts.turn.planes import crank_stop
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Table, rows_table
 
@@ -81,10 +83,11 @@ def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
     with suppress(GenevaError):  # and that of the links
         bars = drawn_links(found.assembly.given, found)
     crank = crank_group(found, arm, bars.pin_low if bars else None)
-    members = [Member(wheel_plate(found, found.wheel)), Member(crank)]
+    members = [Member(wheel_part(found, found.wheel)), Member(crank)]
     if bars:
         members += [*bars.cut, *bars.joined, *first_members(found.assembly.given, bars)]
-        members += standing_plates(found, bars)
+        fixed = list(standing_plates(found, bars))
+        members += [*shafts(found, lowest(fixed), crank_stop(found, bars)), *fixed]
     yield from plate_rows(spec, Group("", tuple(members)))
 
 

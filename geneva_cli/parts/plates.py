@@ -10,6 +10,7 @@ from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.shafts import crank_hub, wheel_hub
 from geneva_cli.parts.wheel import wheel_circles
 
 
@@ -23,6 +24,12 @@ def wheel_plate(found: Outlines, contour: Contour) -> Plate:
     return Plate("wheel", contour.layer, outline, (*openings, *bores), 0.0, high)
 
 
+def wheel_part(found: Outlines, contour: Contour) -> Plate | Group:
+    """The wheel, with its hub below it where the spec gives one."""
+    plate, hub = wheel_plate(found, contour), wheel_hub(found.assembly, found.sizes)
+    return Group(plate.name, (Member(plate), Member(hub))) if hub else plate
+
+
 def arm_plate(found: Outlines, arm: CrankArm) -> Plate:
     """The crank arm below the wheel, ``pin_gap_mm`` from it."""
     high = -found.assembly.mechanism.spec.size.pin_gap_mm
@@ -34,7 +41,7 @@ def arm_plate(found: Outlines, arm: CrankArm) -> Plate:
 def crank_group(
     found: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
 ) -> Group:
-    """What the crank carries: locking disc or sectors, rollers, their pins; and the arm, if given.
+    """What the crank carries: locking disc or sectors, rollers, pins, hub; and the arm, if given.
 
     ``pin_low`` is down to where pins go that stand in a link. A bore is a hole in the disc, and
     nothing where none is left about the axis.
@@ -62,6 +69,8 @@ def crank_group(
     below = low - (sizes.arm_thickness if arm else 0.0) if pin_low is None else pin_low
     round_ = _rollers(found, below)
     members += [Member(plate, axis) for axis in roller_centres(assembly) for plate in round_]
+    hub = crank_hub(found)
+    members += [Member(hub)] if hub else []
     return Group("crank", tuple(members))
 
 

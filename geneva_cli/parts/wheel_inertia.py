@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from geneva_cli.curves.moments import Moments, moments, total
-from geneva_cli.curves.plates import MassProperties, face_properties
+from geneva_cli.curves.plates import MassProperties, added, face_properties, mass_properties
 from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.shafts import wheel_hub
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
-    """The wheel's mass and inertia about its axis, hubs left out; None where no thickness is given.
+    """Mass and inertia of the wheel, and of a hub that is given; None without a thickness.
 
     J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem:
     exact for lines and arcs; what a curved slot takes is right to some millionths of it. Raises
@@ -31,7 +32,10 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     contour = _contour(where, size)
     # an internal wheel's contour is its opening, within its outside
     face = outer.less(contour) if outer.area else contour
-    return face_properties(face.less(bores), size.wheel_thickness, spec.material_wheel.density_kgm3)
+    density = spec.material_wheel.density_kgm3
+    wheel = face_properties(face.less(bores), size.wheel_thickness, density)
+    hub = wheel_hub(where, size)
+    return added(wheel, mass_properties(hub, density)) if hub else wheel
 
 
 def _contour(where: Assembly, size: Sizes) -> Moments:

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.spec.processes import PROCESSES, Allowances
-from geneva_cli.spec.rules import NOT_NEGATIVE, POSITIVE, OneOf, Range
+from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
@@ -74,6 +74,15 @@ class Size(SpecTable):
     wheel_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the wheel's hub on the roller's side"
     ] = None
+    wheel_hub_length_mm: Annotated[
+        float | None, POSITIVE, "length of that hub below the wheel; down to below the crank arm"
+    ] = None
+    wheel_shaft_low_mm: Annotated[
+        float | None, LENGTH, "lower end of the wheel's shaft, from the wheel's lower face; frame's"
+    ] = None
+    wheel_shaft_high_mm: Annotated[
+        float | None, LENGTH, "upper end of the wheel's shaft, from there; the wheel's upper face"
+    ] = None
     crank_bore_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
@@ -81,6 +90,17 @@ class Size(SpecTable):
     ] = None
     crank_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
+    ] = None
+    crank_hub_length_mm: Annotated[
+        float | None,
+        POSITIVE,
+        "length of that hub, from the arm up; to the wheel's upper face",
+    ] = None
+    crank_shaft_low_mm: Annotated[
+        float | None, LENGTH, "lower end of the crank's shaft, from the wheel's lower face; frame's"
+    ] = None
+    crank_shaft_high_mm: Annotated[
+        float | None, LENGTH, "upper end of the crank's shaft, from there; that of arm, disc or hub"
     ] = None
     pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; r"] = None
     press_fit_mm: Annotated[

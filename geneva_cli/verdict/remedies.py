@@ -187,6 +187,15 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "wheel_bore_mm", 0.2),
         replaced("size", "wheel_bore_mm", 0.0),
     ),
+    "beside_shafts_mm": (
+        scaled("size", "wheel_hub_mm", 0.5),
+        scaled("size", "crank_hub_mm", 0.5),
+        *(
+            left_out("size", f"{part}_{what}_mm")
+            for part in ("wheel", "crank")
+            for what in ("hub", "hub_length", "shaft_low", "shaft_high")
+        ),
+    ),
     "wheel_bore_wall_mm": (
         scaled("size", "wheel_bore_mm", 0.2),
         replaced("size", "wheel_bore_mm", 0.0),

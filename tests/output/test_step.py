@@ -172,7 +172,7 @@ def test_colours():
         while file.of[value][0] != "COLOUR_RGB":
             (value,) = [v for v in flat(file.values(value)) if type(v) is not str]
         found.append("#" + "".join(f"{round(255 * c):02x}" for c in file.values(value)[1:]))
-    layers = ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER", "FRAME")
+    layers = ("WHEEL", "CRANK", "ARM", "ROLLER", "ROLLER", "SHAFT", "SHAFT", "FRAME")
     assert found == [INKS[layer].rgb for layer in layers]
 
 
@@ -195,7 +195,9 @@ def test_thickness():
         tall = {plate.name: plate.high - plate.low for plate in plates(solid)}
         gap = size.pin_gap_mm
         below = {"arm": wheel, "frame": wheel, "pin": 2.0 * wheel + gap}  # through the arm
-        assert tall == {"wheel": wheel, "locking disc": lock, "roller": wheel} | below
+        shafts = {"wheel's shaft": 3.0 * wheel + gap, "crank's shaft": 2.0 * wheel + lock}
+        above = {"wheel": wheel, "locking disc": lock, "roller": wheel}
+        assert tall == above | below | shafts
         (arm,) = (plate for plate in plates(solid) if plate.name == "arm")
         assert arm.high == -gap
 

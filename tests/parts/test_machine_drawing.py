@@ -1,5 +1,6 @@
 """The machine put together: each part where it works, and no two in one place, by shapely."""
 
+import math
 from itertools import combinations
 
 import pytest
@@ -21,10 +22,7 @@ OVERLAP = 1e-4
 def polygon(plate):
     def ring(shape):
         if isinstance(shape, Circle):
-            halves = [
-                about(shape.centre, shape.radius, a, 3.141592653589793)
-                for a in (0.0, 3.141592653589793)
-            ]
+            halves = [about(shape.centre, shape.radius, a, math.pi) for a in (0.0, math.pi)]
             shape = closed(shape.layer, halves)
         return vertices(shape, CHORDS)
 
@@ -41,9 +39,22 @@ def faces(part, at=(0.0, 0.0), turn=0.0):
             yield plate, translate(rotate(face, turn, (0.0, 0.0), use_radians=True), *at)
 
 
-@pytest.mark.parametrize("name", ["geneva-pair", "cam-geneva", "slider-crank", "internal-z6"])
-def test_no_two_parts_are_in_one_place(name):
-    design = load(str(repo.DESIGNS / f"{name}.toml"))
+HUBS = ("wheel_hub_mm=40", "crank_hub_mm=14", "lock_thickness_mm=6", "pin_gap_mm=1")
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("geneva-pair", ()),
+        ("cam-geneva", ()),
+        ("slider-crank", ()),
+        ("internal-z6", ()),
+        ("side-crank-z6", ()),
+        ("two-pins-z4", HUBS),
+    ],
+)
+def test_no_two_parts_are_in_one_place(name, given):
+    design = load(str(repo.DESIGNS / f"{name}.toml"), [f"size.{key}" for key in given])
     L = design.mechanism.center_distance_mm
     every = list(faces(design.drawing("assembly", 0.01).solid))
     names = {plate.name for plate, _ in every}

@@ -10,8 +10,10 @@ from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, radius_of
+from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 
 SAME = 1e-6  # mm
@@ -27,8 +29,13 @@ def draw_disc(view: View, found: Outlines) -> None:
     bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
     for shape in (*screwed, *bores):
         view.draw(shape, OUTLINE)
+    hub = crank_hub(found)
+    if hub:
+        view.draw(hub.outline, OUTLINE)
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if whole else 0.2 * sizes.lock)
+    if hub:
+        draw_hub(view, hub)
     bored(view, bores, sizes.crank_bore, assembly.mechanism.spec.size.crank_keyway)
     arcs = [s for contour in found.crank for s in contour.segments if isinstance(s, Arc)]
     locking = [a for a in arcs if math.hypot(*a.centre) < SAME and _is(a.radius, sizes.lock)]
@@ -141,7 +148,7 @@ def draw_roller(view: View, found: Outlines) -> None:
 
 def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> None:
     """The machine put together, with the centre distance."""
-    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN}
+    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN, "HUB": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
     L = found.assembly.L

@@ -22,6 +22,7 @@ from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.machine_drawing import machine
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.parts_list import plate_rows
+from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sheet import points, wheel
 from geneva_cli.parts.sheet.crank import (
     draw_arm,
@@ -43,11 +44,12 @@ from geneva_cli.parts.sheet.paper import (
     table,
     title_block,
 )
-from geneva_cli.parts.sheet.standing import draw_frame, draw_groove
+from geneva_cli.parts.sheet.standing import draw_frame, draw_groove, draw_shaft
 from geneva_cli.parts.sheet.view import Block, View, number
 from geneva_cli.spec.tables import Material
 
 ENLARGED = FORMATS[:2]  # what is used above 1:1
+HUB = "crank's hub"  # stands on the disc
 ASSEMBLED = 2.0  # how much smaller the machine is drawn than its parts
 GENERAL = "ISO 2768-m"  # tolerances of what has none of its own
 ITEMS = (12.0, 50.0, 14.0, 20.0, 24.0, 60.0)  # mm: columns of the list of items
@@ -63,6 +65,7 @@ class Shown(NamedTuple):
     arm: CrankArm | None
     first: Outlines | None
     groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
+    shafts: list[Plate]
     standing: list[Plate]  # the frame comes last
     tolerance: float
     curves: str
@@ -100,6 +103,7 @@ def _shown(found: Outlines, tolerance: float, curves: str) -> Shown:
         crank_arm(found) if has_arm(found) else None,
         first_outlines(given, drawn_links(given, found)),
         drawings.groove(found, tolerance, curves).shapes if cam else (),
+        [plate for plate in every if plate.layer == SHAFT],
         [plate for plate in every if plate.layer == STANDING],
         tolerance,
         curves,
@@ -121,11 +125,15 @@ def _views(shown: Shown, scale: float) -> Iterator[View]:
     for front, of in (("", found), ("first ", shown.first)):
         if of is None:
             continue
-        made = view(f"{front}wheel")
+        made = view(f"{front}wheel", f"{front}wheel's hub")
         wheel.draw_wheel(made, of, shown.tolerance, shown.curves)
         yield made
         if of.crank:
-            made = view(f"{front}locking disc", f"{front}locking sector")
+            made = view(
+                f"{front}locking disc",
+                f"{front}locking sector",
+                *([] if front else ["crank's hub"]),
+            )
             draw_disc(made, of)
             yield made
     if shown.arm:
@@ -135,6 +143,10 @@ def _views(shown: Shown, scale: float) -> Iterator[View]:
     made = view("roller", "pin")
     draw_roller(made, found)
     yield made
+    for plate in shown.shafts:
+        made = view(plate.name)
+        draw_shaft(made, plate)
+        yield made
     *grooved, lowest = shown.standing
     if shown.groove:
         made = view(*(plate.name for plate in grooved), "groove")

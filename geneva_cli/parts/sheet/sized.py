@@ -65,3 +65,8 @@ def roller_bore(radius: float) -> str:
 def bore(radius: float) -> str:
     """A bore's diameter."""
     return fitted(2.0 * radius, "Ø ", "H7")
+
+
+def shaft(radius: float) -> str:
+    """A shaft's diameter, in such a bore."""
+    return fitted(2.0 * radius, "Ø ", "h6")

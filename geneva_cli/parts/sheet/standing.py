@@ -1,4 +1,4 @@
-"""The views of the plates that stand: the frame, and a cam's groove plate."""
+"""The views of the plates that stand, frame and groove plate, and of hubs and shafts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, closed
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, circle_of
@@ -65,3 +65,21 @@ def draw_groove(
             text = sized.plain(2.0 * hole.radius, "Ø ")
             view.diameter([hole], text if hole is round_[0] else sized.bore(hole.radius))
     bolted(view, mounts)
+
+
+def draw_hub(view: View, hub: Plate) -> None:
+    """The diameter of a hub that is drawn."""
+    assert isinstance(hub.outline, Circle)
+    view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
+
+
+def draw_shaft(view: View, shaft: Plate) -> None:
+    """A shaft from the side."""
+    assert isinstance(shaft.outline, Circle)
+    long, radius = shaft.thickness, shaft.outline.radius
+    corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
+    sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    view.draw(closed("", sides), OUTLINE)
+    view.centre_line((0.0, 0.0), (long, 0.0))
+    view.linear((0.0, -radius), (long, -radius), 0.0, number(long))
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(radius))

@@ -6,12 +6,14 @@ import math
 
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point
-from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts import drawings
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.shafts import HUB, wheel_hub
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, bored, circle_of
+from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 from geneva_cli.parts.wheel import dial_bolts
 
@@ -24,7 +26,7 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     made = drawings.wheel(found, tolerance, curves)
     contour = next(s for s in made.shapes if isinstance(s, Contour))
     for shape in made.shapes:
-        view.draw(shape, OUTLINE)
+        view.draw(shape, HIDDEN if shape.layer == HUB else OUTLINE)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross((0.0, 0.0), reach)
     _axes(view, found, reach)
@@ -43,6 +45,9 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, found, reach)
     _rims(view, arcs, reach)
+    hub = wheel_hub(assembly, sizes)
+    if hub:
+        draw_hub(view, hub)
     bored(view, bores, sizes.wheel_bore, assembly.mechanism.spec.size.wheel_keyway)
     bolted(view, screwed)
 

@@ -1,7 +1,7 @@
 """The gaps, in a whole turn, between links and what passes through their planes.
 
 Each plane below the wheel's has one link, and the arm has its own check. What passes through is
-round: the wheel's hub and shaft in the first plane, the spacer on a pin that joins links of planes
+round: the wheel's hub and, below it, its shaft, the spacer on a pin that joins links of planes
 farther apart, the crank's shaft between the planes in which it carries something. That shaft gets
 out below all links, or above through the locking disc: where it gets neither way, nobody can say
 how it is carried.
@@ -22,8 +22,9 @@ from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_pins import joined
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import LinkSizes, places
-from geneva_cli.parts.links import SAME, drawn_links
+from geneva_cli.parts.links import SAME, Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.shafts import wheel_hub_length, wheel_shaft_ends, wheel_shaft_radius
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -69,9 +70,7 @@ def planes(found: Outlines) -> Planes:
         return Planes(None, None)
     made = drawn_links(given, found)
     assert made.sizes is not None
-    outlines = {
-        plate.name: plate.outline for plate in made.plates if isinstance(plate.outline, Contour)
-    }
+    outlines = _outlines(made)
     shaft = _Shaft(found, links, outlines, made.sizes)
     passing = [*_passing(found, links, made.sizes, turn), *shaft.between()]
     met = [
@@ -85,15 +84,48 @@ def planes(found: Outlines) -> Planes:
     return Planes(min(met, default=None), blocked)
 
 
+def crank_stop(found: Outlines, bars: Links) -> float | None:
+    """How far down the crank's shaft goes along the axis where a link is in its way; else None."""
+    given = found.assembly.given
+    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * given.spec.drive.turns
+    links = [link for link in links_at(given, turn) if not link.radius_mm]
+    if not links or bars.sizes is None:
+        return None
+    shaft = _Shaft(found, links, _outlines(bars), bars.sizes)
+    blocked = shaft.below(turn)
+    if blocked is None or blocked.gap >= 0.0:
+        return None
+    return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
+
+
+def _outlines(bars: Links) -> dict[str, Contour]:
+    return {
+        plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
+    }
+
+
 def _passing(found: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
-    hub = found.sizes.wheel_hub  # without one the wheel's shaft ends in the wheel
-    if found.assembly.sign > 0.0 and hub:
-        yield Round("the wheel's hub", 1, 0.0 * turn, hub)
+    yield from _on_wheel(found, links, sizes, 0.0 * turn)
     for one in joined(links, SAME * found.assembly.L):
         for plane in range(min(one.planes) + 1, max(one.planes)):
             if plane not in one.planes:
                 name = f"the pin of {' and '.join(one.names)}"
                 yield Round(name, plane, one.way, sizes.ring)
+
+
+def _on_wheel(found: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
+    """The wheel's hub, in the planes that it reaches, and its shaft in those below it."""
+    if found.assembly.sign < 0.0:
+        return
+    hub, shaft = found.sizes.wheel_hub, wheel_shaft_radius(found)
+    reach = -wheel_hub_length(found.assembly.mechanism.spec.size, found.sizes)
+    low, _ = wheel_shaft_ends(found, -math.inf)
+    for plane in sorted({link.plane for link in links}):
+        high = sizes.span(plane)[1]
+        if hub and reach < high - SAME * found.assembly.L:
+            yield Round("the wheel's hub", plane, axis, hub)
+        elif shaft and low < high - SAME * found.assembly.L:
+            yield Round("the wheel's shaft", plane, axis, shaft)
 
 
 class _Shaft:
@@ -135,7 +167,11 @@ class _Shaft:
 
     def way_out(self, turn: Array) -> Meeting | None:
         """The shaft's least gap on the better way to its bearings; None if it meets nothing."""
-        if not self.carries or self.through:
+        return None if self.through else self.below(turn)
+
+    def below(self, turn: Array) -> Meeting | None:
+        """The shaft's least gap to the links below all that it carries; None without such links."""
+        if not self.carries:
             return None
         deepest = max(self.carries)
         met = [

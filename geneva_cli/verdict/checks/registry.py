@@ -65,6 +65,7 @@ STATIC: Checks = {
     "crank_shaft_mm": "shafts:crank_shaft",
     "crank_hub_mm": "shafts:crank_hub",
     "wheel_shaft_mm": "shafts:wheel_shaft",
+    "beside_shafts_mm": "shafts:beside",
     "arm_wall_mm": "arm:arm_wall",
     "arm_to_hub_mm": "arm:arm_to_hub",
     "link_wall_mm": "links:wall",

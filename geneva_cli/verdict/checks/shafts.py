@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.beside_shafts import beside_shafts
 from geneva_cli.verdict.checks.check import Check, compared
+
+ROUNDING = 1e-12  # of the centre distance
+KEYS = (
+    "wheel_hub_mm",
+    "wheel_hub_length_mm",
+    "wheel_shaft_low_mm",
+    "wheel_shaft_high_mm",
+    "crank_hub_mm",
+    "crank_hub_length_mm",
+    "crank_shaft_low_mm",
+    "crank_shaft_high_mm",
+)
 
 
 def crank_shaft(name: str, found: Outlines) -> Check | None:
@@ -34,6 +48,22 @@ def wheel_shaft(name: str, found: Outlines) -> Check | None:
     if not (hub and found.assembly.sign > 0.0):
         return None
     return compared(name, size.slot_end - hub, "at least", 0.0)
+
+
+def beside(name: str, found: Outlines) -> Check | None:
+    """Between hubs and shafts and what turns beside them; made where a size of theirs is given.
+
+    By default they have their room, but for a first wheel's.
+    """
+    given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
+    if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
+        return None
+    try:
+        least = beside_shafts(found)
+    except GenevaError as error:
+        return Check(name, None, "at least", 0.0, False, str(error))
+    noise = ROUNDING * found.assembly.L
+    return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
 
 
 def _shaft(size: Sizes) -> float:

@@ -1,0 +1,138 @@
+"""Hubs, and the shafts of wheel and crank: what is round about their axes, and where it ends.
+
+The wheel's hub stands below it, the crank's on the locking disc, or on the arm where there is no
+disc. Both are drawn where the spec gives a size of theirs; else only room is kept for them. Shafts
+are as wide as the bores that they are in. They end in the frame's lower face, and above where what
+they carry does; a wheel with ``wheel_hub_mm = 0`` has its shaft above it alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.crank import crank_circles, is_whole
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.wheel import wheel_circles
+from geneva_cli.spec.tables import Size
+
+HUB, SHAFT = "HUB", "SHAFT"
+AXIS = (0.0, 0.0)
+
+
+def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
+    """The wheel's hub below it; None where the spec gives neither its diameter nor its length."""
+    given = assembly.mechanism.spec.size
+    asked = given.wheel_hub_mm is not None or given.wheel_hub_length_mm is not None
+    if not asked or sizes.wheel_hub <= sizes.wheel_bore:
+        return None
+    bores = _about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
+    outline = Circle(HUB, AXIS, sizes.wheel_hub)
+    return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(given, sizes), 0.0)
+
+
+def wheel_hub_length(given: Size, sizes: Sizes) -> float:
+    """The length of the wheel's hub: by default as far down as the crank arm."""
+    if given.wheel_hub_length_mm is not None:
+        return given.wheel_hub_length_mm
+    return given.pin_gap_mm + sizes.arm_thickness
+
+
+def crank_hub(found: Outlines) -> Plate | None:
+    """The crank's hub above the locking disc, or the arm; None where it is not given, or lower."""
+    given, sizes = found.assembly.mechanism.spec.size, found.sizes
+    asked = given.crank_hub_mm is not None or given.crank_hub_length_mm is not None
+    if not asked or sizes.crank_hub <= sizes.crank_bore:
+        return None
+    on_arm = 0.0 - given.pin_gap_mm  # no -0.0
+    disc = bool(found.crank) and is_whole(found.assembly, sizes)
+    low = on_arm + (sizes.lock_thickness if disc else 0.0)
+    high = sizes.wheel_thickness
+    if given.crank_hub_length_mm is not None:
+        high = on_arm + given.crank_hub_length_mm
+    if high <= low:
+        return None
+    bores = _about_axis(crank_circles(found.assembly, sizes) if sizes.crank_bore else [])
+    return Plate("crank's hub", HUB, Circle(HUB, AXIS, sizes.crank_hub), bores, low, high)
+
+
+def shafts(found: Outlines, lowest: float, stop: float | None = None) -> Iterator[Member]:
+    """The shafts of wheel and crank at their places.
+
+    ``lowest`` is the frame's lower face; the crank's ends at ``stop`` where links are in the way of
+    it (``turn.planes``). Raises GenevaError, naming the key, where a shaft's lower end is not below
+    its upper one.
+    """
+    radius = wheel_shaft_radius(found)
+    if radius:
+        low, high = wheel_shaft_ends(found, lowest)
+        _refuse("wheel", low, high)
+        yield Member(_shaft("wheel", radius, low, high))
+    radius = crank_shaft_radius(found)
+    if radius:
+        low, high = crank_shaft_ends(found, lowest if stop is None else stop)
+        _refuse("crank", low, high)
+        yield Member(_shaft("crank", radius, low, high), (found.assembly.L, 0.0))
+
+
+def wheel_shaft_radius(found: Outlines) -> float:
+    """The radius of the wheel's shaft, which is that of its bore; 0 without one."""
+    return found.sizes.wheel_bore
+
+
+def wheel_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
+    """Where the wheel's shaft ends along the axis."""
+    given, sizes = found.assembly.mechanism.spec.size, found.sizes
+    low = given.wheel_shaft_low_mm
+    if low is None:
+        low = lowest if sizes.wheel_hub else 0.0
+    high = given.wheel_shaft_high_mm
+    return low, sizes.wheel_thickness if high is None else high
+
+
+def crank_shaft_radius(found: Outlines) -> float:
+    """The radius of the shaft that carries arm and locking disc; 0 where it carries links alone."""
+    return shaft_bore(found) if has_arm(found) else found.sizes.crank_bore
+
+
+def crank_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
+    """Where that shaft ends: above, in the arm, or through the locking disc where that is bored."""
+    given, sizes = found.assembly.mechanism.spec.size, found.sizes
+    low = lowest if given.crank_shaft_low_mm is None else given.crank_shaft_low_mm
+    high = given.crank_shaft_high_mm
+    if high is None:
+        hub = crank_hub(found)
+        high = 0.0 - given.pin_gap_mm
+        if sizes.crank_bore:
+            high = hub.high if hub else high + sizes.lock_thickness
+    return low, high
+
+
+def _shaft(part: str, radius: float, low: float, high: float) -> Plate:
+    return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)
+
+
+def _about_axis(circles: list[Shape]) -> tuple[Shape, ...]:
+    """The bore among some circles: the one about the axis, which may have a keyway."""
+    bores = (shape for shape in circles if shape.layer == "BORE")
+    return tuple(
+        shape
+        for shape in bores
+        if not isinstance(shape, Circle) or math.hypot(*shape.centre) == 0.0
+    )
+
+
+def _refuse(part: str, low: float, high: float) -> None:
+    if not low < high:
+        raise GenevaError(
+            f"{part}_shaft_low_mm: the {part}'s shaft would reach from {low:g} up to {high:g} mm "
+            f"(0 is the wheel's lower face); its lower end must be below, or {part}_shaft_high_mm "
+            "above",
+            ("size", f"{part}_shaft_low_mm"),
+        )

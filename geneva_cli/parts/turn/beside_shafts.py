@@ -1,0 +1,132 @@
+"""The room beside hubs and shafts for what turns about another axis, where they share a height.
+
+What goes round in whole turns sweeps a ring about its axis; a plate that stands is no larger than
+its ring. So the least gap of a whole turn is a distance from ring to shaft. Links, which swing, are
+looked at in their planes (``planes``), and the frame has the shafts in holes of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.plates import Group, Member, Part, Plate, with_material_left
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, about, closed
+from geneva_cli.parts.arm import crank_arm, has_arm
+from geneva_cli.parts.first_pair import first_members
+from geneva_cli.parts.frame import lowest, standing_plates
+from geneva_cli.parts.link_drawings import placed
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.plates import crank_group, wheel_part
+from geneva_cli.parts.shafts import HUB, shafts
+from geneva_cli.parts.turn.planes import crank_stop
+
+SAME = 1e-9  # of the centre distance: what shares less of a height only touches
+
+
+class Beside(NamedTuple):
+    """The least gap, mm, between a hub or shaft and a part that passes it."""
+
+    gap: float  # negative where they overlap
+    shaft: str
+    part: str
+
+
+class Ring(NamedTuple):
+    """What a plate sweeps about the axis that it turns on."""
+
+    name: str
+    layer: str
+    axis: Point
+    inner: float
+    outer: float
+    low: float
+    high: float
+
+    def gap(self, at: Point, radius: float) -> float:
+        """Between the ring and something round."""
+        away = math.dist(self.axis, at)
+        if away >= self.outer:
+            return away - self.outer - radius
+        if away <= self.inner:
+            return self.inner - away - radius
+        return -min(self.outer - away, away - self.inner) - radius
+
+
+def beside_shafts(found: Outlines) -> Beside | None:
+    """The least gap of all; None where nothing passes a hub or shaft.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    given, axis = found.assembly.given, (found.assembly.L, 0.0)
+    bars = drawn_links(given, found)
+    fixed = list(standing_plates(found, bars))
+    carrier = crank_arm(found) if has_arm(found) else None
+    crank = crank_group(found, carrier, bars.pin_low)
+    first = first_members(given, bars)
+    members = [Member(wheel_part(found, found.wheel)), Member(crank, axis), *first, *fixed[:-1]]
+    rings = [ring for one in members for ring in _rings(one)]
+    axes = [ring for ring in rings if ring.layer == HUB]
+    for one in shafts(found, lowest(fixed), crank_stop(found, bars)):
+        axes += _rings(one)
+    near = SAME * found.assembly.L
+    return min(
+        (
+            Beside(ring.gap(shaft.axis, shaft.outer), shaft.name, ring.name)
+            for shaft in axes
+            for ring in rings
+            if math.dist(ring.axis, shaft.axis) > near
+            and min(ring.high, shaft.high) - max(ring.low, shaft.low) > near
+        ),
+        default=None,
+    )
+
+
+def _rings(member: Member) -> Iterator[Ring]:
+    """The rings of a part's plates about the place that it turns on."""
+    for plate, origin in _plates(member.part):
+        shapes = [placed(_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
+        sides = [with_material_left(shape, i == 0) for i, shape in enumerate(shapes)]
+        inner = max(0.0, float(Polyarc(sides).signed(np.zeros((1, 2)))[0]))
+        outer = max(math.hypot(*p) for piece in shapes[0].segments for p in _far(piece))
+        yield Ring(plate.name, plate.layer, member.at, inner, outer, plate.low, plate.high)
+
+
+def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Point]]:
+    """The plates of a part that is one with its axis, and where their origins are from that."""
+    if isinstance(part, Group):
+        for member in part.members:
+            yield from _plates(member.part, member.at)
+    elif isinstance(part, Plate):
+        yield part, origin
+
+
+def _contour(shape: Contour | Circle) -> Contour:
+    if isinstance(shape, Contour):
+        return shape
+    halves = (about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi))
+    return closed(shape.layer, halves)
+
+
+def _far(piece: Segment) -> Iterator[Point]:
+    """Points of a piece of which one is the farthest from the origin."""
+    yield piece.start
+    yield piece.end
+    if isinstance(piece, Arc):
+        (x, y), radius = piece.centre, piece.radius
+        away = math.hypot(x, y)
+        far = (x * (1.0 + radius / away), y * (1.0 + radius / away)) if away else piece.start
+        off = math.remainder(_turn(far, piece) - _turn(at(piece, 0.5), piece), math.tau)
+        if abs(off) < 0.5 * abs(piece.sweep):
+            yield far
+
+
+def _turn(p: Point, arc: Arc) -> float:
+    (x, y), (u, v) = arc.centre, p
+    return math.atan2(v - y, u - x)

@@ -1,0 +1,143 @@
+"""Hubs and shafts: where they end, what they weigh, and what passes beside them."""
+
+import math
+
+import pytest
+import repo
+
+from geneva_cli import Design, External, Internal, Size, load
+from geneva_cli.curves.plates import plates
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.arm import crank_arm
+from geneva_cli.parts.turn.beside_shafts import beside_shafts
+
+STEEL = 7850e-9  # kg/mm³
+HUBS = Size(
+    wheel_hub_mm=24.0,
+    wheel_bore_mm=16.0,
+    crank_hub_mm=16.0,
+    crank_bore_mm=9.0,
+    wheel_thickness_mm=10.0,
+    lock_thickness_mm=6.0,
+    arm_thickness_mm=8.0,
+    pin_gap_mm=1.0,
+)
+
+
+def with_(**keys):
+    return Design(External(6), size=HUBS.replace(**keys))
+
+
+def part(design, name):
+    (found,) = [p for p in plates(design.drawing("assembly").solid) if p.name == name]
+    return found
+
+
+def row(design, name):
+    return next((c for c in design.checks if c.name == name), None)
+
+
+def spans(design):
+    return {
+        p.name: (p.low, p.high)
+        for p in plates(design.drawing("assembly").solid)
+        if p.name.endswith(("hub", "shaft"))
+    }
+
+
+def test_where_they_end():
+    """The frame, as thick as the arm, is below it: from -9 down to -17."""
+    assert spans(with_()) == {
+        "wheel's hub": (-9.0, 0.0),
+        "crank's hub": (5.0, 10.0),  # on the disc, up to the wheel's upper face
+        "wheel's shaft": (-17.0, 10.0),
+        "crank's shaft": (-17.0, 10.0),
+    }
+    given = with_(
+        wheel_hub_length_mm=4.0,
+        crank_hub_length_mm=9.0,
+        wheel_shaft_low_mm=-30.0,
+        wheel_shaft_high_mm=25.0,
+        crank_shaft_high_mm=-1.0,
+    )
+    assert spans(given) == {
+        "wheel's hub": (-4.0, 0.0),
+        "crank's hub": (5.0, 8.0),
+        "wheel's shaft": (-30.0, 25.0),
+        "crank's shaft": (-17.0, -1.0),
+    }
+    # a disc as thick as the wheel leaves none above it; without a hub the shaft is above the wheel
+    bare = with_(lock_thickness_mm=None, wheel_hub_mm=0.0)
+    assert spans(bare) == {"wheel's shaft": (0.0, 10.0), "crank's shaft": (-17.0, 10.0)}
+    assert set(spans(Design(External(6)))) == {"wheel's shaft", "crank's shaft"}
+
+
+def test_a_hub_is_a_ring():
+    """In the list of parts, and in the wheel's own inertia: m (R² + r²) / 2."""
+    design = with_()
+    ring = part(design, "wheel's hub")
+    mass = STEEL * 9.0 * math.pi * (12.0**2 - 8.0**2)
+    inertia = mass * (12.0**2 + 8.0**2) / 2.0 * 1e-6
+    parts = {one["name"]: one for one in design.part_table("parts").to_rows()}
+    assert parts[ring.name]["mass_kg"] == pytest.approx(mass, rel=1e-12)
+    assert parts[ring.name]["inertia_kgm2"] == pytest.approx(inertia, rel=1e-12)
+    whole, bare = design.wheel_plate, with_(wheel_hub_mm=0.0).wheel_plate
+    assert whole.mass_kg - bare.mass_kg == pytest.approx(mass, rel=1e-10)
+    assert whole.inertia_kgm2 - bare.inertia_kgm2 == pytest.approx(inertia, rel=1e-8)
+    assert whole.centroid_mm == pytest.approx((0.0, 0.0), abs=1e-9)
+    # it is drawn where it stands, apart from what is cut
+    drawn = design.drawing("wheel")
+    assert [s.radius for s in drawn.shapes if s.layer == "HUB"] == [12.0]
+    keyed = with_(wheel_keyway="DIN 6885-1").drawing("wheel")
+    wheel, hub = plates(keyed.solid)
+    assert hub.holes == wheel.holes
+
+
+def test_an_arm_beside_the_wheels_hub():
+    """With a hub as wide as that it is the arm that comes nearest, not the wheel to the crank."""
+    design = with_(wheel_hub_mm=82.0)
+    room = crank_arm(design.parts).room
+    found = row(design, "beside_shafts_mm")
+    assert found.value == pytest.approx(room, abs=1e-9) and found.value > 0.0
+    wide = with_(wheel_hub_mm=88.0, arm_eye_mm=16.0)
+    found = beside_shafts(wide.parts)
+    assert found == (pytest.approx(100.0 - 50.0 - 8.0 - 44.0), "wheel's hub", "arm")
+    # a hub that ends above the arm lets it pass, but for the pin
+    short = beside_shafts(wide.with_("size.wheel_hub_length_mm", 1.0).parts)
+    assert short == (pytest.approx(100.0 - 50.0 - 2.5 - 44.0), "wheel's hub", "pin")
+
+
+def test_a_crank_shaft_through_an_internal_wheel():
+    """Its horns come as near to the wheel's axis as the rim, and the crank's axis is beyond."""
+    design = Design(Internal(6), size=Size(crank_shaft_high_mm=4.0))
+    sizes = design.parts.sizes
+    found = beside_shafts(design.parts)
+    radius = part(design, "crank's shaft").outline.radius
+    assert found.gap == pytest.approx(sizes.rim - 100.0 - radius, abs=1e-6)
+    assert (found.shaft, found.part) == ("crank's shaft", "wheel")
+    assert beside_shafts(Design(Internal(6)).parts) is None
+
+
+def test_a_first_wheel_beside_the_seconds_shaft():
+    """Farther from its crank it is larger, and nearer to that shaft than the arm above it."""
+    wide = ["drive.first_distance_mm=38"]
+    design = load(str(repo.DESIGNS / "geneva-pair.toml"), wide)
+    first = part(design, "first wheel")
+    reach = max(math.hypot(*piece.start) for piece in first.outline.segments)
+    found = beside_shafts(design.parts)
+    wheel = part(design, "wheel's shaft").outline.radius
+    assert found.gap == pytest.approx(30.0 - reach - wheel, abs=1e-9)
+
+
+def test_a_shaft_ends_above_a_link_that_is_in_its_way():
+    """The input crank of a side-crank turns below the coulisse, which the crank's shaft carries."""
+    design = load(str(repo.DESIGNS / "side-crank-z6.toml"))
+    assert part(design, "crank's shaft").low == part(design, "coulisse").low
+    assert part(design, "wheel's shaft").low == part(design, "frame").low
+
+
+def test_refused():
+    with pytest.raises(GenevaError, match=r"would reach from 20 up to 10 mm .* must be below"):
+        with_(wheel_shaft_low_mm=20.0).drawing("assembly")
+    with pytest.raises(GenevaError, match="crank_shaft_low_mm: the crank's shaft would reach"):
+        with_(crank_shaft_high_mm=-17.0).drawing("assembly")
