@@ -26,7 +26,9 @@ from geneva_cli.analysis.vibration.shape import Shape
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex
 
-BLOCK = 2048  # period ratios at a time, so that they stay in the cache
+# Period ratios at a time, so that they stay in the cache; with damping, whose numbers are complex,
+# so few that no product of matrices is shared out to threads, which wait longer than they work.
+BLOCK, DAMPED = 2048, 1024
 SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
 LARGE = float(TERMS)  # above it the recurrence goes upwards
 SPLIT = 2.0**26  # half of a double's bits
@@ -81,12 +83,13 @@ def residual_swing(shape: Shape, swing: Swing) -> Complex:
     over the step, and p* the conjugate: r = Im of it. The motion begins without vibration.
     """
     out = np.empty(len(swing.ratio), dtype=complex)
+    block = DAMPED if swing.damping.any() else BLOCK
     by_ratio = np.argsort(swing.ratio)
     order = _orders(shape, swing)[by_ratio]
     for k in range(1, len(shape.greatest) + 1):
         at = by_ratio[order == k]
-        for start in range(0, len(at), BLOCK):
-            part = at[start : start + BLOCK]
+        for start in range(0, len(at), block):
+            part = at[start : start + block]
             some = Swing(swing.ratio[part], swing.damping[part])
             p = some.p
             # By parts: a derivative more, where it vanishes at both ends, is worth a factor p.
@@ -143,7 +146,16 @@ class Pairing(NamedTuple):
     sum: Callable[..., Complex]  # (terms, oscillators), (panels, terms) -> sums over terms
 
 
-GRID = Pairing(lambda x: x[:, None], lambda a, b: a.T @ b.T)
+def _products(terms: Complex, series: Array) -> Complex:
+    """Their matrix product, (oscillators, panels); of complex terms as two real ones, in one."""
+    if not np.iscomplexobj(terms):
+        out: Complex = terms.T @ series.T
+        return out
+    both = terms.view(float).T @ series.T
+    return both[::2] + 1j * both[1::2]
+
+
+GRID = Pairing(lambda x: x[:, None], _products)
 PAIRS = Pairing(lambda x: x, lambda a, b: np.einsum("tp,pt->p", a, b))
 
 
