@@ -176,8 +176,9 @@ def _slowness(
         for limit, factor in held:
             load = needed * factor
             left = limit - factor * given.resists_Nm
-            spare = np.where(np.asarray(load.c[0]) > 0.0, left.c[0], 1.0)
-            out.append(Row(load / left, Jet((spare, *left.c[1:]))))
+            driven = np.asarray(load.c[0]) > 0.0  # where it is not, any speed keeps the limit
+            spare = [np.where(driven, c, 0.0 if k else 1.0) for k, c in enumerate(left.c)]
+            out.append(Row(load / left, Jet(spare)))
         return out
 
     still = given._replace(resists_Nm=0.0)
