@@ -566,8 +566,8 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        found = (of or self.drawn(tolerance_mm)).found
-        return self._located(lambda: part_sheet(found, part, tolerance_mm, CURVES[curves]))
+        proof = of or self.drawn(tolerance_mm, part)
+        return self._located(lambda: part_sheet(proof, part, tolerance_mm, CURVES[curves]))
 
     def _repr_html_(self) -> str:
         """How a notebook shows it: words and verdict, the machine, its curves, the report."""

@@ -186,7 +186,7 @@ ANY = {
     "machine.registry": {"_found"},
     "machine.spec": {"replace", "table"},
     "parts.catalogue": {"_made"},
-    "parts.sheet.sheet": {"rows", "_composed", "_items"},
+    "parts.sheet.sheet": {"on_paper", "rows", "_composed", "_items"},
 }
 
 

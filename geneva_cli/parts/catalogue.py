@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Drawing
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.proof import Proof
 
 
@@ -29,7 +28,7 @@ class Part(NamedTuple):
     sheet: str | None = None  # as a drawing sheet with dimensions
     alone: bool = False  # whether it is drawn without the outlines of wheel and crank
     in_front: bool = False  # whether it is of a first wheel, in front of the crank
-    flat: str | None = None  # its drawing laid flat where the wheel is a sphere's
+    flat: str | None = None  # its drawing, or sheet, laid flat where the wheel is a sphere's
 
 
 PARTS = {
@@ -52,7 +51,7 @@ PARTS = {
     "groove": Part("groove:groove_table", "drawings:groove"),
     "groove-plate": Part(drawing="groove_plate:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
-    "sheet": Part(sheet="sheet.sheet:sheet"),
+    "sheet": Part(sheet="sheet.sheet:sheet", flat="sphere.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
@@ -126,15 +125,19 @@ def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> D
     return made
 
 
-def part_sheet(found: Outlines, part: str, tolerance_mm: float, curves: str) -> Sheet:
+def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Sheet:
     """A part, or all of them, as a drawing sheet with dimensions.
 
     Raises GenevaError for a part that is no sheet, or that does not go on one.
     """
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; {', '.join(SHEETS)} is")
-    made: Sheet = _made(PARTS[part].sheet)(found, tolerance_mm, curves)
-    return made
+    own = PARTS[part]
+    if _in_plane(proof.mechanism):
+        made: Sheet = _made(own.sheet)(proof.found, tolerance_mm, curves)
+        return made
+    laid_flat: Sheet = _made(own.flat)(proof, tolerance_mm, curves)
+    return laid_flat
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

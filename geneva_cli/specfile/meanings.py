@@ -1,4 +1,4 @@
-"""What a word means: a check, a quantity, a kind, a law or a warning, or a key of a spec."""
+"""What a word means: a check, a quantity, a kind, a law, a warning, a part, or a key of a spec."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def meanings(word: str) -> list[Meaning]:
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
         hint = nearest(word, among)
         raise GenevaError(
-            f'"{cut(word)}" is no check, quantity, kind, law, warning or key{hint}; '
+            f'"{cut(word)}" is no check, quantity, kind, law, warning, part or key{hint}; '
             "`geneva explain` lists them"
         )
     return found

@@ -23,6 +23,7 @@ from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.parts import gear_curves, groove, parts_list, slot_sampling
+from geneva_cli.parts.catalogue import PARTS
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import batch, survey
@@ -80,6 +81,10 @@ def test_every_kind_and_law_has_an_entry_and_no_entry_names_none():
     kinds = {*registry.GEARINGS, *registry.DRIVES}
     assert kinds <= explained("kind") <= {*kinds, *EXAMPLES}
     assert explained("law") == set(registry.LAWS)
+
+
+def test_every_part_has_an_entry_and_no_entry_names_none():
+    assert explained("part") == set(PARTS)
 
 
 @pytest.fixture(scope="module")
@@ -195,6 +200,8 @@ def test_a_file_has_nothing_besides_its_entries():
         ("side-crank", ["kind"]),
         ("cycloidal", ["law"]),
         ("turns-back", ["warning"]),
+        ("first-wheel", ["part"]),
+        ("crank", ["kind", "part"]),
         ("inputs.drive.n_rpm", ["key"]),
         ("wheel.steps_deg", ["key"]),
         ("A", ["key", "key"]),

@@ -19,6 +19,7 @@ GROUPS = {  # a file each, and what one of its entries is
     "kinds": "kind",
     "laws": "law",
     "warnings": "warning",
+    "parts": "part",
 }
 _LABEL = re.compile(r"^(Formula|Unit|Source|To do|Proof): ", re.MULTILINE)
 

@@ -6,7 +6,7 @@ less up to A1, more only as long as A3 will do. The machine put together is draw
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.plates import Group, Plate
@@ -14,6 +14,7 @@ from geneva_cli.curves.shapes import Shape
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
+from geneva_cli.machine.spec import Spec
 from geneva_cli.parts import drawings
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_outlines
@@ -76,13 +77,27 @@ def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
     shown = _shown(found, tolerance, curves)
     fixed = [*points.tables(found, tolerance), *_links(found)]
     largest = 2.0 * (found.sizes.outer or found.sizes.rim)
+
+    def blocks(scale: float) -> list[Block]:
+        return [*(view.block() for view in _views(shown, scale)), *fixed]
+
+    return on_paper(found.assembly.given.spec, shown.rows, largest, blocks)
+
+
+def on_paper(
+    spec: Spec, rows: list[dict[str, Any]], largest: float, blocks: Callable[[float], list[Block]]
+) -> Sheet:
+    """The sheet of blocks to the largest scale with which all go on one; ``rows`` are its items.
+
+    ``largest`` is the longest of what is drawn, mm. Raises GenevaError where none does.
+    """
     for scale in SCALES:
         formats = ENLARGED if scale > 1.0 else FORMATS
         if scale * largest > formats[-1].width:
             continue
-        views = [view.block() for view in _views(shown, scale)]
+        drawn = blocks(scale)
         for paper in formats:
-            made = _composed(found, paper, scale, shown.rows, [*views, *fixed])
+            made = _composed(spec, paper, scale, rows, drawn)
             if made is not None:
                 return made
     raise GenevaError(
@@ -162,14 +177,13 @@ def _views(shown: Shown, scale: float) -> Iterator[View]:
 
 
 def _composed(
-    found: Outlines,
+    spec: Spec,
     paper: PaperSize,
     scale: float,
     rows: list[dict[str, Any]],
     blocks: list[Block],
 ) -> Sheet | None:
     """All on one sheet; None where it has no room."""
-    spec = found.assembly.given.spec
     materials = [_material(spec.material_wheel), _material(spec.material_roller)]
     fields = {
         "scale": scale_name(scale),

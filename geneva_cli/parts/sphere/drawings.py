@@ -28,7 +28,7 @@ def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
     found = proof.shells.ball
     cone = wheel_cone(found)
     title = f"{titled(proof.mechanism)}: wheel, flat: {cone.said('wheel')}"
-    shapes = _wheel_flat(found, cone, tolerance, curves)
+    shapes = wheel_flat(found, cone, tolerance, curves)
     return _drawing(found, title, shapes, wheel_shell(found))
 
 
@@ -37,7 +37,7 @@ def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
     found, locks = proof.shells.ball, proof.shells.crank
     cone = crank_cone(found)
     title = f"{titled(proof.mechanism)}: crank, flat: {cone.said('crank')}"
-    shapes = _crank_flat(found, locks, cone, tolerance, curves)
+    shapes = crank_flat(found, locks, cone, tolerance, curves)
     return _drawing(found, title, shapes, _crank(crank_shells(found, locks)))
 
 
@@ -45,8 +45,8 @@ def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
     """Both laid flat, side by side; as a solid the machine at input angle 0."""
     found, locks = proof.shells.ball, proof.shells.crank
     title = titled(proof.mechanism)
-    left = _wheel_flat(found, wheel_cone(found), tolerance, curves)
-    right = _crank_flat(found, locks, crank_cone(found), tolerance, curves)
+    left = wheel_flat(found, wheel_cone(found), tolerance, curves)
+    right = crank_flat(found, locks, crank_cone(found), tolerance, curves)
     shift = APART * found.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     beside = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
@@ -76,7 +76,8 @@ def crank_cone(found: Ball) -> Cone:
     return Cone(found.radius_mm, found.arm)
 
 
-def _wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
+def wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
+    """The wheel's outline on its cone laid flat, and the ways of rollers."""
     b = found.half_step
     one: list[Segment] = []
     for arc in edge(found):
@@ -101,9 +102,10 @@ def _wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[
     return [rim, *pitch]
 
 
-def _crank_flat(
+def crank_flat(
     found: Ball, locks: list[Region], cone: Cone, tolerance: float, curves: str
 ) -> list[Shape]:
+    """Locking sectors and rollers on the crank's cone laid flat, and the rollers' circle."""
     shapes: list[Shape] = []
     for region, (a, b) in zip(locks, locked(found), strict=True):
         shapes.append(_contour("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))

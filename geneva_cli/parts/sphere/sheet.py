@@ -1,0 +1,162 @@
+"""The drawing sheet of a spherical machine: its section, wheel and crank laid flat, all angles.
+
+The section is in the plane of both shafts, with a roller at the end of its slot; the sphere's
+centre is the origin, the wheel's axis points up. Flat views have their cone's apex as the origin,
+where it is near.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.measure import mapped
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape, about, closed
+from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, Sheet, polar
+from geneva_cli.curves.sphere import Region
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.paper import table
+from geneva_cli.parts.sheet.sheet import on_paper
+from geneva_cli.parts.sheet.view import Block, View, number, times
+from geneva_cli.parts.sphere.drawings import PITCH, crank_cone, crank_flat, wheel_cone, wheel_flat
+from geneva_cli.parts.sphere.laid_flat import CYLINDER, Cone
+from geneva_cli.parts.sphere.listed import dimensions, shell_rows
+from geneva_cli.parts.sphere.sizes import Ball
+
+UP = 0.5 * math.pi
+SAME = 1e-6  # of a radius
+FAR = 4.0  # sphere's radii: an apex farther off is on no sheet
+BEYOND = 0.1  # of the sphere's radius: axes, over the shells
+CROSS = 0.05  # of it: at the apex
+HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
+COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
+DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
+
+
+def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
+    """The drawing sheet of a machine. Raises GenevaError where no scale brings it on one."""
+    found, locks = proof.shells.ball, proof.shells.crank
+    wheel = wheel_flat(found, wheel_cone(found), tolerance, curves)
+    crank = crank_flat(found, locks, crank_cone(found), tolerance, curves)
+    rows = [
+        (d.name, number(d.value, DECIMALS), d.unit)
+        for d in dimensions(proof.mechanism)
+        if isinstance(d.value, (int, float))
+    ]
+    angles = table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS)
+
+    def blocks(scale: float) -> list[Block]:
+        views = (
+            _section(found, locks, scale),
+            _flat("wheel", found, wheel_cone(found), wheel, scale),
+            _flat("crank", found, crank_cone(found), crank, scale),
+        )
+        return [*(view.block() for view in views), angles]
+
+    items = list(shell_rows(proof))
+    return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)
+
+
+def _section(found: Ball, locks: list[Region], scale: float) -> View:
+    """The shells as the plane of the shafts cuts them, and angles from the wheel's axis."""
+    view = View("section through both shafts", scale)
+    inner, outer = found.span_mm
+    end = found.bottom - found.half_width
+    # across the wheel's axis there is a slot too, or what is between two
+    between = found.axes - found.recess if found.recess else found.rim
+    back = between if found.z % 2 else end
+    rings = [(found.inner, end), (-back, -found.inner)]
+    middle = found.axes - found.arm
+    rings.append((middle - found.roller, middle + found.roller))
+    reach = _reach(locks)
+    if reach:
+        rings.append((found.axes + reach[0], found.axes + reach[1]))
+    for low, high in rings:
+        view.draw(_ring(inner, outer, low, high), OUTLINE)
+    view.draw(_ring(inner, outer, end, found.rim), HIDDEN)  # the slot's wall, beyond the section
+    for angle in (0.0, found.axes, middle):
+        view.centre_line((0.0, 0.0), _at(outer + BEYOND * found.radius_mm, angle))
+    whole = Contour("", (_arc(found.radius_mm, -back, found.axes + found.lock),), closed=False)
+    view.draw(whole, CENTRE)
+    for radius in (inner, outer):
+        view.of_arcs([_arc(radius, -back, -found.inner)], sized.plain(radius, "SR "))
+    told = {"opening": found.inner, "slot's end": end, "roller": middle, "rim": found.rim}
+    told["shafts"] = found.axes
+    for name, angle in sorted(told.items(), key=lambda item: item[1]):
+        view.angular([(UP - angle, UP)], outer, outer, f"{name} {_degrees(angle)}")
+    axis = UP - found.axes
+    for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
+        view.angular([(axis - angle, axis)], outer, outer, f"{name} {_degrees(angle)}")
+    return view
+
+
+def _reach(locks: list[Region]) -> tuple[float, ...]:
+    """The locking sectors' inner edge and their locking one, from the crank's axis."""
+    found = [math.acos(max(-1.0, min(1.0, arc.start[2]))) for one in locks for arc in one.boundary]
+    return (min(found), max(found)) if found else ()
+
+
+def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float) -> View:
+    """A cone laid flat: its radii from the apex, the depth of a slot, the angles between slots."""
+    view = View(f"{whose}, laid flat", scale)
+    view.remark(cone.said(whose))
+    near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * found.radius_mm
+    shift = cone.apex_mm if near else 0.0
+    moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
+    for shape in moved:
+        view.draw(shape, CENTRE if shape.layer == PITCH else OUTLINE)
+    contours = [s for s in moved if isinstance(s, Contour)]
+    if near:
+        view.cross((0.0, 0.0), CROSS * found.radius_mm)
+        radii: dict[str, list[Arc]] = {}
+        for arc in (s for c in contours for s in c.segments if isinstance(s, Arc)):
+            if math.hypot(*arc.centre) < SAME * arc.radius:
+                radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
+        for text, some in radii.items():
+            view.of_arcs(some, text)
+        _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"])
+    ways = [c.segments[0] for c in contours if c.layer == PITCH and isinstance(c.segments[0], Line)]
+    if not ways:
+        return view
+    first, after = ways[:2]
+    view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
+    if near:
+        legs = sorted(math.atan2(way.start[1], way.start[0]) for way in (first, after))
+        far = max(math.hypot(*s.start) for c in contours for s in c.segments)
+        text = f"{number(math.degrees(abs(legs[1] - legs[0])), DECIMALS)}°"
+        view.angular([(legs[0], legs[1])], far, far, times(found.z - 1, text))
+    else:
+        view.linear(first.start, after.start, UP, times(found.z - 1, sized.plain(
+            abs(after.start[1] - first.start[1]))))  # fmt: skip
+    return view
+
+
+def _sectors(view: View, locking: list[Segment]) -> None:
+    """How wide the locking sectors are, and how far the first is from the first roller."""
+    arcs = [arc for arc in locking if isinstance(arc, Arc)]
+    wide: dict[str, list[tuple[float, float]]] = {}
+    for arc in arcs:
+        start = math.atan2(arc.start[1], arc.start[0])
+        wide.setdefault(_degrees(arc.sweep), []).append((start, start + arc.sweep))
+    for text, pairs in wide.items():
+        view.angular(pairs, arcs[0].radius, arcs[0].radius, times(len(pairs), text))
+    for start in sorted(pair[0] % math.tau for pairs in wide.values() for pair in pairs)[:1]:
+        view.angular([(0.0, start)], arcs[0].radius, arcs[0].radius, _degrees(start))
+
+
+def _ring(inner: float, outer: float, low: float, high: float) -> Contour:
+    """What a shell shows between two angles from the wheel's axis, which points up."""
+    out, back = _arc(outer, low, high), _arc(inner, high, low)
+    return closed("", [out, Line(out.end, back.start), back, Line(back.end, out.start)])
+
+
+def _arc(radius: float, low: float, high: float) -> Arc:
+    return about((0.0, 0.0), radius, UP - low, low - high)
+
+
+def _at(radius: float, angle: float) -> Point:
+    return polar((0.0, 0.0), radius, UP - angle)
+
+
+def _degrees(angle: float) -> str:
+    return f"{number(math.degrees(angle), DECIMALS)}°"
