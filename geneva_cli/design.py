@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.loads.summary import Summary
     from geneva_cli.analysis.peaks import Peaks
     from geneva_cli.analysis.timing import Timing
-    from geneva_cli.curves.plates import MassProperties
-    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.drawing import Drawing
+    from geneva_cli.curves.mass import MassProperties
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
     from geneva_cli.parts.outlines import Outlines

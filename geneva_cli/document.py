@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.drawing import Drawing
     from geneva_cli.figure import Figure
 
 Value: TypeAlias = float | int | str | bool | None

@@ -13,11 +13,12 @@ import numpy as np
 
 from geneva_cli.curves.corners import Bone, bone, inner_corners, pieces, with_bones
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.kerf import Closed, offset
-from geneva_cli.curves.measure import at
+from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.pieces import prepared
-from geneva_cli.curves.plates import Plate, with_material_left
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Shape
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
 

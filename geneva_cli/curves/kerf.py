@@ -12,10 +12,11 @@ import math
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at, directions, segment_length
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.measure import at, directions, segment_length, with_material_left
 from geneva_cli.curves.pieces import STEP, prepared
-from geneva_cli.curves.plates import plates, with_material_left
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, Segment, closed
+from geneva_cli.curves.plates import plates
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
 

@@ -15,13 +15,12 @@ from geneva_cli.curves.shapes import (
     Circle,
     Contour,
     Cubic,
-    Drawing,
     Line,
     Point,
     Segment,
     Shape,
+    backwards,
 )
-from geneva_cli.errors import GenevaError
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
 SERIES = 0.5  # radians; below, theta - sin(theta) is summed, as the difference would cancel
@@ -54,14 +53,6 @@ def bounds(shape: Shape) -> Box:
     return _box(p for segment in shape.segments for p in _extremes(segment))
 
 
-def extent(drawing: Drawing) -> Box:
-    """The smallest box around all shapes; raises GenevaError where there are none."""
-    boxes = [bounds(shape) for shape in drawing.shapes]
-    if not boxes:
-        raise GenevaError("nothing to draw: a drawing must have a shape")
-    return _box(p for box in boxes for p in ((box.x0, box.y0), (box.x1, box.y1)))
-
-
 def area(shape: Shape) -> float:
     """The area inside, positive where the contour runs counterclockwise; in closed form.
 
@@ -74,6 +65,11 @@ def area(shape: Shape) -> float:
         return 0.0
     origin = shape.segments[0].start
     return math.fsum(_swept(segment, origin) for segment in shape.segments)
+
+
+def with_material_left(shape: Contour, outside: bool) -> Contour:
+    """A contour that runs counterclockwise as an outline, and clockwise as a hole."""
+    return shape if (area(shape) > 0.0) is outside else backwards(shape)
 
 
 def segment_length(segment: Segment) -> float:

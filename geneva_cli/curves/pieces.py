@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import mapped, segment_length
 from geneva_cli.curves.shapes import (
     Arc,
     Circle,
     Contour,
     Cubic,
-    Drawing,
     Line,
     Point,
     Segment,

@@ -7,14 +7,11 @@ angles in radians.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from geneva_cli.curves.measure import area
-from geneva_cli.curves.moments import Moments, moments, total
-from geneva_cli.curves.shapes import Circle, Contour, Point, backwards
-from geneva_cli.curves.sphere import Region, Vector
-
-MM = 1e-3  # metres
+if TYPE_CHECKING:
+    from geneva_cli.curves.shapes import Circle, Contour, Point
+    from geneva_cli.curves.sphere import Region, Vector
 
 
 class Plate(NamedTuple):
@@ -31,19 +28,6 @@ class Plate(NamedTuple):
     def thickness(self) -> float:
         """Along the axis."""
         return self.high - self.low
-
-    @property
-    def moments(self) -> Moments:
-        """Of its face: area, first moments and polar moment about the origin.
-
-        >>> from geneva_cli.curves.shapes import Circle
-        >>> washer = Plate(
-        ...     "washer", "CRANK", Circle("", (0, 0), 5.0), (Circle("", (0, 0), 3.0),), 0.0, 2.0
-        ... )
-        >>> washer.moments.area / 3.141592653589793
-        16.0
-        """
-        return _counterclockwise(self.outline).less(total(map(_counterclockwise, self.holes)))
 
 
 class Shell(NamedTuple):
@@ -63,7 +47,7 @@ class Shell(NamedTuple):
     def inertia(self, axis: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵.
 
-        >>> from geneva_cli.curves.sphere import SphereArc, place
+        >>> from geneva_cli.curves.sphere import Region, SphereArc, place
         >>> half = place(math.pi / 2.0, 0.0)
         >>> dome = Region((SphereArc((0.0, 0.0, 1.0), math.pi / 2.0, half, half),), (0.0, 0.0, 1.0))
         >>> ball = Shell("", "WHEEL", (dome,), 0.0, 10.0)
@@ -102,48 +86,3 @@ def solids(part: Part) -> list[Plate | Shell]:
 def plates(part: Part) -> list[Plate]:
     """Those of them that are flat."""
     return [one for one in solids(part) if isinstance(one, Plate)]
-
-
-class MassProperties(NamedTuple):
-    """A plate's mass, centroid, and moment of inertia about its own origin along the axis."""
-
-    mass_kg: float
-    centroid_mm: Point
-    inertia_kgm2: float
-
-
-def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia J = rho h Ip of a plate.
-
-    >>> from geneva_cli.curves.shapes import Circle
-    >>> disc = Plate("disc", "CRANK", Circle("", (0, 0), 50.0), (), 0.0, 10.0)
-    >>> steel = mass_properties(disc, 7850.0)
-    >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
-    0.5
-    """
-    return face_properties(plate.moments, plate.thickness, density_kgm3)
-
-
-def face_properties(face: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:
-    """The same from the moments of a plate's face."""
-    per = density_kgm3 * thickness_mm * MM
-    return MassProperties(per * face.area * MM**2, face.centroid, per * face.polar * MM**4)
-
-
-def added(one: MassProperties, other: MassProperties) -> MassProperties:
-    """Of two bodies with one origin."""
-    mass = one.mass_kg + other.mass_kg
-    x, y = (
-        (one.mass_kg * a + other.mass_kg * b) / mass
-        for a, b in zip(one.centroid_mm, other.centroid_mm, strict=True)
-    )
-    return MassProperties(mass, (x, y), one.inertia_kgm2 + other.inertia_kgm2)
-
-
-def with_material_left(shape: Contour, outside: bool) -> Contour:
-    """A contour that runs counterclockwise as an outline, and clockwise as a hole."""
-    return shape if (area(shape) > 0.0) is outside else backwards(shape)
-
-
-def _counterclockwise(shape: Contour | Circle) -> Moments:
-    return moments(shape if isinstance(shape, Circle) else with_material_left(shape, True))

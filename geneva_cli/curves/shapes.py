@@ -1,16 +1,13 @@
-"""The drawing: contours of lines, arcs and cubics on named layers, in millimetres.
+"""Shapes: contours of lines, arcs and cubics on named layers, in millimetres.
 
-What every command that makes a shape hands to the output. Points are (x, y).
+Points are (x, y).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
-
-if TYPE_CHECKING:
-    from geneva_cli.curves.plates import Part
+from typing import NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float]
 
@@ -76,44 +73,6 @@ class Circle(NamedTuple):
 
 
 Shape: TypeAlias = Contour | Circle
-
-
-class LevelDistance(NamedTuple):
-    """A level distance between two points, and the name that it goes by."""
-
-    start: Point
-    end: Point
-    name: str
-
-
-class Annotations(NamedTuple):
-    """What a drawing that is to be looked at has besides its shapes: distances, and what turns.
-
-    Turns are arcs, with an arrow at their end.
-    """
-
-    spans: tuple[LevelDistance, ...] = ()
-    turns: tuple[Arc, ...] = ()
-
-
-class Drawing(NamedTuple):
-    """Shapes and a title.
-
-    ``look`` is for drawings to look at, where the format has such, and None for those to cut.
-    ``solid`` is what is drawn as the solid that it is, for formats of solids; ``shells`` are
-    what it becomes where it is laid flat here, and go before it.
-    """
-
-    title: str
-    shapes: tuple[Shape, ...]
-    look: Annotations | None = None
-    solid: Part | None = None
-    shells: Part | None = None
-
-    @property
-    def layers(self) -> tuple[str, ...]:
-        """The layers in use, in the order of their first shape."""
-        return tuple(dict.fromkeys(shape.layer for shape in self.shapes))
 
 
 def about(centre: Point, radius: float, start: float, sweep: float) -> Arc:

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.curves.measure import extent
+from geneva_cli.curves.drawing import Drawing, extent
 from geneva_cli.curves.pieces import UNITS, prepared
-from geneva_cli.curves.shapes import Drawing
 from geneva_cli.output.dxf_contours import draw
 from geneva_cli.output.dxf_file import USUAL, extents, linetype, written
 from geneva_cli.output.ezdxf_alone import Document, Modelspace

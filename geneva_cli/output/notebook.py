@@ -11,7 +11,7 @@ from geneva_cli.errors import clean
 from geneva_cli.output import plot_svg, svg
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.drawing import Drawing
     from geneva_cli.figure import Figure
     from geneva_cli.table import Table
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
-from geneva_cli.curves.measure import Box, extent
+from geneva_cli.curves.drawing import Drawing, extent
+from geneva_cli.curves.measure import Box
 from geneva_cli.curves.pieces import SUFFIX, UNITS, prepared
-from geneva_cli.curves.shapes import Drawing
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks

@@ -7,9 +7,10 @@ from __future__ import annotations
 import math
 from xml.sax.saxutils import escape
 
+from geneva_cli.curves.drawing import Annotations, LevelDistance
 from geneva_cli.curves.measure import Box, at, bounds, mapped
 from geneva_cli.curves.pieces import SUFFIX, UNITS
-from geneva_cli.curves.shapes import Annotations, Arc, Contour, LevelDistance, Point
+from geneva_cli.curves.shapes import Arc, Contour, Point
 from geneva_cli.output.inks import inks
 from geneva_cli.output.letters import width
 from geneva_cli.output.strokes import DARK, LIGHT

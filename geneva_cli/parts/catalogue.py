@@ -12,7 +12,7 @@ from geneva_cli.spec.load_named import load_named
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.curves.shapes import Drawing
+    from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.proof import Proof

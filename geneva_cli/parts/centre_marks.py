@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Shape
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape
 
 LAYER = "CENTER"
 LINES = "PITCH"  # a layer of lines on which nothing is cut

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point, closed
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed
 from geneva_cli.parts.outlines import Outlines
 
 LAYER, HOLES, MARKS = "COUPON", "BORE", "ENGRAVE"

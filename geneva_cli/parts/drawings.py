@@ -11,16 +11,8 @@ import math
 import numpy as np
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.shapes import (
-    Arc,
-    Contour,
-    Drawing,
-    Line,
-    Segment,
-    Shape,
-    closed,
-    joined,
-)
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, Shape, closed, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.arm import bolts, crank_arm

@@ -14,8 +14,9 @@ from contextlib import suppress
 import numpy as np
 
 from geneva_cli.curves.belt import belt
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Drawing, Point
+from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves import fit
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import mapped
-from geneva_cli.curves.shapes import Circle, Contour, Drawing, Line, Point, Shape, closed
+from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Shape, closed
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.centre_marks import centre_marks

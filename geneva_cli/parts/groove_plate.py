@@ -12,9 +12,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Member, Plate, plates
-from geneva_cli.curves.shapes import Circle, Contour, Drawing
+from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.drawings import groove

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.plates import with_material_left
+from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.shapes import Circle, Shape
 
 FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of the samples of a hole that is no circle

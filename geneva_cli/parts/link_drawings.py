@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import S, bounds, mapped, turned
 from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Circle, Drawing, Point, Shape
+from geneva_cli.curves.shapes import Circle, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.links import LAYER, Links, drawn_links

@@ -10,19 +10,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.measure import mapped, turned
 from geneva_cli.curves.plates import Group, Member
-from geneva_cli.curves.shapes import (
-    Annotations,
-    Arc,
-    Circle,
-    Contour,
-    Drawing,
-    LevelDistance,
-    Line,
-    Shape,
-    about,
-)
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.crank import roller_centres

@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.cutter import faults, freed
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Part, Plate, plates
-from geneva_cli.curves.shapes import Arc, Contour, Drawing, Line, Shape
+from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.crank import LAYER as CRANK

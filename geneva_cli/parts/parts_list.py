@@ -12,8 +12,9 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 
+from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Member, mass_properties, plates
+from geneva_cli.curves.plates import Group, Member, plates
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from geneva_cli.curves.mass import MassProperties, added, face_properties, mass_properties
 from geneva_cli.curves.moments import Moments, moments, total
-from geneva_cli.curves.plates import MassProperties, added, face_properties, mass_properties
 from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
-from geneva_cli.curves.plates import MassProperties
+from geneva_cli.curves.mass import MassProperties
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec

@@ -12,10 +12,11 @@ from typer.testing import CliRunner
 from words import Spec, Wheel
 
 from geneva_cli.app import app
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.kerf import offset, paths
 from geneva_cli.curves.measure import area
 from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Arc, Circle, Cubic, Drawing, Line, about, backwards, closed
+from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build

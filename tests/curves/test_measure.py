@@ -11,16 +11,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from shapely.geometry import LineString, Point, Polygon
 
-from geneva_cli.curves.measure import (
-    area,
-    at,
-    bounds,
-    extent,
-    halves,
-    segment_length,
-    turned,
-)
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, about, closed
+from geneva_cli.curves.drawing import Drawing, extent
+from geneva_cli.curves.measure import area, at, bounds, halves, segment_length, turned
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 
 FINE = 1e-5  # mm, of the witnesses' polygons

@@ -26,8 +26,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
-from geneva_cli.curves.measure import area, extent
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, about, closed
+from geneva_cli.curves.drawing import Drawing, extent
+from geneva_cli.curves.measure import area
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import svg
 from geneva_cli.output.dxf import chunks

@@ -14,9 +14,10 @@ from hypothesis import strategies as st
 from step_witness import File, Solid
 
 from geneva_cli import Design, External, Size
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import area
 from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Drawing, Line, backwards, closed
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, backwards, closed
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS

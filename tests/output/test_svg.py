@@ -9,8 +9,8 @@ from drawing_witness import apart, contours, drawn_shapes, dxf_shapes, scaled, s
 from hypothesis import given, settings
 from test_dxf import MANY, TINY, bow, of, smooth
 
-from geneva_cli.curves.measure import extent
-from geneva_cli.curves.shapes import Annotations, Circle, Cubic, Line, about, closed
+from geneva_cli.curves.drawing import Annotations, extent
+from geneva_cli.curves.shapes import Circle, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS

@@ -7,7 +7,7 @@ from shapely.geometry import Polygon
 from test_arm import polygon
 from words import Spec, Wheel
 
-from geneva_cli.curves.plates import mass_properties
+from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.shapes import Circle, Contour, Line
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError

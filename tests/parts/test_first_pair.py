@@ -4,7 +4,8 @@ import pytest
 import repo
 
 from geneva_cli import Design, External, Size, load
-from geneva_cli.curves.plates import mass_properties, plates
+from geneva_cli.curves.mass import mass_properties
+from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof

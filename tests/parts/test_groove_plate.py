@@ -6,7 +6,8 @@ from drawing_witness import vertices
 from shapely.geometry import LineString, Polygon
 
 from geneva_cli import Design, External, load
-from geneva_cli.curves.plates import mass_properties, plates
+from geneva_cli.curves.mass import mass_properties
+from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.groove_plate import groove_plate

@@ -14,7 +14,7 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.app import app
-from geneva_cli.curves.plates import mass_properties
+from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError

@@ -24,7 +24,7 @@ from geneva_cli import (
     WheelMaterial,
     load,
 )
-from geneva_cli.curves.plates import MassProperties
+from geneva_cli.curves.mass import MassProperties
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import assembly

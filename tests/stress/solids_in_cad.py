@@ -36,6 +36,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
+from geneva_cli.curves import mass
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Plate
 from geneva_cli.design import load
@@ -120,7 +121,7 @@ def differs(plate, x, y, turn, name, colour, body):
     BRepGProp.VolumeProperties_s(body, found, STEPS, False)
     if not isinstance(plate, Plate):
         return of_shell(plate, found)
-    face, h = plate.moments, plate.thickness
+    face, h = mass.face(plate), plate.thickness
     c, s = math.cos(turn), math.sin(turn)
     cx, cy = face.centroid
     wanted = (x + c * cx - s * cy, y + s * cx + c * cy, 0.5 * (plate.low + plate.high))

@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from geneva_cli.curves.measure import bounds, extent, mapped
-from geneva_cli.curves.shapes import Annotations, Arc, Contour, Drawing, Point, Shape
+from geneva_cli.curves.drawing import Annotations, Drawing, extent
+from geneva_cli.curves.measure import bounds, mapped
+from geneva_cli.curves.shapes import Arc, Contour, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.pdf_file import number, outline, point

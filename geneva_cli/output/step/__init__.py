@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.curves.shapes import Drawing
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.step.entities import Entities, words
 from geneva_cli.output.step.product import Products

@@ -9,9 +9,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.pieces import prepared
-from geneva_cli.curves.plates import Plate, with_material_left
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Drawing, Line, Point
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.step.entities import (
     SHARE,

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import math
 
+from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds, mapped
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
-from geneva_cli.curves.shapes import Contour, Drawing, Line, Point, Segment, Shape, closed, joined
+from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
 from geneva_cli.curves.sphere import Region, Rotation
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.proof import Proof

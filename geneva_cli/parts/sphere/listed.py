@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.curves.plates import MM, Shell
+from geneva_cli.curves.mass import MM
+from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.sphere import Vector
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.machine.mechanism import Mechanism

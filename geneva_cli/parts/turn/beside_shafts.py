@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
-from geneva_cli.curves.measure import at
-from geneva_cli.curves.plates import Group, Member, Part, Plate, with_material_left
+from geneva_cli.curves.measure import at, with_material_left
+from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, about, closed
 from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
