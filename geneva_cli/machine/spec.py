@@ -235,7 +235,7 @@ class Spec:
     def has_parts(self) -> bool:
         """Whether wheel and crank are outlines, of plates or of a sphere's shells.
 
-        >>> Spec(Spherical(6)).has_parts, Spec(External(60)).has_parts
+        >>> Spec(Spherical(6)).has_parts, Spec(External(400)).has_parts
         (True, False)
         """
         return self.drive.OUTLINED and self.wheel.z <= Z_DRAWN

@@ -53,7 +53,7 @@ def needed(
     slot = fit + max(_across(mechanism, e, sizes, least_play) for e in mechanism.engagements)
     ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
     if not spec.is_flat:
-        return Needed(slot, None, None, "the parts are not drawn or turned against each other")
+        return Needed(slot, None, None, "only flat parts are turned with their deviations")
     try:
         found = proof.found
     except GenevaError as error:
