@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Annotated, Any, ClassVar, Self
@@ -14,7 +13,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.rules import FINITE, Range, Words
-from geneva_cli.spec.schema import SpecTable, fields, unknown
+from geneva_cli.spec.schema import SpecTable, copied, fields, unknown
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
     LISTS,
@@ -102,6 +101,18 @@ def _refuse_other(of: SpecTable | Spec, name: str, kind: type, example: str) -> 
         raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(given))}")
 
 
+# The fields of ``Spec`` that hold a table, its kind, and what makes one.
+_HELD: tuple[tuple[str, type, str], ...] = (
+    ("wheel", Gearing, "External(6)"),
+    ("drive", Drive, "Crank(n_rpm=60)"),
+    *(
+        (attribute(n), table, f"{table.__name__}(...)")
+        for n, table in PLAIN.items()
+        if n not in LISTS
+    ),
+)
+
+
 def _no_load(key: str) -> GenevaError:
     return GenevaError(
         f"{key} needs a load, and without one there is nothing to limit: set inertia_kgm2 or "
@@ -138,17 +149,17 @@ class Spec:
     files: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        _refuse_other(self, "wheel", Gearing, "External(6)")
-        _refuse_other(self, "drive", Drive, "Crank(n_rpm=60)")
+        own = vars(self)
+        for name, kind, example in _HELD:
+            if not isinstance(own[name], kind):
+                _refuse_other(self, name, kind, example)
         if self.motion is not None:
             _refuse_other(self, "motion", Motion, "Motion(Cycloidal())")
-        for name, table in PLAIN.items():
-            if name not in LISTS:
-                _refuse_other(self, attribute(name), table, f"{table.__name__}(...)")
-        object.__setattr__(self, "mass", tuple(self.mass))
+        if not isinstance(self.mass, tuple):
+            object.__setattr__(self, "mass", tuple(self.mass))
         if not all(isinstance(one, Mass) for one in self.mass):
             raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
-        limits = self.limits.as_dict()
+        limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
                 raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
@@ -162,7 +173,7 @@ class Spec:
         >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
         'internal'
         """
-        return dataclasses.replace(self, **changes)
+        return copied(self, changes)
 
     def table(self, name: str) -> dict[str, Any]:
         """The values of a table by their keys; of ``motion`` its law's too.

@@ -19,6 +19,7 @@ from typing import (
     NamedTuple,
     Self,
     TypeAlias,
+    TypeVar,
     dataclass_transform,
     get_args,
     get_origin,
@@ -81,7 +82,8 @@ class SpecTable:
 
     def _values(self) -> dict[str, Any]:
         """The values by their fields."""
-        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        held = vars(self)
+        return {name: held[name] for name in _names(type(self))}
 
     def __eq__(self, other: object) -> bool:
         if not (isinstance(other, SpecTable) and type(other) is type(self)):
@@ -126,7 +128,36 @@ class SpecTable:
         >>> SideCrank(A=0.6).replace(n_rpm=30.0)
         SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
         """
-        return dataclasses.replace(self, **changes)
+        return copied(self, changes)
+
+
+T = TypeVar("T")
+
+
+def copied(record: T, changes: dict[str, Any]) -> T:
+    """A copy of a frozen record with some fields changed, checked as one that is made anew.
+
+    It is ``dataclasses.replace`` for records that set no field's value aside, in half the time.
+    """
+    kind, held = type(record), vars(record)
+    names = _names(kind)
+    for name in changes:
+        if name not in names:
+            raise TypeError(f"{kind.__name__} has no field {name}")
+    new = object.__new__(kind)
+    vars(new).update({name: held[name] for name in names} | changes)
+    new.__post_init__()  # type: ignore[attr-defined]
+    return new
+
+
+def _names(kind: type) -> tuple[str, ...]:
+    """The fields of a dataclass."""
+    if kind not in _NAMES_OF:
+        _NAMES_OF[kind] = tuple(one.name for one in dataclasses.fields(kind))
+    return _NAMES_OF[kind]
+
+
+_NAMES_OF: dict[type, tuple[str, ...]] = {}
 
 
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
