@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import only_of
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Mask
+    from geneva_cli.numerics.arrays import Array, Mask, Number
 
 NEAR = 1e-3  # share of the half motion
 SAMPLES = 1024  # a half motion; the depth's error is then far below a micrometre a metre
@@ -61,11 +61,41 @@ def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
 
 def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
     """The deepest undercuts of m designs, or of one; None of straight slots, which have none."""
-    engagement, size = mechanism.engagements[0], mechanism.spec.size
+    walls = outer_walls(mechanism, samples)
+    if walls is None:
+        return None
+    roller = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
+    with np.errstate(all="ignore"):
+        one, other = (_undercut(wall, roller, mechanism.center_distance_mm) for wall in walls)
+    deeper = (other.depth_mm > one.depth_mm * (1.0 + TIE)) | np.isnan(one.depth_mm)
+    return Undercuts(*(np.where(deeper, b, a) for a, b in zip(one, other, strict=True)))
+
+
+class OuterWall(NamedTuple):
+    """The outer wall of one branch of m designs' slots for any roller, over L: at k places from
+    the branch's end to near mid-motion, (m, k) each.
+    """
+
+    degrees: Array  # input angles
+    x: Array  # the pitch curve
+    y: Array
+    normal_x: Array  # from it to the wall
+    normal_y: Array
+    bend: Array  # the pitch curve's curvature towards the wall
+    left: Mask  # whether it is the left flank
+    retraces: Mask  # whether the branch ends in a cusp, at all places alike
+
+    def of(self, design: int) -> OuterWall:
+        """That of one design."""
+        here = slice(design, design + 1)
+        return OuterWall(*(rows[here] for rows in self))  # type: ignore[arg-type]
+
+
+def outer_walls(mechanism: Mechanism, samples: int = SAMPLES) -> tuple[OuterWall, OuterWall] | None:
+    """The outer walls on the way in and on the way out; None of straight slots."""
+    engagement = mechanism.engagements[0]
     if not engagement.slot.curved:
         return None
-    L = mechanism.center_distance_mm
-    r = (mechanism.roller_radius_mm + size.allowances.slot_clearance_mm) / L
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
     share = (1.0 - np.arange(samples) / samples) ** 2
     x = np.atleast_2d(engagement.entry_deg * share)
@@ -78,45 +108,54 @@ def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
         # Left (1) or right (-1) of the travel, on both branches. Outside, the pin travels inwards
         # first; inside, outwards.
         outer = -mechanism.spec.wheel.SIGN * np.where(turn > 0.0, 1.0, -1.0)
-        back = np.asarray(retraces(engagement))
-        one, other = (
-            _of_branch(at, degrees, outer, side, r, L, back)
-            for at, degrees, side in ((inward, x, 1.0), (outward, -x, -1.0))
+        back = np.atleast_2d(retraces(engagement))
+        return _wall(inward, x, outer, outer > 0.0, back), _wall(
+            outward, -x, outer, outer < 0.0, back
         )
-    deeper = (other.depth_mm > one.depth_mm * (1.0 + TIE)) | np.isnan(one.depth_mm)
-    return Undercuts(*(np.where(deeper, b, a) for a, b in zip(one, other, strict=True)))
 
 
-def _of_branch(
-    at: Pitch, degrees: Array, outer: Array, side: float, r: float, L: float, back: Mask
-) -> Undercuts:
-    """The undercut on the way in (``side`` 1) or out (-1)."""
-    bend = outer * at.turning / at.speed  # curvature towards the outer wall
-    over = bend * r > 1.0
-    n, count = over.shape
-    bend, degrees, outer, x, y = (
-        np.broadcast_to(v, over.shape) for v in (bend, degrees, outer, at.x, at.y)
-    )
-    wall_x, wall_y = x - at.tangent_y * r * outer, y + at.tangent_x * r * outer
-    gap = np.full(n, np.inf)
-    design, place = np.nonzero(over)
-    for i in range(0, len(design), PAIRS // count):
-        d, k = design[i : i + PAIRS // count], place[i : i + PAIRS // count]
-        way = np.hypot(wall_x[d, k][:, None] - x[d], wall_y[d, k][:, None] - y[d])
+def _wall(at: Pitch, degrees: Array, outer: Array, left: Mask, back: Mask) -> OuterWall:
+    """A branch's outer wall; ``outer`` is 1 where it lies to the left of the pin's travel."""
+    normal = -at.tangent_y * outer, at.tangent_x * outer
+    rows = (degrees, at.x, at.y, *normal, outer * at.turning / at.speed, left, back)
+    return OuterWall(*np.broadcast_arrays(*rows))
+
+
+def depths_mm(wall: OuterWall, roller_mm: Number, L: Number) -> Array:
+    """How deep a roller with its clearance cuts a wall, (m,); 0 where it does not."""
+    r = np.asarray(roller_mm / L)
+    return np.ravel(L * np.maximum(0.0, r - _gap(wall, r)[:, None]))
+
+
+def _gap(wall: OuterWall, r: Array) -> Array:
+    """How near the pitch curve comes to places of the wall that are undercut, (m,)."""
+    gap = np.full(len(wall.bend), np.inf)
+    design, place = np.nonzero(wall.bend * r > 1.0)
+    step, many = PAIRS // wall.bend.shape[1], len(np.ravel(r)) > 1
+    for i in range(0, len(design), step):
+        d, k = design[i : i + step], place[i : i + step]
+        own = r[d, 0] if many else r
+        x, y = wall.x[d, k] + own * wall.normal_x[d, k], wall.y[d, k] + own * wall.normal_y[d, k]
+        way = np.hypot(x[:, None] - wall.x[d], y[:, None] - wall.y[d])
         np.minimum.at(gap, d, way.min(axis=1))
-    every, sharp = np.arange(n), np.argmax(bend, axis=1)
-    to_cusp = np.ravel(back) & over[:, -1]
+    return gap
+
+
+def _undercut(wall: OuterWall, roller_mm: Number, L: Number) -> Undercuts:
+    """The undercut of a wall by a roller with its clearance; both numbers may be (m, 1)."""
+    r, bend, degrees = np.asarray(roller_mm / L), wall.bend, wall.degrees
+    over = bend * r > 1.0
+    every, sharp = np.arange(len(bend)), np.argmax(bend, axis=1)
+    to_cusp = wall.retraces[:, -1] & over[:, -1]
     reach = [np.where(over, degrees, np.nan), np.where(to_cusp[:, None], 0.0, np.nan)]
     reached = np.hstack(reach)
-    cut = over.any(axis=1)
-    radius = np.ravel(L / bend[every, sharp][:, None])
     rows = (
-        outer[every, sharp] * side > 0.0,
+        wall.left[every, sharp],
         np.fmin.reduce(reached, axis=1),
         np.fmax.reduce(reached, axis=1),
         np.where(to_cusp, 0.0, degrees[every, sharp]),
-        np.where(to_cusp, 0.0, radius),
-        np.ravel(L * np.maximum(0.0, r - gap[:, None])),
+        np.where(to_cusp, 0.0, np.ravel(L / bend[every, sharp][:, None])),
+        depths_mm(wall, roller_mm, L),
         to_cusp,
     )
-    return Undercuts(*(np.where(cut, row, np.nan) for row in rows))
+    return Undercuts(*(np.where(over.any(axis=1), row, np.nan) for row in rows))

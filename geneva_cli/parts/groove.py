@@ -4,25 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
-from geneva_cli.numerics.arrays import scalar
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import smaller
 from geneva_cli.numerics.roots import boundary_by_sections, first_greatest
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Groove
-    from geneva_cli.numerics.arrays import Array, Mask
+    from geneva_cli.numerics.arrays import Array, Mask, Number
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 SAMPLES = 721
 LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
-FEW = 720  # of them, where a little less will do
+FEW = 360  # in the dwell, where a little less will do
 TOP = 0.99  # of the steepest place of them: another top may be as steep
 EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
 
@@ -77,11 +78,11 @@ def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
 
 def _back(groove: Groove, input_deg: Array) -> list[Array]:
     """``_distances`` at input angles in the dwell after the motion."""
-    span = math.radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
-    eased = min(math.radians(EASED_DEG), span / 3.0)
+    span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
+    eased = smaller(math.radians(EASED_DEG), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)
     exit_, entry = (
-        [scalar(c) for c in groove.distances(end, 2)[1].derivatives()]
+        groove.distances(end, 2)[1].derivatives()
         for end in (groove.motion.exit_deg, groove.motion.entry_deg)
     )
     after = _eased(exit_, eased, t, 1.0)
@@ -100,8 +101,8 @@ def _back(groove: Groove, input_deg: Array) -> list[Array]:
 
 
 def _eased(
-    end: Sequence[float], length: float, t: Array, sense: float
-) -> tuple[Array, Array, Array, float]:
+    end: Sequence[Number], length: float, t: Array, sense: float
+) -> tuple[Array, Array, Array, Number]:
     """Distance and two derivatives ``t`` beyond an end, and the distance it fades to.
 
     The slope is the cubic that has the end's value and derivative, and none of both at ``length``.
@@ -116,14 +117,26 @@ def _eased(
     return R + length * run, sense * rate, turn, level
 
 
-def seen_pressure(groove: Groove) -> float:
-    """The greatest pressure angle at FEW places all round, degrees: a little less than at all."""
-    R, slope, _ = _distances(groove, _all_round(groove, FEW))
-    return math.degrees(math.atan(float((np.abs(slope) / R).max())))
+class GrooveLook(NamedTuple):
+    """What is seen of the grooves of m designs at places all round, (m,) each: how near the
+    roller comes to the crank's axis, over L, and the greatest pressure angle, degrees.
+    """
+
+    nearest: Array
+    pressure_deg: Array
 
 
-def _all_round(groove: Groove, count: int = LOOKS) -> Array:
-    return groove.motion.entry_deg + 360.0 * np.arange(count + 1) / count
+def seen(groove: Groove, input_deg: Array) -> GrooveLook:
+    """A look at the grooves of many designs, or of one, over the motion at ``input_deg`` (m, k)
+    and over the dwell at FEW places.
+    """
+    dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
+    rest = groove.motion.exit_deg + dwell * (np.arange(FEW) / FEW)
+    moving = groove.distances(input_deg, 1)[1].derivatives()
+    resting = _back(groove, np.atleast_2d(rest))
+    R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=False))
+    steep = np.abs(slope) / R
+    return GrooveLook(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
 
 
 def greatest_pressure(groove: Groove) -> tuple[float, float]:
@@ -131,7 +144,7 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
 
     tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
     """
-    grid = _all_round(groove)[:-1]
+    grid = groove.motion.entry_deg + 360.0 * np.arange(LOOKS) / LOOKS
     R, slope, _ = _distances(groove, grid)
     steep = np.abs(slope) / R
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))

@@ -213,8 +213,10 @@ def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit,
             or candidate.eccentricity is not None
             or (candidate.law and candidate.alpha0_deg)
         )
-        if above:
-            assert candidate.acceleration_max == pytest.approx(float(limit), rel=1e-10)
+        if above and candidate.acceleration_max < float(limit) * (1.0 - 1e-10):
+            # inside, the plain crank's motion is too quick for any R/L as well
+            assert (candidate.drive, candidate.gearing) == ("crank", "internal")
+            assert candidate.ratio == pytest.approx(9.0 / 11.0)
     cranks = [w for w in found if w.drive == "crank" and w.law is None]
     below = {(w.z, w.gearing) for w in cranks if w.axes_deg in (None, 90.0)}
     assert below == {

@@ -187,7 +187,7 @@ def test_what_brute_force_finds_is_there_or_better(z):
     assert len(fits) > 20
     for i in gentlest:
         wish = read_wish(motion_deg=repr(float(motion[i])), z=str(z))
-        (family,) = families.four_bars(wish, External(z))
+        (family,) = families.four_bars(wish, [External(z)])
         found = build(family.make(0.0)).engagements[0]
         assert acceleration_peak(found).max <= peak[i]
 

@@ -13,5 +13,6 @@ The way of a wish, a file a step:
     table       the rows, the first of them turned; ``shown``: as a person reads them
     written     one row as a spec to go on with
 
-``spans`` holds ranges of a number, ``together`` quantities of many specs as arrays.
+``spans`` holds ranges of a number. Many specs are looked at as arrays: ``together`` builds them and
+asks for quantities, ``by_law`` knows those of a law's motion, ``looks`` what ``parts`` must know.
 """

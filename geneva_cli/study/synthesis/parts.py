@@ -12,25 +12,19 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from geneva_cli.analysis.undercut import undercut
+from geneva_cli.analysis.undercut import depths_mm
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.roller_paths import RollerPaths, roller_paths
 from geneva_cli.parts.sizes import sizes
+from geneva_cli.spec.tables import Size
+from geneva_cli.study.synthesis.looks import PartsLook, look
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
-LOOKS = 120  # places of a slot that are compared, and then of half a motion, for the undercut
 SPARE = 1.001  # times the least roller, for what lies between the places that are compared
 NEARLY = 0.8  # of the undercut that is let pass, for the same reason
 
@@ -65,9 +59,8 @@ class Parts(NamedTuple):
         return f"no: {self.why}" if self.why else MAYBE
 
 
-@lru_cache(maxsize=1024)
 def suited(spec: Spec) -> tuple[Mechanism, Parts]:
-    """The machine of a spec and its parts, which several steps of a search look at.
+    """The machine of a spec and its parts.
 
     Raises GenevaError for a spec that makes no machine.
     """
@@ -83,52 +76,56 @@ def parts(mechanism: Mechanism) -> Parts:
     spec = mechanism.spec
     if not spec.is_flat:
         return Parts(spec, None)
-    where = assembly(mechanism)
-    known = roller_paths(where)
-    points = _slot(where, where.kinds[0])
-    L, curved = where.L, where.kinds[0].slot.curved
-    least = 0.5 * float(np.hypot(*(points - points[::-1]).T).max()) if curved else 0.0
-    wall = _between(points, spec.wheel.z)
-    if spec.size.roller_radius_mm is not None:
-        r = spec.size.roller_radius_mm
-        return Parts(spec, _obstacle(where, known, r, wall) or (ISLAND if r < least else ""))
+    at, m = look(spec), spec.drive.rollers
+    if spec.drive.CRANKED and not mechanism.law:  # the same whatever turns the crank
+        r, why = _of_crank(at.spec, m)
+    else:
+        r, why = _suiting(assembly(mechanism), at, m)
+    return Parts(spec if r is None else with_roller(spec, r), why)
+
+
+@lru_cache(maxsize=1024)
+def _of_crank(spec: Spec, m: int) -> tuple[float | None, str]:
+    return _suiting(assembly(build(spec)), look(spec), m)
+
+
+def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]:
+    """The radius of the roller that suits m rollers, mm, None for the one that the spec has; and
+    what stands in the way.
+    """
+    mechanism, L = where.mechanism, where.L
+    apart = math.inf if m == 1 else mechanism.ratio * L * math.sin(math.pi / m)
 
     @cache
-    def obstacle(percent: float) -> str:
-        return _obstacle(where, known, 0.01 * percent * L, wall)
+    def obstacle(r: float) -> str:
+        return ROLLERS if apart <= r else _obstacle(where, at, r)
 
-    percent, why = _largest(_radii(least / L), obstacle)
-    if percent is None and least > 0.01 * USUAL[-1] * L:
-        percent, _ = _largest(_radii(0.0), obstacle)  # the island apart, nothing is in the way
+    def of_share(percent: float) -> str:
+        return obstacle(0.01 * percent * L)
+
+    if mechanism.spec.size.roller_radius_mm is not None:
+        r = mechanism.spec.size.roller_radius_mm
+        return None, obstacle(r) or (ISLAND if r < at.least else "")
+    percent, why = _largest(_radii(at.least / L), of_share)
+    if percent is None and at.least > 0.01 * USUAL[-1] * L:
+        percent, _ = _largest(_radii(0.0), of_share)  # the island apart, nothing is in the way
         why = ISLAND
-    if percent is None or percent == USUAL[0]:
-        return Parts(spec, why)
-    return Parts(with_roller(spec, exact(0.01 * percent * L)), why)
+    return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
 
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
     """The spec with another roller; None for the usual one."""
-    return spec.replace(size=spec.size.replace(roller_radius_mm=radius_mm))
+    return spec.replace(size=_size_with(spec.size, radius_mm))
+
+
+@lru_cache(maxsize=1024)
+def _size_with(size: Size, radius_mm: float | None) -> Size:
+    return size.replace(roller_radius_mm=radius_mm)
 
 
 def exact(x: float) -> float:
     """A product of short decimals, without what rounding added to it."""
     return float(f"{x:.12g}")
-
-
-def _slot(where: Assembly, engagement: Engagement) -> Array:
-    """Places of a slot's pitch curve, (n, 2), mm."""
-    at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2 * LOOKS + 1)
-    x, y = engagement.slot(at, 0)
-    return where.L * np.column_stack((x.c[0], y.c[0]))
-
-
-def _between(points: Array, z: int) -> float:
-    """The least distance between the pitch curves of neighbouring slots, mm."""
-    b = math.tau / z
-    x, y = points[::2].T
-    u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
-    return float(np.hypot(x[:, None] - u, y[:, None] - v).min())
 
 
 def _radii(least: float) -> list[float]:
@@ -151,20 +148,19 @@ def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[floa
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
-def _obstacle(where: Assembly, known: RollerPaths, r: float, between: float) -> str:
+def _obstacle(where: Assembly, at: PartsLook, r: float) -> str:
     """What stands in the way of a roller; nothing if it does."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))
-    m = mechanism.spec.drive.rollers
-    if m > 1 and mechanism.ratio * where.L * math.sin(math.pi / m) <= r:
-        return ROLLERS
     try:
-        found = sizes(where._replace(mechanism=mechanism), known)
+        found = sizes(where._replace(mechanism=mechanism), at.paths)
     except GenevaError as error:
         return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
-    if between - 2.0 * found.half_width < found.wall_min:
+    if at.between - 2.0 * found.half_width < found.wall_min:
         return WALLS
     if found.lock and found.horn < found.wall_min:
         return LOCK
-    cut = undercut(mechanism, LOOKS)
-    return UNDERCUT if cut is not None and cut.depth_mm > NEARLY * SHOWN_UNDERCUT else ""
+    w, L = found.half_width, where.L
+    bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
+    cuts = [depths_mm(wall, w, L)[0] for wall in bent]
+    return UNDERCUT if any(cut > NEARLY * SHOWN_UNDERCUT for cut in cuts) else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
@@ -38,8 +39,6 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     """
     sort = wish.sort.lstrip("-")
     wanted = [b.name for b in wish.bounds]
-    if not (sort or wanted):
-        return Asked(None, (), "")
     machine = build(spec)
     of_sort = pick([sort], machine, "--sort").names if sort else ()
     of_bounds = pick(wanted, machine, "--subject-to").asked if wanted else ()
@@ -54,7 +53,7 @@ def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
     assert wanted.pick
     names = wanted.names
     specs = [row.spec for row in found]
-    together = numbers(specs, names) if in_arrays(names) else [None] * len(specs)
+    together = [*map(_cells, numbers(specs, names))] if in_arrays(names) else [None] * len(specs)
     alone = [spec for spec, one in zip(specs, together, strict=True) if one is None]
     rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
     values = [one or next(rest) for one in together]
@@ -72,6 +71,15 @@ def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
     if not out:
         raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(found))}")
     return out
+
+
+def _cells(row: Sequence[float] | None) -> list[float | None] | None:
+    """The cells of a machine, empty where nothing bounds a value; None where one is not known of
+    many together.
+    """
+    if row is None or any(map(math.isnan, row)):
+        return None
+    return [None if math.isinf(value) else value for value in row]
 
 
 def _values(of: Pick, spec: Spec) -> list[float | int | str | bool | None] | None:

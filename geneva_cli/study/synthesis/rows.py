@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -11,8 +10,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
-from geneva_cli.parts.groove import seen_pressure
-from geneva_cli.study.synthesis.families.curved import law_costs
+from geneva_cli.study.synthesis.by_law import law_peaks
+from geneva_cli.study.synthesis.looks import look, look_at
 from geneva_cli.study.synthesis.parts import Parts, suited
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
@@ -89,8 +88,7 @@ def looked(spec: Spec, limited: bool) -> Looked:
     except GenevaError as error:
         return Looked(None, Parts(spec, None), str(error))
     if not found.why and (limited or machine.engagements[0].groove):
-        sized = machine._replace(spec=found.spec)
-        failed = _failing(sized) if limited else _wedged(machine)
+        failed = _failing(machine._replace(spec=found.spec)) if limited else _wedged(machine)
         found = found._replace(why=failed or found.why)
     return Looked(machine, found)
 
@@ -103,8 +101,7 @@ def _failing(machine: Mechanism) -> str:
 
 def _wedged(machine: Mechanism) -> str:
     """The check of a cam's groove, where it fails: asked only where it is near its limit."""
-    groove = machine.engagements[0].groove
-    if groove is None or seen_pressure(groove) < GROOVE_MAX_DEG - NEAR_DEG:
+    if look(machine.spec).pressure_deg < GROOVE_MAX_DEG - NEAR_DEG:
         return ""
     check = groove_pressure(GROOVE, machine)
     return GROOVE if check and check.passes is False else ""
@@ -119,14 +116,14 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     # the limit that the wish itself is, ``search`` keeps
     limits = wish.frame.limits.as_dict().values() if wish.frame else ()
     limited = any(value is not None for value in limits)
+    look_at(specs)
     for spec, five in zip(specs, own, strict=True):
         found = looked(spec, limited)
         machine = found.machine
         if machine is None:
             errors.append(found.error)
             continue
-        law = machine.spec.motion
-        values = five if law is None else _law_costs(machine, law.law.NAME)
+        values = [law_peaks(machine)[name] for name in COSTS] if spec.motion else five
         if values is not None:
             out.append(Row(found.parts.spec, _candidate(machine, wish, values, found.parts.said)))
     return out
@@ -175,18 +172,4 @@ def _candidate(
         point_mm=own.get("point_mm"),
         point_deg=own.get("point_deg"),
         entry_deg=own.get("entry_deg"),
-    )
-
-
-def _law_costs(machine: Mechanism, law: str) -> tuple[float, ...]:
-    """A law's own greatest values, scaled to the step and to the motion angle."""
-    engagement = machine.engagements[0]
-    step, rate = 2.0 * engagement.half_step, 1.0 / math.radians(engagement.motion_deg)
-    C_v, C_a, C_j, C_p = law_costs(law)
-    return (
-        C_v * step * rate,
-        C_a * step * rate**2,
-        abs(engagement.motion(engagement.entry_deg).scalars()[2]),
-        C_j * step * rate**3,
-        C_p * step**2 * rate**3,
     )

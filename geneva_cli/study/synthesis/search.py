@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -17,7 +16,7 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import families
-from geneva_cli.study.synthesis.families.family import holds, natural_deg
+from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg
 from geneva_cli.study.synthesis.families.straight import plain
 from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
@@ -56,14 +55,20 @@ def search(wish: Wish) -> FoundRows:
 
 
 def _asked(wish: Wish) -> Asked:
-    """The quantities that a wish names, by their whole names; some plain crank has them."""
-    m = wish.rollers or 1
+    """The quantities that a wish names, by their whole names, as a plain crank of one roller has
+    them; where the frame's sizes let none be, as the frame itself.
+    """
+    if not (wish.sort or wish.bounds):
+        return Asked(None, (), "")
     for gearing in wish.gearings:
         for z in wish.z:
-            spec = _buildable(partial(plain, wish, registry.gearing(gearing)(z)), m)
-            if spec:
-                return asked(wish, spec)
-    return Asked(None, (), "")
+            try:
+                spec = plain(wish, registry.gearing(gearing)(z), 1)
+                build(spec)
+            except GenevaError:
+                continue
+            return asked(wish, spec)
+    return asked(wish, wish.frame or BARE)
 
 
 def _keeping(bounds: Sequence[Constraint], specs: list[Spec]) -> list[Spec]:
@@ -79,15 +84,6 @@ def _keeping(bounds: Sequence[Constraint], specs: list[Spec]) -> list[Spec]:
     if not any(own and not out for own, out in zip(values, broken, strict=True)):
         return specs
     return [spec for spec, out in zip(specs, broken, strict=True) if not out]
-
-
-def _buildable(make: Callable[[int], Spec], m: int) -> Spec | None:
-    try:
-        spec = make(m)
-        build(spec)
-    except GenevaError:
-        return None
-    return spec
 
 
 def _limited(wish: Wish, spec: Spec) -> Spec:

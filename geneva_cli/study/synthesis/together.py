@@ -1,15 +1,17 @@
-"""Quantities of many specs at once: those that one machine can be are computed as one array."""
+"""Many specs at once: those that one machine of many designs can be are built as one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.machine.many import many, may_vary
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.study.sweep.columns import columns
+from geneva_cli.spec.schema import SpecTable, fields
+from geneva_cli.study.synthesis.by_law import law_columns
 
 TABLES = ("wheel", "drive", "motion")  # in which the machines of a wish differ
 
@@ -20,45 +22,67 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
     None for one that cannot be built, or whose engagements have not one number for all.
     """
     out: list[list[float] | None] = [None] * len(specs)
-    apart: dict[Any, list[int]] = {}
-    wide: list[dict[str, float]] = []
-    may: dict[Any, bool] = {}
-    for i, spec in enumerate(specs):
-        shape, own = _split(spec, may)
-        wide.append(own)
-        apart.setdefault(shape, []).append(i)
-    for members in apart.values():
-        keys = wide[members[0]]
-        varied = {k: np.array([wide[i][k] for i in members]) for k in keys}
-        differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
-        found = many(specs[members[0]], differing or dict([*varied.items()][:1]))
-        if found.machine is None:
-            continue
-        which = found.which
-        values = columns(found.machine, names, len(which))
+    for members, machine in built_together(specs):
+        values = law_columns(machine, names, len(members))
         if values is None:
             continue
-        for i, row in zip(which.tolist(), np.column_stack(values).tolist(), strict=True):
-            out[members[i]] = row
+        for i, row in zip(members, np.column_stack(values).tolist(), strict=True):
+            out[i] = row
     return out
 
 
-def _split(spec: Spec, may: dict[Any, bool]) -> tuple[Any, dict[str, float]]:
+def built_together(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism]]:
+    """Machines of many designs each, with the numbers of the specs that are in them; a spec that
+    cannot be built is in none.
+    """
+    apart: dict[Any, list[int]] = {}
+    wide: list[dict[str, float]] = []
+    keys: dict[Any, list[_Key]] = {}
+    for i, spec in enumerate(specs):
+        shape, own = _split(spec, keys)
+        wide.append(own)
+        apart.setdefault(shape, []).append(i)
+    for members in apart.values():
+        varied = {k: np.array([wide[i][k] for i in members]) for k in wide[members[0]]}
+        differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
+        found = many(specs[members[0]], differing or dict([*varied.items()][:1]))
+        if found.machine is not None:
+            yield [members[i] for i in found.which.tolist()], found.machine
+
+
+class _Key(NamedTuple):
+    """A key of a kind of machine: where it is, and whether it may be an array."""
+
+    table: str
+    attribute: str
+    name: str
+    varies: bool
+
+
+def _split(spec: Spec, keys: dict[Any, list[_Key]]) -> tuple[Any, dict[str, float]]:
     """What a machine must share with others to be one array with them, and its own numbers.
 
-    ``may`` is filled with which keys of a kind may be arrays.
+    ``keys`` is filled with those of a kind.
     """
     kinds = (type(spec.wheel), type(spec.drive), spec.motion and spec.motion.law)
+    if kinds not in keys:
+        keys[kinds] = [*_keys(spec)]
     shape: list[Any] = [kinds]
     own = {}
-    for table in TABLES:
-        for name, value in spec.table(table).items():
-            key = f"{table}.{name}"
-            number = isinstance(value, (int, float)) and not isinstance(value, bool)
-            if number and (kinds, key) not in may:
-                may[kinds, key] = may_vary(spec, key)
-            if number and may[kinds, key]:
-                own[key] = value
-            else:
-                shape.append((key, value))
+    held = vars(spec)
+    for table, attribute, name, varies in keys[kinds]:
+        value = vars(held[table])[attribute]
+        if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
+            own[name] = value
+        else:
+            shape.append((name, value))
     return tuple(shape), own
+
+
+def _keys(spec: Spec) -> Iterator[_Key]:
+    """Those of the tables in which machines of one kind differ; a law is one with its keys."""
+    for table in TABLES:
+        part: SpecTable | None = vars(spec)[table]
+        for field in fields(type(part)) if part else ():
+            name = f"{table}.{field.key}"
+            yield _Key(table, field.attribute, name, may_vary(spec, name))

@@ -7,32 +7,39 @@ motion on which their law's peak is the limit.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from geneva_cli.analysis.peaks import acceleration_peak
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.study.synthesis.by_law import law_costs
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
-from geneva_cli.study.synthesis.families.curved import cam, curved, law_costs, more_rollers
+from geneva_cli.study.synthesis.families.curved import cam, curved, more_rollers, standard
 from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
 from geneva_cli.study.synthesis.families.four_bars import four_bars
 from geneva_cli.study.synthesis.families.straight import driven, gears, plain, planets, side_crank
 from geneva_cli.study.synthesis.wish import Wish
 
+# velocities at which curved slots inside cannot be, where R/L is 1, and can be: R/L is 9/11
+PARALLEL, QUICK = 0.5, 0.45
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 
 
-def below(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Family]:
-    """The families of a wheel; peaks that are as low as a drive brings them go to ``reached``."""
-    yield from map(only, _specs(wish, wheel, reached))
-    if not wheel.FLAT:
-        yield from driven(wish, wheel)
-    if wish.rollers in (None, 1):
-        yield from planets(wish, wheel, natural_deg(wheel))
-    yield from four_bars(wish, wheel)
+def below(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+    """The families of some wheels; peaks that are as low as a drive brings them go to
+    ``reached``.
+    """
+    for wheel in wheels:
+        yield from map(only, _specs(wish, wheel, reached))
+        if not wheel.FLAT:
+            yield from driven(wish, wheel)
+        if wish.rollers in (None, 1):
+            yield from planets(wish, wheel, natural_deg(wheel))
+    yield from four_bars(wish, wheels)
+    yield from map(only, _with_laws(wish, wheels, reached))
 
 
 def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
@@ -50,8 +57,6 @@ def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
     limit = wish.acceleration_max * (1.0 - MARGIN)
     if 1 in every and not gentle:
         yield from _driven(wish, wheel, limit, reached)
-    for law in wish.laws:
-        yield from _curved(wish, wheel, limit, law, reached)
 
 
 def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
@@ -67,24 +72,41 @@ def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> I
             yield make(x)
 
 
-def _curved(
-    wish: Wish, wheel: Gearing, limit: float, law: str, reached: list[float]
-) -> Iterator[Spec]:
-    """Curved slots over a motion so long that the law's peak acceleration is the limit."""
-    natural, step, cost = natural_deg(wheel), 2.0 * math.pi / wheel.z, law_costs(law)
+def _with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Spec]:
+    """Curved slots, and cams, over a motion so long that the law's peak is the limit."""
+    lines: list[tuple[float, Callable[[int], Spec]]] = []
+    for wheel in wheels:
+        if wheel.FLAT:
+            for law in wish.laws:
+                lines += _lines(wish, wheel, law, reached)
+    for natural, make in lines:
+        yield from map(make, rollers(wish, natural))
+    for more in more_rollers(wish, lines):
+        yield from more
+
+
+def _lines(
+    wish: Wish, wheel: Gearing, law: str, reached: list[float]
+) -> Iterator[tuple[float, Callable[[int], Spec]]]:
+    """What makes curved slots, and cams, of so many rollers, with the plain crank's motion.
+
+    Inside, the limit's own motion may be too quick for curved slots of any R/L: they, and cams too,
+    get the plain crank's, and curved slots a longer one where that is too quick as well.
+    """
+    assert wish.acceleration_max is not None
+    limit = wish.acceleration_max * (1.0 - MARGIN)
+    natural, step = natural_deg(wheel), 2.0 * math.pi / wheel.z
+    cost = law_costs(standard(law))
     motion = closed.law_motion_deg(step, cost.acceleration, limit)
     inside, fast = wheel.SIGN < 0.0, cost.velocity * step
-    if inside and fast >= 0.5 * math.radians(motion) and motion < natural:
-        motion = natural  # the limit's own motion is too quick for any R/L inside
-
-    def make(m: int) -> Spec:
-        return curved(wish, wheel, law, m, motion)
-
     for m in rollers(wish, natural):
         whole = 2.0 * math.pi / m
-        if not inside or fast < 0.5 * whole:
+        if not inside or fast < PARALLEL * whole:
             reached.append(cost.acceleration * step / whole**2)
-        yield make(m)
-        yield cam(make(m))
-    yield from more_rollers(wish, natural, make)
-    yield from more_rollers(wish, natural, lambda m: cam(make(m)))
+    slower = motion
+    if inside and fast >= PARALLEL * math.radians(motion):
+        enough = fast < PARALLEL * math.radians(natural)
+        slower = max(motion, natural if enough else math.degrees(fast / QUICK))
+        yield natural, lambda m: cam(curved(wish, wheel, law, m, max(motion, natural)))
+    yield natural, lambda m: curved(wish, wheel, law, m, slower)
+    yield natural, lambda m: cam(curved(wish, wheel, law, m, motion))

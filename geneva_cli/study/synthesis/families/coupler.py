@@ -22,7 +22,7 @@ import numpy as np
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask
+    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number
 
 BACK = 2  # places of the way back for one of the motion
 HALF_WALL = 1.0 / 400.0  # of the centre distance: half of what must stand between two slots
@@ -89,7 +89,7 @@ def _complex(x: Jet, y: Jet) -> list[Complex]:
 
 
 def driving(
-    links: FourBarLinks, entry: Array, motion: Array, b: float, sense: Array
+    links: FourBarLinks, entry: Array, motion: Array, b: Number, sense: Array
 ) -> CouplerDrive:
     """The roller's place that makes the motion, (n, 1); not a number where there is none."""
     one, two = (linked(links, phi, 1) for phi in (entry, entry + motion))
@@ -113,17 +113,18 @@ def driving(
 
 
 def judged(
-    links: FourBarLinks, drive: CouplerDrive, b: float, roller: float, order: int, places: int
+    links: FourBarLinks, drive: CouplerDrive, b: Number, roller: Number, order: int, places: int
 ) -> Judged:
     """What becomes of the wheels, looked at in so many places of the motion and of the way back,
-    for a roller of that share of the centre distance, and derivatives up to that order.
+    for a roller of that share of the centre distance, and derivatives up to that order. Half the
+    step and the roller may be (n, 1).
     """
     entry, motion, sense, w = drive
     way = linked(links, entry + motion * (np.arange(places + 1) / places), order)
     pins = [p + w * e for p, e in zip(way.pin, way.along, strict=True)]
     p, q, v = pins[0][:, :1], pins[0][:, -1:], pins[1][:, :1]
     t = v / np.abs(v)
-    rho = np.abs(q - p) / (2.0 * math.sin(b))
+    rho = np.abs(q - p) / (2.0 * np.sin(b))
     centre = p + rho * t
     rays = [pins[0] - centre, *pins[1:]]
     x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])
@@ -136,7 +137,7 @@ def judged(
     L, near = np.abs(centre), np.abs(rays[0])
     drives = ahead[:, 0] & (derivatives[1][:, 1:-1] * sense > 0.0).all(axis=1)
     drives &= (near[:, 1:-1] < rho).all(axis=1)
-    drives &= near.min(axis=1) * math.sin(b) >= (roller + HALF_WALL) * L[:, 0]
+    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + HALF_WALL) * L)[:, 0]
     drives &= _passes((pin - centre) / (p - centre), roller * L / rho, b)
     joints = [way.pin[0] + links.b * way.along[0], rest.pin[0] + links.b * rest.along[0]]
     reach = np.maximum.reduce(
@@ -145,7 +146,7 @@ def judged(
     return Judged(derivatives, drives, L[:, 0], reach)
 
 
-def _passes(place: Complex, r: Array, b: float) -> Mask:
+def _passes(place: Complex, r: Array, b: Number) -> Mask:
     """Whether a roller passes the wheel at rest without a touch.
 
     Lengths are over the distance of the slots' mouths from the wheel's axis, and a slot points

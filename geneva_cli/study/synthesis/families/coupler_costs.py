@@ -21,12 +21,12 @@ SPARE = 1e-4  # share by which bounds are kept, for what lies between the places
 
 
 class Costs(NamedTuple):
-    """Of n machines the derivatives at places of the motion, (n, places), and the motion angles,
-    degrees, (n,).
+    """Of n machines the derivatives at places of the motion, (n, places), and the steps and the
+    motion angles, degrees, (n,).
     """
 
     wish: Wish
-    index_deg: float
+    index_deg: Array
     derivatives: list[Array]
     motion_deg: Array
 

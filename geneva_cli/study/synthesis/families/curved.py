@@ -5,15 +5,15 @@ Both take as many rollers as the plain wheel, and more for as long as their part
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
-from itertools import count
+from typing import NamedTuple
 
-from geneva_cli.analysis.law_values import Characteristic, characteristic
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -29,6 +29,7 @@ from geneva_cli.study.synthesis.families.family import (
     rollers,
     wanted,
 )
+from geneva_cli.study.synthesis.looks import look_at
 from geneva_cli.study.synthesis.parts import suited
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
@@ -37,61 +38,72 @@ ROUNDING = 2e-15  # share of the natural motion: what a difference of two angles
 
 
 @cache
-def law_costs(law: str) -> Characteristic:
-    """The greatest values of a law."""
-    return characteristic(registry.law(law)())
+def standard(law: str) -> Law:
+    """A law by its name."""
+    return registry.law(law)()
 
 
-def with_laws(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """Curved slots, and cams, with each law: of a range the longest motion, which is the gentlest,
     and the plain crank's own; where the wish has bounds, or something else is to be least, any.
     """
-    if not wheel.FLAT:
-        return
-    for law in wish.laws:
-        make = partial(curved, wish, wheel, law)
-        yield from _of_law(wish, wheel, make, lambda motion: motion)
-        yield from _of_law(wish, wheel, partial(_grooved, make), partial(_until_parallel, wheel))
+    lines = [
+        line
+        for wheel in wheels
+        if wheel.FLAT
+        for law in wish.laws
+        for line in _lines(wish, wheel, law)
+    ]
+    several = more_rollers(wish, [(line.natural, line.longest) for line in lines])
+    for line, more in zip(lines, several, strict=True):
+        yield from line.families(more)
 
 
-def _of_law(
-    wish: Wish,
-    wheel: Gearing,
-    make: Callable[[int, float], Spec],
-    reached: Callable[[Interval], Interval],
-) -> Iterator[Family]:
-    """``make`` makes the machine of so many rollers and such a motion; ``reached`` says which
-    motions of a span it makes.
+def _lines(wish: Wish, wheel: Gearing, law: str) -> tuple[_Line, _Line]:
+    """Curved slots of a wheel and a law, and cams."""
+    natural, make = natural_deg(wheel), partial(curved, wish, wheel, law)
+    grooved, until = partial(_grooved, make), partial(_until_parallel, wheel)
+    return _Line(wish, natural, make, lambda motion: motion), _Line(wish, natural, grooved, until)
+
+
+class _Line(NamedTuple):
+    """Machines of one wheel and law: ``make`` makes that of so many rollers and such a motion,
+    and ``reached`` says which motions of a span there are.
     """
-    natural = natural_deg(wheel)
 
-    def motions(m: int) -> Interval | None:
-        asked = closed_span(wanted(wish, m, natural), m)
-        return reached(asked) if asked else None
+    wish: Wish
+    natural: float
+    make: Callable[[int, float], Spec]
+    reached: Callable[[Interval], Interval]
 
-    for m in rollers(wish, natural):
-        free = motions(m)
-        if free is None:
-            continue
-        own = holds(free, natural)
-        motion = Interval(natural, natural) if own and free.exact else free
-        yield _free(wish, partial(make, m), motion, natural)
-        if own:
-            yield only(make(m, natural))
+    def families(self, more: Sequence[Spec]) -> Iterator[Family]:
+        """The families, also those of ``more`` rollers than the plain wheel takes."""
+        for m in rollers(self.wish, self.natural):
+            free = self._motions(m)
+            if free is None:
+                continue
+            own = holds(free, self.natural)
+            plain = Interval(self.natural, self.natural)
+            yield self._free(m, plain if own and free.exact else free)
+            if own:
+                yield only(self.make(m, self.natural))
+        for spec in more:
+            m = spec.drive.rollers
+            yield self._free(m, self._motions(m) or Interval(self.natural, self.natural))
 
-    def longest(m: int) -> Spec | None:
-        free = motions(m)
-        return make(m, free.high) if free else None
+    def longest(self, m: int) -> Spec | None:
+        """The gentlest machine of m rollers."""
+        free = self._motions(m)
+        return self.make(m, free.high) if free else None
 
-    for spec in more_rollers(wish, natural, longest):
-        m = spec.drive.rollers
-        yield _free(wish, partial(make, m), motions(m) or Interval(natural, natural), natural)
+    def _motions(self, m: int) -> Interval | None:
+        asked = closed_span(wanted(self.wish, m, self.natural), m)
+        return self.reached(asked) if asked else None
 
-
-def _free(wish: Wish, make: Callable[[float], Spec], motion: Interval, natural: float) -> Family:
-    """The machines of some motions, or the one of the longest where only its peak counts."""
-    low = motion.low if wish.bounds or wish.sort else motion.high
-    return Family(make, low, motion.high, plain=natural)
+    def _free(self, m: int, motion: Interval) -> Family:
+        """The machines of some motions, or the one of the longest where only its peak counts."""
+        low = motion.low if self.wish.bounds or self.wish.sort else motion.high
+        return Family(partial(self.make, m), low, motion.high, plain=self.natural)
 
 
 def _grooved(make: Callable[[int, float], Spec], m: int, motion: float) -> Spec:
@@ -113,18 +125,31 @@ def cam(spec: Spec) -> Spec:
     return spec.replace(drive=drive, motion=spec.motion.replace(ratio=None))
 
 
-def more_rollers(wish: Wish, natural: float, make: Callable[[int], Spec | None]) -> Iterator[Spec]:
-    """More rollers than the plain wheel takes, while the parts can be built."""
+def more_rollers(
+    wish: Wish, lines: Sequence[tuple[float, Callable[[int], Spec | None]]]
+) -> list[list[Spec]]:
+    """More rollers than the plain wheel takes, of each line while its parts can be built.
+
+    A line is the plain crank's motion angle, degrees, and what makes the machine of m rollers.
+    """
+    found: list[list[Spec]] = [[] for _ in lines]
     if wish.rollers is not None:
-        return
-    for m in count(rollers_max(natural) + 1):
-        spec = make(m)
-        try:
-            if spec is None or suited(spec)[1].why:
-                return
-        except GenevaError:
-            return
-        yield spec
+        return found
+    growing = {i: rollers_max(natural) + 1 for i, (natural, _) in enumerate(lines)}
+    while growing:
+        specs = {i: spec for i, m in growing.items() if (spec := lines[i][1](m))}
+        look_at(specs.values())
+        growing = {i: growing[i] + 1 for i, spec in specs.items() if _nothing_in_the_way(spec)}
+        for i in growing:
+            found[i].append(specs[i])
+    return found
+
+
+def _nothing_in_the_way(spec: Spec) -> bool:
+    try:
+        return not suited(spec)[1].why
+    except GenevaError:
+        return False
 
 
 def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
@@ -134,5 +159,5 @@ def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if wish.acceleration_max else alpha0 + spare
     shortest = closed.shortest(alpha0 - spare, most)
-    given = Motion(registry.law(law)(), alpha0_deg=shortest, ratio="matched")
+    given = Motion(standard(law), alpha0_deg=shortest, ratio="matched")
     return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)

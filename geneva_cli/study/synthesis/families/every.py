@@ -23,12 +23,11 @@ def families(wish: Wish, reached: list[float]) -> Iterator[Family]:
     Of a wish for a peak acceleration alone, peaks that are as low as a drive brings them go to
     ``reached``.
     """
-    for gearing in wish.gearings:
-        for z in wish.z:
-            wheel = registry.gearing(gearing)(z)
-            if wish.only_acceleration:
-                yield from below(wish, wheel, reached)
-            else:
-                yield from straight(wish, wheel)
-                yield from with_laws(wish, wheel)
-                yield from four_bars(wish, wheel)
+    wheels = [registry.gearing(gearing)(z) for gearing in wish.gearings for z in wish.z]
+    if wish.only_acceleration:
+        yield from below(wish, wheels, reached)
+        return
+    for wheel in wheels:
+        yield from straight(wish, wheel)
+    yield from four_bars(wish, wheels)
+    yield from with_laws(wish, wheels)

@@ -1,7 +1,7 @@
-"""The search of a four-bar: its proportions, the crank's angle at entry, and in a range the motion.
+"""The search of four-bars: proportions, the crank's angle at entry, and in a range the motion.
 
-First at places of a unit cube that are spread evenly, the same in every run; then nearer and nearer
-about the best.
+Of several wheels at once, each for itself. First at places of a unit cube that are spread evenly,
+the same in every run; then nearer and nearer about the best.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array
+    from geneva_cli.numerics.arrays import Array, Whole
 
 SAMPLES = 6000  # four-bars that are looked at for all wheels of a wish together
 FEWEST, MOST = 256, 2048  # and for one wheel
@@ -39,17 +39,26 @@ class Goal(NamedTuple):
     """What is searched for: bounds to keep, and what is to be the least (``sign`` -1: greatest)."""
 
     wish: Wish
-    wheel: Gearing
-    motion: Interval
-    roller: float  # of the centre distance: the roller that must have room
+    wheels: tuple[WheelGoal, ...]
     bounds: tuple[Constraint, ...]
     least: str
     sign: float = 1.0
 
 
+class WheelGoal(NamedTuple):
+    """A wheel, the motions that it may have, and the roller that must have room, over the centre
+    distance.
+    """
+
+    wheel: Gearing
+    motion: Interval
+    roller: float
+
+
 class Pool(NamedTuple):
     """Places in the unit cube, and what becomes of them."""
 
+    of: Whole  # (n,), the number of the wheel
     unit: Array  # (n, DIMENSIONS)
     links: FourBarLinks
     drive: CouplerDrive
@@ -58,35 +67,40 @@ class Pool(NamedTuple):
     distance: Array
 
     def best(self, count: int) -> Pool:
-        """The best of those that are machines."""
-        order = np.lexsort((self.cost, self.broken))[:count]
-        order = order[np.isfinite(self.broken[order])]
-        return self.taken(order)
+        """The best of each wheel, of those that are machines."""
+        order = np.lexsort((self.cost, self.broken, self.of))
+        of = self.of[order]
+        place = np.arange(len(of)) - np.searchsorted(of, of)
+        return self.taken(order[(place < count) & np.isfinite(self.broken[order])])
 
     def taken(self, which: Any) -> Pool:
         """Some of the places."""
         return Pool(*(_taken(part, which) for part in self))
 
 
-def searched(goal: Goal) -> Pool:
-    """Those that keep the bounds, the best first."""
-    wheels = len(goal.wish.z)
-    count = min(max(SAMPLES // wheels, FEWEST), MOST)
-    looks = min(max(LOOKS // wheels, FEW), MANY)
+def searched(goal: Goal) -> list[Pool]:
+    """Of each wheel those that keep the bounds, the best first."""
+    wheels, asked = len(goal.wheels), len(goal.wish.z)
+    count = min(max(SAMPLES // asked, FEWEST), MOST)
+    looks = min(max(LOOKS // asked, FEW), MANY)
+    every = np.arange(wheels)
     with np.errstate(all="ignore"):
         unit, sense = np.repeat(_spread(count), 2, axis=0), np.resize([1.0, -1.0], 2 * count)
-        first = _pool(goal, unit, sense, COARSE)
+        tried = [_pool(goal, np.full(2 * count, i), unit, sense, COARSE) for i in every]
+        first = _joined(*(one.best(OTHERS) for one in tried))
         found, width = first.best(PARENTS), WIDEST
         for look in range(looks):
             offset = (_spread(CHILDREN, look) - 0.5) * width
             unit = (found.unit[:, None] + offset).reshape(-1, DIMENSIONS)
-            sense = np.repeat(found.drive.sense[:, 0], CHILDREN)
-            found = _joined(found, _pool(goal, _inside(unit), sense, COARSE)).best(PARENTS)
+            of, sense = (np.repeat(x, CHILDREN) for x in (found.of, found.drive.sense[:, 0]))
+            found = _joined(found, _pool(goal, of, _inside(unit), sense, COARSE)).best(PARENTS)
             width *= NARROWEST ** (1.0 / looks)
         # those that what lies between the places spares
-        every = _joined(found, first.best(OTHERS))
-        fine = _pool(goal, every.unit, every.drive.sense[:, 0], FINE).best(FINEST)
-    return fine.taken(fine.broken == 0.0)
+        several = _joined(found, first)
+        sense = several.drive.sense[:, 0]
+        fine = _pool(goal, several.of, several.unit, sense, FINE).best(FINEST)
+    kept = fine.taken(fine.broken == 0.0)
+    return [kept.taken(kept.of == i) for i in every]
 
 
 def _spread(count: int, start: int = 0) -> Array:
@@ -108,9 +122,10 @@ def _inside(unit: Array) -> Array:
     return inside
 
 
-def _pool(goal: Goal, unit: Array, sense: Array, places: int) -> Pool:
-    """What becomes of places of the cube, with wheels of some sense."""
-    u, motion = unit.T[:, :, None], goal.motion
+def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool:
+    """What becomes of places of the cube, with wheels by their numbers and of some sense."""
+    half, low, high, room, slots = (row[of][:, None] for row in _rows(goal))
+    u = unit.T[:, :, None]
     g = np.ones(u[0].shape)
     b, c = (PROPORTIONS ** (2.0 * x - 1.0) for x in u[:2])
     longest = np.minimum(
@@ -119,27 +134,31 @@ def _pool(goal: Goal, unit: Array, sense: Array, places: int) -> Pool:
     links = FourBarLinks(longest * (CRANK[0] + (CRANK[1] - CRANK[0]) * u[2]), g, b, c)
     # the gentlest is often at an end of a range: a sixth of all places is at either
     share = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
-    degrees = motion.low + (motion.high - motion.low) * share
-    step = goal.wheel.step
-    drive = driving(links, math.tau * u[3], np.radians(degrees), step.b, sense[:, None])
-    roller = goal.roller * (WIDER if places < FINE else 1.0)
+    degrees = low + (high - low) * share
+    drive = driving(links, math.tau * u[3], np.radians(degrees), half, sense[:, None])
+    roller = room * (WIDER if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
-    told = judged(links, drive, step.b, roller, order(names), places)
+    told = judged(links, drive, half, roller, order(names), places)
     good = told.drives & (longest[:, 0] > 0.0) & (told.reach <= goal.wish.space * told.distance)
-    costs = Costs(goal.wish, 360.0 / goal.wheel.z, told.derivatives, degrees[:, 0])
+    costs = Costs(goal.wish, (360.0 / slots)[:, 0], told.derivatives, degrees[:, 0])
     cost = goal.sign * costs.of(goal.least)
     broken = np.where(good & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
-    return Pool(unit, links, drive, broken, cost, told.distance)
+    return Pool(of, unit, links, drive, broken, cost, told.distance)
 
 
-def _joined(one: Pool, two: Pool) -> Pool:
-    def both(a: Any, b: Any) -> Any:
-        if isinstance(a, tuple):
-            return type(a)(*map(both, a, b))
-        return np.concatenate((a, b))
+def _rows(goal: Goal) -> list[Array]:
+    """Half the step, the ends of the motions, the roller and the number of slots of each wheel."""
+    rows = [
+        (task.wheel.step.b, *task.motion, task.roller, float(task.wheel.z)) for task in goal.wheels
+    ]
+    return [*np.array(rows).T]
 
-    joined: Pool = both(one, two)
-    return joined
+
+def _joined(*pools: Any) -> Any:
+    """Several pools, or parts of them, one after the other."""
+    if isinstance(pools[0], tuple):
+        return type(pools[0])(*map(_joined, *pools))
+    return np.concatenate(pools)
 
 
 def _taken(part: Any, which: Any) -> Any:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -21,8 +22,9 @@ from geneva_cli.machine.path_pairs import ends_at, newton, residual
 from geneva_cli.machine.path_wheels import followed
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.families.coupler import driving
-from geneva_cli.study.synthesis.families.coupler_costs import is_known
+from geneva_cli.study.synthesis.families.coupler_costs import Costs, is_known
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
@@ -32,7 +34,13 @@ from geneva_cli.study.synthesis.families.family import (
     only,
     wanted,
 )
-from geneva_cli.study.synthesis.families.four_bar_search import OTHERS, Goal, Pool, searched
+from geneva_cli.study.synthesis.families.four_bar_search import (
+    OTHERS,
+    Goal,
+    Pool,
+    WheelGoal,
+    searched,
+)
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import PEAK, Wish
 
@@ -43,49 +51,71 @@ EXACT = 2e-13  # share of a motion by which it may differ from the one wished fo
 TRIED = 4  # times that rounding is mended
 
 
-def four_bars(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """The best four-bar of a wheel; some others as well, where the search does not know what is to
-    be least, or what is bounded.
+def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
+    """The best four-bar of each wheel; some others as well, where the search does not know what is
+    to be least, or what is bounded.
     """
-    natural = natural_deg(wheel)
-    free = closed_span(wanted(wish, 1, natural), 1)
-    if free is None or wish.rollers not in (None, 1):
+    if wish.rollers not in (None, 1):
         return
+    tasks = [task for wheel in wheels if (task := _task(wish, wheel))]
+    names = [wish.sort.lstrip("-") or PEAK, *(b.name for b in wish.limits)]
+    count = 1 if all(map(is_known, names)) else 1 + OTHERS
+    for task, found in zip(tasks, _found(wish, tuple(tasks)), strict=True):
+        if found:
+            specs = (_spec(wish, task.wheel, found, i) for i in range(len(found.cost)))
+            yield from map(only, islice((spec for spec in specs if spec), count))
+
+
+def _task(wish: Wish, wheel: Gearing) -> WheelGoal | None:
+    """What is searched for a wheel; None of one that no four-bar drives."""
+    free = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
+    if free is None:
+        return None
     try:
         refuse_conflicts(_machine(wish, wheel, FourBar(**_EXAMPLE), free.low))
-    except GenevaError:  # a wheel that it does not drive
-        return
-    found = _found(wish, wheel, free, natural)
-    names = [wish.sort.lstrip("-") or PEAK, *(b.name for b in wish.limits)]
-    left = 1 if all(map(is_known, names)) else 1 + OTHERS
-    for i in range(len(found.cost)):
-        spec = _spec(wish, wheel, found, i)
-        if spec is not None:
-            yield only(spec)
-            left -= 1
-            if not left:
-                return
-
-
-def _found(wish: Wish, wheel: Gearing, free: Interval, natural: float) -> Pool:
-    """The best four-bars. Where any motion will do and nothing is to be least, the gentlest that
-    move for as long as the plain crank; where none of these keeps the bounds, of any motion.
-    """
+    except GenevaError:
+        return None
     frame = wish.frame or BARE
     given = frame.size.roller_radius_mm
     roller = min(ROLLER, THIN * math.sin(wheel.step.b))
-    if given is not None:
-        roller = given / frame.given_distance_mm
+    return WheelGoal(wheel, free, roller if given is None else given / frame.given_distance_mm)
+
+
+def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
+    """The best four-bars, if any, of each wheel. Where any motion will do and nothing is to be
+    least, the gentlest that move for as long as the plain crank; where none of these keeps the
+    bounds, of any motion.
+    """
+    if not tasks:
+        return []
     bounds = tuple(b for b in wish.limits if is_known(b.name))
-    goal = Goal(wish, wheel, free, roller, bounds, PEAK)
+    goal = Goal(wish, tasks, bounds, PEAK)
     least = wish.sort.lstrip("-")
     if least:
         sign = -1.0 if wish.sort.startswith("-") else 1.0
         return searched(goal._replace(least=least, sign=sign) if is_known(least) else goal)
     if not wish.any_motion:
         return searched(goal)
-    same = searched(goal._replace(motion=Interval(natural, natural)))
-    return same if len(same.cost) else searched(goal)
+    found: dict[int, Pool] = {}
+    same = {i: task for i, task in enumerate(map(_as_plain, tasks)) if _in_time(wish, task, bounds)}
+    for asked in (same, dict(enumerate(tasks))):
+        left = {i: task for i, task in asked.items() if i not in found}
+        pools = searched(goal._replace(wheels=tuple(left.values()))) if left else []
+        found |= {i: pool for i, pool in zip(left, pools, strict=True) if len(pool.cost)}
+    return [found.get(i) for i in range(len(tasks))]
+
+
+def _as_plain(task: WheelGoal) -> WheelGoal:
+    """The same with the plain crank's motion."""
+    natural = natural_deg(task.wheel)
+    return task._replace(motion=Interval(natural, natural))
+
+
+def _in_time(wish: Wish, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
+    """Whether a motion keeps those bounds that follow from it alone."""
+    step, motion = np.array([360.0 / task.wheel.z]), np.array([task.motion.low])
+    of_time = tuple(b for b in bounds if b.name.startswith("timing."))
+    return not Costs(wish, step, [], motion).broken(of_time).any()
 
 
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]

@@ -1,0 +1,128 @@
+"""What of a machine's parts no roller's size changes, told of many machines at once.
+
+A drive in front of a crank changes when its parts are where they are, and more rollers, all alike,
+run through the same slots: machines that differ in these only are looked at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.undercut import OuterWall, outer_walls
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.arrays import array
+from geneva_cli.parts.groove import seen
+from geneva_cli.parts.roller_paths import RollerPaths
+from geneva_cli.study.synthesis.together import built_together
+from geneva_cli.study.synthesis.wish import USUAL_RPM
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
+
+PLACES = 720  # of a slot, and of a whole turn of the crank
+FEWER = 3  # times, where places of a slot are compared with each other, and once more
+LOOKS = 120  # places of half a motion, for the undercut
+MOST = 4096  # looks that are kept
+
+
+class PartsLook(NamedTuple):
+    """What no roller changes; lengths in mm."""
+
+    spec: Spec  # that stands for all whose parts look so
+    paths: RollerPaths
+    between: float  # neighbouring slots' pitch curves
+    least: float  # the radius of the least roller that leaves no island of the wheel in its slot
+    pressure_deg: float  # the greatest in a cam's groove
+    walls: tuple[OuterWall, OuterWall] | None  # of curved slots
+
+
+_kept: dict[Spec, PartsLook] = {}
+
+
+def look(spec: Spec) -> PartsLook:
+    """The look at a machine with flat parts. Raises GenevaError where there is no machine."""
+    own = _alike(spec)
+    if own not in _kept:
+        look_at([spec])
+    if own not in _kept:
+        (_kept[own],) = _looks([own], build(own))
+    return _kept[own]
+
+
+def look_at(specs: Iterable[Spec]) -> None:
+    """Look at many machines at once, which ``look`` then knows; at those that can be built."""
+    new = dict.fromkeys(
+        own for spec in specs if spec.is_flat and (own := _alike(spec)) not in _kept
+    )
+    if len(_kept) + len(new) > MOST:
+        _kept.clear()
+    several = [*new]
+    for members, machine in built_together(several):
+        of = [several[i] for i in members]
+        _kept.update(zip(of, _looks(of, machine), strict=True))
+
+
+def _alike(spec: Spec) -> Spec:
+    """The machine that stands for all those whose slots and rollers' paths are the same."""
+    drive = spec.drive
+    if spec.motion is None and drive.CRANKED:
+        return spec.replace(drive=Crank(n_rpm=USUAL_RPM))
+    return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM, rollers=1))
+
+
+def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
+    """The looks at n specs that are one machine."""
+    engagement, *others = machine.engagements
+    assert not others, "all rollers of a machine that synthesis finds move alike"
+    L = np.atleast_2d(array(machine.center_distance_mm))
+    entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
+    moving = entry + wide * (np.arange(PLACES + 1) / PLACES)
+    groove = seen(engagement.groove, moving) if engagement.groove else None
+    x, y = (c.c[0] for c in engagement.slot(moving, 0))
+    shape = (len(specs), PLACES + 1)
+    x, y = L * np.broadcast_to(x, shape), L * np.broadcast_to(y, shape)
+    reach = np.hypot(x, y)
+    ends = reach.min(axis=1) if machine.spec.wheel.SIGN > 0.0 else reach.max(axis=1)
+    arm = groove.nearest * L[:, 0] if groove else _arm(machine)
+    half = np.atleast_2d(array(engagement.half_step))
+    for side in (-1.0, 1.0):  # the slots beside the crank's axis while the wheel rests
+        away = np.hypot(x - L * np.cos(half), y - side * L * np.sin(half))
+        arm = np.minimum(arm, away.min(axis=1))
+    fx, fy = x[:, ::FEWER], y[:, ::FEWER]
+    least = 0.5 * np.hypot(fx - fx[:, ::-1], fy - fy[:, ::-1]).max(axis=1)
+    least = least if engagement.slot.curved else np.zeros(len(specs))
+    z = np.broadcast_to(machine.spec.wheel.z, (len(specs), 1))[:, 0]
+    between = [_between(*points) for points in zip(fx[:, ::2], fy[:, ::2], z, strict=True)]
+    pressure = groove.pressure_deg if groove else np.zeros(len(specs))
+    walls = outer_walls(machine, LOOKS)
+    columns = np.broadcast_arrays(ends, arm, between, least, pressure)
+    out = []
+    for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True)):
+        end, near, apart, radius, steep = row
+        own = (walls[0].of(i), walls[1].of(i)) if walls else None
+        out.append(PartsLook(spec, RollerPaths((end,), near), apart, radius, steep, own))
+    return out
+
+
+def _arm(machine: Mechanism) -> Array:
+    """Least distance of the roller from the crank's axis over a turn of it, mm, (n,) or (1,)."""
+    (engagement,) = machine.engagements
+    turn = 360.0 * machine.spec.drive.turns
+    at = turn * (np.arange(PLACES) / PLACES - 0.5)
+    x, y = (c.c[0] for c in engagement.path(np.atleast_2d(at), 0))
+    away = np.hypot(x - 1.0, y)
+    return np.ravel(machine.center_distance_mm * away.min(axis=1, keepdims=True))
+
+
+def _between(x: Array, y: Array, z: int) -> float:
+    """The least distance between the pitch curves of neighbouring slots, mm."""
+    b = math.tau / z
+    u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
+    dx, dy = x[:, None] - u, y[:, None] - v
+    return math.sqrt(float((dx * dx + dy * dy).min()))

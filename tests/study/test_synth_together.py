@@ -1,0 +1,144 @@
+"""What synthesis looks up of many machines at once, against each machine alone."""
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli.analysis.undercut import depths_mm, undercut
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.epicyclic import Epicyclic
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.laws.standard import Cycloidal, ModifiedConstantVelocity
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.groove import greatest_pressure
+from geneva_cli.parts.roller_paths import roller_paths
+from geneva_cli.spec.tables import Load, Size
+from geneva_cli.study.fields import pick
+from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.synthesis.by_law import law_columns
+from geneva_cli.study.synthesis.looks import LOOKS, _alike, _kept, look, look_at
+from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.rows import COSTS
+from geneva_cli.study.synthesis.search import search
+from geneva_cli.study.synthesis.table import synthesis_table
+from geneva_cli.study.synthesis.together import built_together, numbers
+
+LAW = Cycloidal()
+MATCHED = Motion(LAW, ratio="matched")
+SPECS = [
+    *(Spec(External(z), Crank(n_rpm=30.0, rollers=2), MATCHED) for z in (5, 7)),
+    Spec(Internal(9), motion=Motion(LAW, alpha0_deg=-60.0, ratio="matched")),
+    Spec(External(6), motion=Motion(LAW, alpha0_deg=-40.0, ratio="matched")),
+    Spec(External(6), motion=Motion(LAW, alpha0_deg=-40.0, ratio=0.4)),
+    *(Spec(External(6), Cam(), Motion(LAW, alpha0_deg=a)) for a in (-70.0, 20.0)),
+    Spec(Internal(5), Cam(), Motion(LAW)),
+    *(Spec(External(z, offset_mm=4.0)) for z in (5, 8)),
+    Spec(Internal(4), SideCrank(A=0.3), size=Size(center_distance_mm=170.0)),
+    Spec(External(4), Epicyclic(planet_ratio="shockless", fixed="ring")),
+]
+
+
+def test_looks_at_parts():
+    """As the parts have it, machine by machine.
+
+    The same places of paths, in other orders of arithmetic: 1e-12. A groove is looked at half a
+    degree apart, where it is nearest to the crank's axis and steepest within 1e-3 of the truth.
+    """
+    _kept.clear()
+    look_at(SPECS)
+    assert {_alike(spec) for spec in SPECS} == set(_kept)
+    for spec in SPECS:
+        seen, machine = look(spec), build(spec)
+        groove = machine.engagements[0].groove
+        known = roller_paths(assembly(machine))
+        assert seen.paths.ends == pytest.approx(known.ends, rel=1e-12)
+        assert seen.paths.arm == pytest.approx(known.arm, rel=1e-3 if groove else 1e-12)
+        if groove:
+            assert seen.pressure_deg == pytest.approx(greatest_pressure(groove)[0], rel=1e-3)
+        found = undercut(machine, LOOKS)
+        w = machine.roller_radius_mm + spec.size.allowances.slot_clearance_mm
+        cut = [depths_mm(wall, w, machine.center_distance_mm)[0] for wall in seen.walls or ()]
+        assert max(cut, default=0.0) == pytest.approx(found.depth_mm if found else 0.0, rel=1e-9)
+
+
+def test_a_straight_slot_and_its_neighbour():
+    """Radial slots b from each other's bisector are nearest at their ends: 2 end sin b."""
+    seen = look(Spec(External(6)))
+    assert seen.between == pytest.approx(2.0 * seen.paths.ends[0] * math.sin(math.pi / 6))
+    assert seen.least == 0.0
+
+
+@pytest.mark.parametrize("law", [Cycloidal(), ModifiedConstantVelocity()])
+def test_peaks_of_a_law_are_its_own_scaled(law):
+    """Against the search for the peaks of each motion: both to some roundings."""
+    specs = [Spec(External(z), motion=Motion(law, a, "matched")) for z in (4, 9) for a in (-9.0, 5)]
+    (_, machine), *others = built_together(specs)
+    assert not others
+    names = ("timing.dwell_deg", *COSTS)
+    both = law_columns(machine, names, 4), columns(machine, names, 4)
+    for name, one, other in zip(names, *both, strict=True):
+        assert np.all(one) == np.all(other)
+        assert one == pytest.approx(other, rel=1e-13, abs=1e-13), name
+
+
+def test_what_nothing_bounds_is_told_last():
+    """The wall of a matched slot is undercut, and ends in an edge: the loads say no stress."""
+    frame = Spec(External(8), size=Size(face_width_mm=15.0), load=Load(inertia_kgm2=0.3))
+    wish = read_wish(
+        motion_deg="150", rollers=2, external=True, frame=frame, sort="loads.contact_stress_MPa.max"
+    )
+    found = search(wish)
+    told = [row.asked[0] for row in found.rows]
+    count = sum(value is not None for value in told)
+    assert 0 < count < len(told)
+    assert told[:count] == sorted(told[:count])
+    assert set(told[count:]) == {None}
+    for row, value in zip(found.rows[count - 1 :], told[count - 1 : count + 1], strict=False):
+        machine = build(row.spec)
+        (alone,) = pick(found.names, machine).of(machine)
+        assert alone == (value and pytest.approx(value, rel=1e-9))
+    rows = synthesis_table(wish, 0, found=found).to_rows()
+    assert [row["loads.contact_stress_MPa.max"] for row in rows] == told
+
+
+def test_side_cranks_that_differ_in_the_wheel_alone():
+    """Near the end of A a general search finds the peaks, of every wheel its own.
+
+    A plain crank's peak velocity is l/(1 - l), and a side-crank's less by 1 + A at mid-motion.
+    """
+    specs = [Spec(External(z), SideCrank(A=0.9999)) for z in (4, 5, 8)]
+    for spec, row in zip(specs, numbers(specs, ["velocity.max"]), strict=True):
+        l = math.sin(math.pi / spec.wheel.z)
+        assert row == [pytest.approx(l / (1.0 - l) / 1.9999, rel=1e-12)]
+
+
+def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
+    """Three rollers of a plain crank jam on nine slots; curved slots rest for 50 degrees here."""
+    wish = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
+    (row, *_), names = search(read_wish(**wish, subject_to=["dwell_deg >= 49"], sort="jerk.max"))
+    assert names == ("jerk.max", "timing.dwell_deg")
+    assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
+    with pytest.raises(GenevaError, match="none of 2 machines that grant the rest"):
+        search(read_wish(**wish, subject_to=["dwell_deg >= 51"]))
+
+
+def test_cams_inside_are_as_quick_as_the_limit_lets_them():
+    """C_a step / motion² is the limit; curved slots would need a longer motion than that.
+
+    The modified sine's C_a is 4 pi²/(4 + pi) = 5.5280, and its C_v 4 pi/(4 + pi) = 1.7596.
+    """
+    rows = search(read_wish(acceleration_max="1", z="6", internal=True)).rows
+    quick = math.sqrt(4.0 * math.pi**2 / (4.0 + math.pi) * math.pi / 3.0)
+    assert 4.0 * math.pi / (4.0 + math.pi) * math.pi / 3.0 / quick > 0.5
+    cams = [row.candidate for row in rows if row.candidate.drive == "cam"]
+    found = {one.rollers for one in cams if math.isclose(math.radians(one.motion_deg), quick)}
+    assert found == {1, 2}
+    slots = [row.candidate for row in rows if row.candidate.drive == "crank" and row.spec.motion]
+    assert [one.motion_deg for one in slots] == [pytest.approx(240.0)]
