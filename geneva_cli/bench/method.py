@@ -32,6 +32,7 @@ class Task(NamedTuple):
     baseline_run: Callable[[], Any]
     error: Callable[[Any], float]
     methods: Sequence[Method]
+    designs: int | None = None  # that a run answers for: their number a second is told
 
 
 class Subject(NamedTuple):
@@ -59,6 +60,7 @@ class Row(NamedTuple):
     memory_MB: float | None
     ours: bool
     frontier: bool | None = None
+    designs_per_s: float | None = None  # of one core
 
 
 def beats(one: Row, other: Row, slack: float, floor: float) -> bool:

@@ -69,9 +69,10 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]
             method.size,
             method.pieces(answer) if method.pieces else None,
             task.error(answer),
-            time * method.times,
+            time.ratio * method.times,
             method.memory() if method.memory else None,
             method.ours,
+            designs_per_s=task.designs and task.designs / (time.core_s * method.times),
         )
         for method, answer, time in zip(task.methods, answers, times, strict=True)
     ]
@@ -92,4 +93,6 @@ def bench_table(rows: list[Row], for_people: bool) -> Table:
 def _spelled(row: Row) -> tuple[object, ...]:
     error = None if row.error is None else f"{row.error:.1e}" if row.error else "0"
     size = None if row.size is None else f"{row.size:g}"
-    return (*row[:3], size, row.pieces, error, *row[6:])
+    many = row.designs_per_s and f"{row.designs_per_s:.3g}"
+    rate = many and f"{float(many):,.0f}"  # three digits: more is noise
+    return (*row[:3], size, row.pieces, error, *row[6:-1], rate)

@@ -6,14 +6,25 @@ pairs.
 
 from __future__ import annotations
 
+import math
 import statistics
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
-from time import perf_counter
-from typing import Any
+from time import perf_counter, process_time
+from typing import Any, NamedTuple
 
 Pair = tuple[float, float]  # seconds of the baseline, of the run after it
 SHORTEST = 2e-3  # seconds: shorter calls are repeated until they take as long
+
+
+class Timed(NamedTuple):
+    """What a call takes: as a ratio to the baseline, and the least time of a core, in seconds.
+
+    That is no longer where the machine does something else besides.
+    """
+
+    ratio: float
+    core_s: float
 
 
 def process_seconds(
@@ -34,7 +45,7 @@ def median_ratio(pairs: Sequence[Pair]) -> float:
 
 def ratios(
     baseline: Callable[[], Any], calls: Sequence[Callable[[], Any]], seconds: float
-) -> list[float]:
+) -> list[Timed]:
     """Time of each call as a ratio to the baseline's, all of them in turn, round after round.
 
     Each call is first run once, unmeasured. It takes part until it has used ``seconds``, but at
@@ -43,6 +54,7 @@ def ratios(
     repeats = [_repeats(call) for call in (baseline, *calls)]
     spent = [0.0] * len(calls)
     pairs: list[list[Pair]] = [[] for _ in calls]
+    least = [math.inf] * len(calls)
     while any(s < seconds for s in spent):
         base = -1.0
         for i, call in enumerate(calls):
@@ -50,10 +62,12 @@ def ratios(
                 continue
             if base < 0.0 or repeats[i + 1] == 1:  # after a long call the machine may have changed
                 base = _time(baseline, repeats[0])
+            start = process_time()
             own = _time(call, repeats[i + 1])
+            least[i] = min(least[i], (process_time() - start) / repeats[i + 1])
             spent[i] += own * repeats[i + 1]
             pairs[i].append((base, own))
-    return [median_ratio(p) for p in pairs]
+    return [Timed(median_ratio(p), core) for p, core in zip(pairs, least, strict=True)]
 
 
 def _repeats(call: Callable[[], Any]) -> int:

@@ -1,22 +1,23 @@
 """Peaks and greatest loads of very many designs of every machine, worked out together.
 
-Beside them one design after the other, and a grid over all of them. In units of one sine and cosine
-a design, which take some 15 ns: 70 is a million designs a second, 700 a hundred thousand. Loads are
-pin force, input torque and contact stress, of an inertia alone and rubbed by friction.
+Beside them one design after the other, and a grid over all of them. Loads are pin force, input
+torque and contact stress, of an inertia alone and rubbed by friction: their greatest sizes, or both
+extremes and the root mean square over a period. The manual's table of designs a second is this one.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.many import greatest_of_many
+from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
+from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.bench.method import Method, Subject, Task
@@ -39,12 +40,14 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 DESIGNS, QUICK, FEW = 50_000, 100, 2_000
-LOOP = 5  # designs that are had one after the other
+LOADS_OF = 10_000  # designs whose loads are had
+LOOP, QUICK_LOOP = 5, 2  # designs that are had one after the other
 CHECKED = 20  # designs whose error is measured
 GRID, BLOCK = 101, 512
 NAMES = ("velocity", "acceleration")
 LOADS = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
-LOADED = ("side-crank", "plain crank", "spherical", "elliptical gears")  # machines with loads too
+# machines with loads too
+LOADED = ("side-crank", "plain crank", "spherical", "elliptical gears", "curved slots", "four-bar")
 
 
 class Kind(NamedTuple):
@@ -107,11 +110,14 @@ KINDS = (
 
 
 def subject(quick: bool) -> Subject:
-    """A task a machine, and two more of some for their loads."""
+    """A task a machine, and four more of some for their loads."""
     tasks = [_task(kind, QUICK if quick else kind.most) for kind in KINDS]
     for kind in KINDS:
-        if kind.name in (LOADED[:1] if quick else LOADED):
-            tasks += [_loads_task(kind, QUICK if quick else kind.most, f) for f in (0.0, 0.1)]
+        if kind.name not in (LOADED[:1] if quick else LOADED):
+            continue
+        count = QUICK if quick else min(LOADS_OF, kind.most)
+        for friction in (0.1,) if quick else (0.0, 0.1):
+            tasks += [_loads_task(kind, count, friction, asked) for asked in (GREATEST, ROOTS)]
     return Subject(
         "Peaks of velocity, acceleration and loads of many designs of every machine",
         f"greatest relative error of {CHECKED} designs' peaks, against the search of one design",
@@ -122,10 +128,7 @@ def subject(quick: bool) -> Subject:
 
 def _drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
     """The machine of many designs, how many were built, and the first of them one by one."""
-    random = np.random.default_rng(12)
-    values: Any = random.uniform(kind.low, kind.high, count)
-    if kind.key == "wheel.z":
-        values = np.floor(values).astype(int)
+    values = _values(kind, count)
     found = many(spec, {kind.key: values})
     assert found.machine is not None, kind.name
     some = values[found.which[:CHECKED]].tolist()
@@ -133,26 +136,34 @@ def _drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mec
     return found.machine, len(found.which), alone
 
 
+def _values(kind: Kind, count: int) -> Any:
+    """The values of what is varied; always the same."""
+    values = np.random.default_rng(12).uniform(kind.low, kind.high, count)
+    return np.floor(values).astype(int) if kind.key == "wheel.z" else values
+
+
 def _task(kind: Kind, count: int) -> Task:
     machine, built, alone = _drawn(kind, kind.spec, count)
+    varied = {kind.key: _values(kind, count)}
     methods = [
         _one_by_one(alone, built, _one),
         Method("grid of all", GRID, partial(_grid, machine, built)),
         Method("together", None, partial(_together, machine), True),
+        Method("built and together", None, partial(_built_together, kind.spec, varied), True),
     ]
     return _beside(f"{built} {kind.name}", built, np.array([_one(m) for m in alone]), methods)
 
 
-def _loads_task(kind: Kind, count: int, friction: float) -> Task:
+def _loads_task(kind: Kind, count: int, friction: float, asked: Loads) -> Task:
     load = Load(inertia_kgm2=1.0, friction=friction)
     spec = kind.spec.replace(load=load, size=kind.spec.size.replace(face_width_mm=10.0))
     machine, built, alone = _drawn(kind, spec, count)
     methods = [
-        _one_by_one(alone, built, _one_loaded),
-        Method("together", None, partial(_loaded_together, machine), True),
+        _one_by_one(alone, built, asked.one),
+        Method("together", None, partial(asked.together, machine), True),
     ]
-    truth = np.array([_one_loaded(m) for m in alone])
-    name = f"loads of {built} {kind.name}" + (" with friction" if friction else "")
+    truth = np.array([asked.one(m) for m in alone])
+    name = f"{asked.name} of {built} {kind.name}" + (" with friction" if friction else "")
     return _beside(name, built, truth, methods)
 
 
@@ -164,14 +175,16 @@ def _beside(name: str, built: int, truth: Array, methods: list[Method]) -> Task:
         lambda: (np.sin(angles), np.cos(angles)),
         lambda found: float(np.max(np.abs(np.array(found[:CHECKED]) / truth[: len(found)] - 1.0))),
         methods,
+        built,
     )
 
 
 def _one_by_one(
     alone: list[Mechanism], built: int, one: Callable[[Mechanism], list[float]]
 ) -> Method:
-    name = f"one by one (extrapolated from {LOOP})"
-    return Method(name, None, lambda: [one(m) for m in alone[:LOOP]], True, times=built / LOOP)
+    few = alone[: LOOP if built > QUICK else QUICK_LOOP]
+    name = f"one by one (extrapolated from {len(few)})"
+    return Method(name, None, lambda: [one(m) for m in few], True, times=built / len(few))
 
 
 def _one_loaded(machine: Mechanism) -> list[float]:
@@ -185,6 +198,41 @@ def _loaded_together(machine: Mechanism) -> Array:
     found = greatest_of_many(machine, LOADS)
     every: Array = np.column_stack([found[name].max for name in LOADS])
     return every
+
+
+def _roots_of_one(machine: Mechanism) -> list[float]:
+    """Greatest sizes and root mean squares of one design."""
+    found = summaries(Cycle(machine))
+    return [v for n in LOADS for v in (_size(found[n].max, found[n].min), found[n].rms or 0.0)]
+
+
+def _roots_together(machine: Mechanism) -> Array:
+    found = summaries_of_many(machine, LOADS, told=("rms",))
+    rows = [row for n in LOADS for row in (np.maximum(found[n].max, -found[n].min), found[n].rms)]
+    every: Array = np.column_stack([row for row in rows if row is not None])
+    return every
+
+
+def _size(most: float | None, least: float | None) -> float:
+    return max(most or 0.0, -(least or 0.0))
+
+
+class Loads(NamedTuple):
+    """What is asked of loads: of one design, and of all of them together."""
+
+    name: str
+    one: Callable[[Mechanism], list[float]]
+    together: Callable[[Mechanism], Array]
+
+
+GREATEST = Loads("greatest loads", _one_loaded, _loaded_together)
+ROOTS = Loads("extremes and rms of loads", _roots_of_one, _roots_together)
+
+
+def _built_together(spec: Spec, varied: Mapping[str, Any]) -> Array:
+    machine = many(spec, varied).machine
+    assert machine is not None
+    return _together(machine)
 
 
 def _together(machine: Mechanism) -> Array:

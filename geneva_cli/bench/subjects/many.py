@@ -142,6 +142,7 @@ def subject(quick: bool) -> Subject:
         lambda: (np.sin(angles), np.cos(angles)),
         designs.error,
         methods,
+        count,
     )
     return Subject(
         f"Peak acceleration of {count} side-crank designs",

@@ -1,8 +1,9 @@
-"""What a sweep works out together, beside one design after the other: strength, swing, blows, play.
+"""What a sweep works out together: strength, motor, swing, blows, play.
+
+Beside it, one design after the other.
 
 Of side-cranks of six slots, A from -0.9 to 0.9, that carry an inertia on an elastic shaft and are
-rubbed by friction. In units of one sine and cosine a design, some 15 ns: 7,000 is ten thousand
-designs a second.
+rubbed by friction.
 """
 
 from __future__ import annotations
@@ -14,6 +15,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.blows import entry_blow, entry_blows, reversal_blow, reversal_blows
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.sizing import sizing
+from geneva_cli.analysis.loads.sizing_many import sizings_of_many
+from geneva_cli.analysis.loads.stretches import stretches
 from geneva_cli.analysis.strength import horn, roller, shafts
 from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
@@ -35,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 DESIGNS, QUICK = 4096, 100
-LOOP = 5  # designs that are had one after the other
+LOOP, QUICK_LOOP = 5, 2  # designs that are had one after the other
 CHECKED = 20  # designs whose error is measured
 HORN = (5.01, 40.0, 10.0)  # half the slot's width, radius of the recess, the wheel's thickness: mm
 GIVEN = Spec(
@@ -80,6 +85,12 @@ def _force(machine: Mechanism) -> float:
     return found.equivalent_force_N
 
 
+def _motor(machine: Mechanism) -> float:
+    found = sizing(Cycle(machine))[0]["motor_torque_rms_Nm"]
+    assert found is not None
+    return found
+
+
 def _swing(machine: Mechanism) -> float:
     shape.cache_clear()
     return stations(machine, required_oscillator(machine))[0].dynamic_factor
@@ -112,6 +123,11 @@ ANSWERS = (
         _force,
         lambda machine: roller.lives(machine, passages_of_many(machine)).equivalent_force_N,
     ),
+    Answer(
+        "motor and flywheel",
+        _motor,
+        lambda machine: sizings_of_many(machine)["motor_torque_rms_Nm"],
+    ),
     Answer("dynamic factor", _swing, _swings),
     Answer(
         "jump at entry",
@@ -143,6 +159,7 @@ def subject(quick: bool) -> Subject:
 
 
 def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]) -> Task:
+    few = alone[: LOOP if count > QUICK else QUICK_LOOP]
     angles, truth = np.linspace(0.0, 1.0, count), np.array([answer.one(m) for m in alone])
     return Task(
         f"{answer.name} of {count} side-cranks",
@@ -151,20 +168,22 @@ def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]
         partial(_error, truth),
         [
             Method(
-                f"one by one (extrapolated from {LOOP})",
+                f"one by one (extrapolated from {len(few)})",
                 None,
-                lambda: [_again(answer, one) for one in alone[:LOOP]],
+                lambda: [_again(answer, one) for one in few],
                 True,
-                times=count / LOOP,
+                times=count / len(few),
             ),
             Method("together", None, lambda: answer.together(machine), True),
         ],
+        designs=count,
     )
 
 
 def _again(answer: Answer, machine: Mechanism) -> float:
     """The answer of a design that nothing is known of."""
-    roller.passage.cache_clear()
+    for known in (roller.passage, stretches):
+        known.cache_clear()
     horn.horn.cache_clear()
     return answer.one(machine)
 
