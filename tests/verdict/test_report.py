@@ -107,8 +107,8 @@ def test_a_program_finds_the_same_names_for_every_machine() -> None:
 
 
 def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
-    ball = '[wheel]\nz = 6\ngearing = "spherical"\n[tolerance]\ncrank_radius_mm = 0.01\n'
-    spec = written(tmp_path, ball)
+    geared = '[wheel]\nz = 3\n[drive]\nkind = "gear-sector"\nsector_deg = 60\n'
+    spec = written(tmp_path, f"{geared}[tolerance]\ncrank_radius_mm = 0.01\n")
     found = json.loads(run("report", spec, "--format", "json").stdout)["tolerance"]
     assert found["dwell_position"]["worst_deg"] is None
     (said, _) = found["warnings"]

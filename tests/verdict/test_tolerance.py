@@ -403,12 +403,12 @@ def test_the_clearance_of_a_slot_on_a_sphere(axes_deg):
 def test_what_does_not_apply_is_null_and_said():
     angle = Tolerance(slot_angle_deg=0.01, center_distance_mm=0.01, crank_radius_mm=0.01)
     bent = Design(External(6), None, Motion(Cycloidal()), tolerance=angle)
-    curved = told(bent)
+    curved = told(bent, 64)
     assert curved["motion_play.worst_deg"] is None
     assert curved["entry_jump.mean"] is None
     assert curved["dwell_position.worst_deg"] > 0.01
     assert curved["warnings"][-1] == "micrometres of dwell_position: need --radius"
-    curved_at_100 = told(bent, radius_mm=100.0)
+    curved_at_100 = told(bent, 64, radius_mm=100.0)
     sphere = told(Design(Spherical(6), tolerance=angle))
     assert sphere["dwell_position.rss_deg"] is None
     assert sphere["clearances.turns"] is None
