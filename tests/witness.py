@@ -128,7 +128,7 @@ class Geneva:
                 lambda x: pick(self.at(x))[1],
                 (to_radians(deg[i]), to_radians(deg[i + 1])),
                 solver="illinois",
-                tol=mp.mpf(10) ** -80,
+                tol=mp.mpf(10) ** -45,  # some of the 50 digits are rounding
                 maxsteps=60,
                 verify=False,  # of a bracketed root, the size of the function says nothing
             )
