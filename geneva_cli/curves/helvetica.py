@@ -6,6 +6,8 @@ metrics, Core 14 AFM, Helvetica and Helvetica-Bold, in thousandths of the font's
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 CAPITALS = 0.718  # height of capital letters, over the font's size
 _ASCII = (  # from the space on
     *(278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278),
@@ -33,6 +35,7 @@ _OTHERS = {
 WIDEST = 1000  # of letters beyond these
 
 
+@lru_cache(maxsize=256)  # a text is tried at many places
 def width(text: str, bold: bool = False) -> float:
     """A text's width over the height of its capitals; of letters not listed, the widest there are.
 

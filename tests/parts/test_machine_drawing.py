@@ -12,6 +12,7 @@ from shapely.geometry import Polygon
 from geneva_cli import load
 from geneva_cli.curves.plates import Group
 from geneva_cli.curves.shapes import Circle, about, closed
+from geneva_cli.parts.parts_list import parts_list
 
 CHORDS = 1e-4  # mm, by which what shapely sees lies off arcs
 # Of the centre distance, times it: 1e-6 along parts that touch all the way, as a pin in its hole.
@@ -56,11 +57,12 @@ HUBS = ("wheel_hub_mm=40", "crank_hub_mm=14", "lock_thickness_mm=6", "pin_gap_mm
 def test_no_two_parts_are_in_one_place(name, given):
     design = load(str(repo.DESIGNS / f"{name}.toml"), [f"size.{key}" for key in given])
     L = design.mechanism.center_distance_mm
-    every = list(faces(design.drawing("assembly", 0.01).solid))
+    proof = design.drawn(0.01, "assembly")
+    every = list(faces(design.drawing("assembly", 0.01, of=proof).solid))
     names = {plate.name for plate, _ in every}
     assert "frame" in names
     for (one, a), (other, b) in combinations(every, 2):
         if min(one.high, other.high) - max(one.low, other.low) > 1e-9:
             assert a.intersection(b).area < OVERLAP * L, (one.name, other.name)
-    rows = design.part_table("parts").to_rows()
+    rows = parts_list(proof).to_rows()
     assert names == {row["name"] for row in rows if row["row"] == "part"}

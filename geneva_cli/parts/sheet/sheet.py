@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
-from geneva_cli.curves.plates import Group, Plate
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Group, Plate, plates
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.errors import GenevaError
@@ -51,6 +52,7 @@ from geneva_cli.spec.tables import Material
 
 ENLARGED = FORMATS[:2]  # what is used above 1:1
 HUB = "crank's hub"  # stands on the disc
+APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
 ASSEMBLED = 2.0  # how much smaller the machine is drawn than its parts
 GENERAL = "ISO 2768-m"  # tolerances of what has none of its own
 ITEMS = (12.0, 50.0, 14.0, 20.0, 24.0, 60.0)  # mm: columns of the list of items
@@ -68,6 +70,7 @@ class Shown(NamedTuple):
     groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
     shafts: list[Plate]
     standing: list[Plate]  # the frame comes last
+    area: float  # mm², of boxes about some of the parts: the views need more
     tolerance: float
     curves: str
 
@@ -81,19 +84,25 @@ def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
     def blocks(scale: float) -> list[Block]:
         return [*(view.block() for view in _views(shown, scale)), *fixed]
 
-    return on_paper(found.assembly.given.spec, shown.rows, largest, blocks)
+    return on_paper(found.assembly.given.spec, shown.rows, largest, blocks, shown.area)
 
 
 def on_paper(
-    spec: Spec, rows: list[dict[str, Any]], largest: float, blocks: Callable[[float], list[Block]]
+    spec: Spec,
+    rows: list[dict[str, Any]],
+    largest: float,
+    blocks: Callable[[float], list[Block]],
+    area: float = 0.0,
 ) -> Sheet:
     """The sheet of blocks to the largest scale with which all go on one; ``rows`` are its items.
 
-    ``largest`` is the longest of what is drawn, mm. Raises GenevaError where none does.
+    ``largest`` is the longest of what is drawn, mm, and ``area``, mm², what some of it needs at
+    least. Raises GenevaError where none does.
     """
     for scale in SCALES:
         formats = ENLARGED if scale > 1.0 else FORMATS
-        if scale * largest > formats[-1].width:
+        width, height = formats[-1].width, formats[-1].height
+        if scale * largest > width or scale * scale * area > width * height:
             continue
         drawn = blocks(scale)
         for paper in formats:
@@ -111,6 +120,9 @@ def _shown(found: Outlines, tolerance: float, curves: str) -> Shown:
     whole = machine(found, tolerance, curves)
     assert isinstance(whole.solid, Group)
     every = [one.part for one in whole.solid.members if isinstance(one.part, Plate)]
+    standing = [plate for plate in every if plate.layer == STANDING]
+    apart = [plate for plate in plates(whole.solid) if plate.layer in APART]
+    boxes = [bounds(plate.outline) for plate in (*apart, standing[-1])]
     return Shown(
         found,
         whole.shapes,
@@ -119,7 +131,8 @@ def _shown(found: Outlines, tolerance: float, curves: str) -> Shown:
         first_outlines(given, drawn_links(given, found)),
         drawings.groove(found, tolerance, curves).shapes if cam else (),
         [plate for plate in every if plate.layer == SHAFT],
-        [plate for plate in every if plate.layer == STANDING],
+        standing,
+        sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes),
         tolerance,
         curves,
     )
@@ -144,11 +157,7 @@ def _views(shown: Shown, scale: float) -> Iterator[View]:
         wheel.draw_wheel(made, of, shown.tolerance, shown.curves)
         yield made
         if of.crank:
-            made = view(
-                f"{front}locking disc",
-                f"{front}locking sector",
-                *([] if front else ["crank's hub"]),
-            )
+            made = view(*(f"{front}{name}" for name in ("locking disc", "locking sector", HUB)))
             draw_disc(made, of)
             yield made
     if shown.arm:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from heapq import merge
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, Label, Measure, line, polar
 from geneva_cli.parts.sheet import marks
 from geneva_cli.parts.sheet.board import Board, chords
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and to the next
@@ -80,6 +84,7 @@ class View:
     def __init__(self, title: str, scale: float) -> None:
         self.title, self.scale = title, scale
         self.shapes: list[Shape] = []
+        self.corners: list[Array] = []  # of their chords
         self.measures: list[Measure] = []
         self.notes: list[str] = []  # remarks, and dimensions for which there was no place
         self.board = Board()
@@ -128,9 +133,7 @@ class View:
     def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
         """The diameter of one of some circles; ``where`` they are, if it must stand below."""
         found = (
-            mark
-            for c in circles
-            for mark in marks.diameter(
+            marks.diameter(
                 self._at(c.centre),
                 self._long(c.radius),
                 marks.around(),
@@ -138,6 +141,7 @@ class View:
                 2.0 * c.radius,
                 SMALL,
             )
+            for c in circles
         )
         self._put(_short_first(found), f"{text} {where}".rstrip())
 
@@ -145,9 +149,7 @@ class View:
         """The radius of one of some arcs, or (``whole``) its diameter."""
         kind, factor = (marks.diameter, 2.0) if whole else (marks.radius, 1.0)
         found = (
-            mark
-            for arc in arcs
-            for mark in kind(
+            kind(
                 self._at(arc.centre),
                 self._long(arc.radius),
                 marks.within(*_span(arc)),
@@ -155,6 +157,7 @@ class View:
                 factor * arc.radius,
                 SMALL,
             )
+            for arc in arcs
         )
         self._put(_short_first(found), text)
 
@@ -190,12 +193,13 @@ class View:
 
     def _draw(self, shape: Shape) -> None:
         self.shapes.append(shape)
+        self.corners.append(chords(shape)[:, :2])
         self.board.draw(shape)
 
     def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
         """Where a dimension line may be: along the normal to its direction, nearest first."""
         n = -math.sin(turn), math.cos(turn)
-        across = np.concatenate([chords(s)[:, :2] @ np.array(n) for s in self.shapes])
+        across = np.concatenate(self.corners) @ np.array(n)
         low, high = float(across.min()), float(across.max())
         if near:
             own = [p[0] * n[0] + p[1] * n[1] for p in near]
@@ -211,12 +215,12 @@ class View:
         return self.scale * length
 
 
-def _short_first(found: Iterable[Measure]) -> list[Measure]:
-    """Leaders in the order of their length, whatever they point at."""
-    return sorted(
-        found,
-        key=lambda m: round(math.dist(*m.lines[0]), 6),  # stable: directions keep their order
-    )
+def _short_first(found: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
+    """Leaders in the order of their length, whatever they point at; each row has its short first.
+
+    Directions keep their order.
+    """
+    return merge(*found, key=lambda m: round(math.dist(*m.lines[0]), 6))
 
 
 def _span(arc: Arc) -> tuple[float, float]:
