@@ -206,7 +206,7 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
 def test_more_clearance_never_gives_less_play(z: int, gearing: str, roller: float) -> None:
     """Of a wheel cut for the same crank; 100,000 in `make fuzz`, with curved slots too."""
     found = made.__wrapped__(z, gearing, roller_radius_mm=roller)
-    assert require_no_less_play(found, random.Random(z), wheels=2)
+    assert require_no_less_play(found, random.Random(z), widths=2, recesses=1)
 
 
 def test_a_hair_of_overlap_is_contact(tmp_path: Path) -> None:
