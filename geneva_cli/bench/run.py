@@ -57,8 +57,7 @@ def measure(name: str, quick: bool) -> tuple[Subject, list[Row]]:
 
 def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]:
     yield Row(name, task.name, f"baseline: {task.baseline}", None, None, None, 1.0, None, False)
-    answers = [method.run() for method in task.methods]
-    times = ratios(
+    answers, times = ratios(
         task.baseline_run, [m.run for m in task.methods], QUICK_SECONDS if quick else SECONDS
     )
     rows = [

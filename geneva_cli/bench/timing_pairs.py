@@ -11,8 +11,9 @@ import statistics
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
 from time import perf_counter, process_time
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
+T = TypeVar("T")
 Pair = tuple[float, float]  # seconds of the baseline, of the run after it
 SHORTEST = 2e-3  # seconds: shorter calls are repeated until they take as long
 
@@ -44,14 +45,16 @@ def median_ratio(pairs: Sequence[Pair]) -> float:
 
 
 def ratios(
-    baseline: Callable[[], Any], calls: Sequence[Callable[[], Any]], seconds: float
-) -> list[Timed]:
-    """Time of each call as a ratio to the baseline's, all of them in turn, round after round.
+    baseline: Callable[[], Any], calls: Sequence[Callable[[], T]], seconds: float
+) -> tuple[list[T], list[Timed]]:
+    """What each call answers, and its time as a ratio to the baseline's.
 
-    Each call is first run once, unmeasured. It takes part until it has used ``seconds``, but at
-    least once; a call that is over in less than ``SHORTEST`` is repeated in each round.
+    Each call is first run for its answer, unmeasured; then they are run in turn, round after round.
+    Each takes part until it has used ``seconds``, but at least once; a call that is over in less
+    than ``SHORTEST`` is repeated in each round.
     """
-    repeats = [_repeats(call) for call in (baseline, *calls)]
+    _, base_repeats = _first(baseline)
+    answers, repeats = zip(*[_first(call) for call in calls], strict=True)
     spent = [0.0] * len(calls)
     pairs: list[list[Pair]] = [[] for _ in calls]
     least = [math.inf] * len(calls)
@@ -60,21 +63,25 @@ def ratios(
         for i, call in enumerate(calls):
             if spent[i] >= seconds:
                 continue
-            if base < 0.0 or repeats[i + 1] == 1:  # after a long call the machine may have changed
-                base = _time(baseline, repeats[0])
+            if base < 0.0 or repeats[i] == 1:  # after a long call the machine may have changed
+                base = _time(baseline, base_repeats)
             start = process_time()
-            own = _time(call, repeats[i + 1])
-            least[i] = min(least[i], (process_time() - start) / repeats[i + 1])
-            spent[i] += own * repeats[i + 1]
+            own = _time(call, repeats[i])
+            least[i] = min(least[i], (process_time() - start) / repeats[i])
+            spent[i] += own * repeats[i]
             pairs[i].append((base, own))
-    return [Timed(median_ratio(p), core) for p, core in zip(pairs, least, strict=True)]
+    timed = [Timed(median_ratio(p), core) for p, core in zip(pairs, least, strict=True)]
+    return list(answers), timed
 
 
-def _repeats(call: Callable[[], Any]) -> int:
-    once = _time(call, 1)
+def _first(call: Callable[[], T]) -> tuple[T, int]:
+    """What a call answers, and how often it is run in a round."""
+    start = perf_counter()
+    answer = call()
+    once = perf_counter() - start
     if once < SHORTEST:
         once = _time(call, 1)  # warm now
-    return max(1, round(SHORTEST / once))
+    return answer, max(1, round(SHORTEST / once))
 
 
 def _time(call: Callable[[], Any], repeats: int) -> float:

@@ -98,7 +98,8 @@ def test_frontier():
 def test_ratios_are_of_pairs():
     assert median_ratio([(1.0, 2.0), (10.0, 20.0), (1.0, 50.0)]) == 2.0
     calls = []
-    found = ratios(lambda: calls.append(0), [lambda: calls.append(1)], 1e-4)
+    answers, found = ratios(lambda: calls.append(0), [lambda: calls.append(1) or "one"], 1e-4)
+    assert answers == ["one"]
     assert len(found) == 1
     assert min(found[0]) > 0.0
     assert set(calls) == {0, 1}
