@@ -10,16 +10,23 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.synthesis.by_law import law_peaks
 from geneva_cli.study.synthesis.looks import look, look_at
-from geneva_cli.study.synthesis.parts import Parts, suited
+from geneva_cli.study.synthesis.parts import suited
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
-from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 GROOVE = "groove_pressure_deg"
 NEAR_DEG = 3.0  # of its limit, within which the pressure angle is looked for between places
+PEAKS = {  # keys of [limits], and what they limit
+    "velocity_max": "velocity.max",
+    "acceleration_max": "acceleration.max",
+    "acceleration_entry_max": "acceleration.entry",
+    "jerk_max": "jerk.max",
+}
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
@@ -71,32 +78,17 @@ class Row(NamedTuple):
     asked: tuple[float | int | str | bool | None, ...] = ()
 
 
-class Looked(NamedTuple):
-    """A machine, and what can be told of its parts without turning them; or why there is none."""
-
-    machine: Mechanism | None
-    parts: Parts
-    error: str = ""
-
-
-def looked(spec: Spec, limited: bool) -> Looked:
-    """A machine built, its parts looked at, and what its groove asks for checked; ``limited``: its
-    limits too.
-    """
-    try:
-        machine, found = suited(spec)
-    except GenevaError as error:
-        return Looked(None, Parts(spec, None), str(error))
-    if not found.why and (limited or machine.engagements[0].groove):
-        failed = _failing(machine._replace(spec=found.spec)) if limited else _wedged(machine)
-        found = found._replace(why=failed or found.why)
-    return Looked(machine, found)
-
-
-def _failing(machine: Mechanism) -> str:
-    """The checks that fail, of those that need no parts."""
-    rows = checks(machine, parts=False)
-    return ", ".join(check.name for check in rows if check.passes is False)
+def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
+    """The checks that fail, of those that need no parts; the peaks are known."""
+    limits, known = machine.spec.limits.as_dict(), dict(zip(COSTS, costs, strict=True))
+    peaks = {limit: known[name] for limit, name in PEAKS.items() if limits[limit] is not None}
+    over = [name for name, x in peaks.items() if not keeps(x, "at most", limits[name])]
+    others = {name: check for name, check in LIMITS.items() if name not in PEAKS}
+    motion, rest = (
+        [check.name for check in motion_checks(among, machine) if check.passes is False]
+        for among in (MOTION, others)
+    )
+    return ", ".join([*motion, *over, *rest])
 
 
 def _wedged(machine: Mechanism) -> str:
@@ -118,14 +110,19 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     limited = any(value is not None for value in limits)
     look_at(specs)
     for spec, five in zip(specs, own, strict=True):
-        found = looked(spec, limited)
-        machine = found.machine
-        if machine is None:
-            errors.append(found.error)
+        try:
+            machine, parts = suited(spec)
+        except GenevaError as error:
+            errors.append(str(error))
             continue
         values = [law_peaks(machine)[name] for name in COSTS] if spec.motion else five
-        if values is not None:
-            out.append(Row(found.parts.spec, _candidate(machine, wish, values, found.parts.said)))
+        if values is None:
+            continue
+        if not parts.why and (limited or machine.engagements[0].groove):
+            sized = machine._replace(spec=parts.spec)
+            failed = _failing(sized, values) if limited else _wedged(machine)
+            parts = parts._replace(why=failed or parts.why)
+        out.append(Row(parts.spec, _candidate(machine, wish, values, parts.said)))
     return out
 
 
