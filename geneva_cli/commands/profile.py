@@ -113,7 +113,7 @@ def run(
     and flanks elsewhere. The slot is
     in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
     the pin travels in. Before a drawing is written its machine is turned through a whole turn;
-    parts of a spherical wheel are laid flat, or solids as step, and are not turned.
+    parts of a spherical wheel are laid flat, or solids as step.
     """
     from geneva_cli.design import load
 
