@@ -108,13 +108,14 @@ def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float
     contours = [s for s in moved if isinstance(s, Contour)]
     if near:
         view.cross((0.0, 0.0), CROSS * found.radius_mm)
+        far = max(math.hypot(*s.start) for c in contours for s in c.segments)
+        _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
         radii: dict[str, list[Arc]] = {}
         for arc in (s for c in contours for s in c.segments if isinstance(s, Arc)):
             if math.hypot(*arc.centre) < SAME * arc.radius:
                 radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
         for text, some in radii.items():
             view.of_arcs(some, text)
-        _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"])
     ways = [c.segments[0] for c in contours if c.layer == PITCH and isinstance(c.segments[0], Line)]
     if not ways:
         return view
@@ -122,7 +123,6 @@ def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
     if near:
         legs = sorted(math.atan2(way.start[1], way.start[0]) for way in (first, after))
-        far = max(math.hypot(*s.start) for c in contours for s in c.segments)
         text = f"{number(math.degrees(abs(legs[1] - legs[0])), DECIMALS)}°"
         view.angular([(legs[0], legs[1])], far, far, times(found.z - 1, text))
     else:
@@ -131,7 +131,7 @@ def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float
     return view
 
 
-def _sectors(view: View, locking: list[Segment]) -> None:
+def _sectors(view: View, locking: list[Segment], far: float) -> None:
     """How wide the locking sectors are, and how far the first is from the first roller."""
     arcs = [arc for arc in locking if isinstance(arc, Arc)]
     wide: dict[str, list[tuple[float, float]]] = {}
@@ -139,9 +139,9 @@ def _sectors(view: View, locking: list[Segment]) -> None:
         start = math.atan2(arc.start[1], arc.start[0])
         wide.setdefault(_degrees(arc.sweep), []).append((start, start + arc.sweep))
     for text, pairs in wide.items():
-        view.angular(pairs, arcs[0].radius, arcs[0].radius, times(len(pairs), text))
+        view.angular(pairs, arcs[0].radius, far, times(len(pairs), text))
     for start in sorted(pair[0] % math.tau for pairs in wide.values() for pair in pairs)[:1]:
-        view.angular([(0.0, start)], arcs[0].radius, arcs[0].radius, _degrees(start))
+        view.angular([(0.0, start)], far, far, f"roller to sector {_degrees(start)}")
 
 
 def _ring(inner: float, outer: float, low: float, high: float) -> Contour:
