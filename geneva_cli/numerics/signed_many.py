@@ -34,6 +34,7 @@ from geneva_cli.numerics.cells import (
     zero_of_cubic,
 )
 from geneva_cli.numerics.extrema_many import unpredicted
+from geneva_cli.numerics.flat_ends import flat_ends, second_turns
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
 from geneva_cli.numerics.samples_many import Samples, unpredicted_beside
@@ -87,6 +88,7 @@ class _Search:
         self.cells: list[Cells] = []  # to be looked at again
         self.crossed: list[tuple[Cells, Beside]] = []  # in which a sign changes
         self.turns: list[Turns] = []
+        self.flat: list[Turns] = []  # that may turn twice
         self.cuts: list[Cuts] = []
         for k, place, value in known:
             there = np.flatnonzero(~np.isnan(value))
@@ -102,6 +104,8 @@ class _Search:
         cells = joined(self.cells)
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
         self._settle(joined([cells, *self._crossed()]))
+        if self.flat:
+            self.turns.append(self.tops.hopeful(second_turns(self.f, joined(self.flat))))
         if self.turns:
             turn(self.f, self.range, self.tops, joined(self.turns))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
@@ -230,6 +234,7 @@ class _Search:
         for k in range(self.f.wanted):
             some = turns_in(self.f.signs + k, k, cells, self.range, where)
             self.turns.append(self.tops.hopeful(some))
+            self.flat.append(flat_ends(self.f.signs + k, k, cells, self.tops, where))
 
     def _settle(self, cells: Cells) -> None:
         """Cut at zeros, and halve until a cubic predicts."""

@@ -66,8 +66,7 @@ def _refined(f: Signed, tops: Tops, turns: Turns) -> None:
     at_a, at_b = (np.abs(end[2]) <= tiny for end in (turns.left, turns.right))
 
     def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array]:
-        value, slope, bend = _jet(f, x, turns, live)
-        slope, bend = slope * DEGREE, 2.0 * bend * DEGREE * DEGREE
+        value, slope, bend = jets(f, x, turns, live)
         # an end that is stationary itself is divided out of the slope that Newton sees
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
         return slope, bend - slope * np.nan_to_num(others), value
@@ -92,22 +91,22 @@ def _bent(f: Signed, range_: Range, turns: Turns) -> Turns:
     """
     row, design = f.signs + turns.row, turns.design
     span = (range_.high - range_.low)[row, design]
-    width = (turns.right[0] - turns.left[0]) * DEGREE
+    width = turns.right[0] - turns.left[0]
     for end, other, way in (
         (turns.left, turns.right, 1.0),
         (turns.right, turns.left, -1.0),
     ):
         here = np.flatnonzero(end[2] == 0.0)
         if len(here):
-            bend = _jet(f, end[0, here], turns, here)[2]
+            bend = 0.5 * jets(f, end[0, here], turns, here)[2]
             clear = np.abs(bend) * width[here] ** 2 > BENT * span[here]
             sign = np.where(clear, way * np.sign(bend), -np.sign(other[2, here]))
             end[2, here] = sign * np.finfo(float).tiny
     return turns
 
 
-def _jet(f: Signed, x: Array, turns: Turns, live: Whole) -> list[Array]:
-    """Taylor coefficients of the functions of some turns, each at its place."""
+def jets(f: Signed, x: Array, turns: Turns, live: Whole) -> tuple[Array, Array, Array]:
+    """Value, slope and bend, by degrees, of the functions of some turns, each at its place."""
     forced = np.where(turns.positive[:, live], 1.0, -1.0)[..., None]
     row, out = turns.row[live], np.empty((3, len(live)))
     for k in range(f.wanted):
@@ -116,4 +115,5 @@ def _jet(f: Signed, x: Array, turns: Turns, live: Whole) -> list[Array]:
             at = f.at(x[here, None], turns.design[live[here]], 2)
             _, c = f.look(at, forced[:, here], (k,))
             out[:, here] = [one[-1, :, 0] for one in c]
-    return list(out)
+    value, slope, bend = out
+    return value, slope * DEGREE, 2.0 * bend * DEGREE * DEGREE
