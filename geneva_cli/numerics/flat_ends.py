@@ -30,21 +30,29 @@ def flat_ends(row: int, k: int, cells: Cells, tops: Tops, where: Mask) -> Turns:
         np.stack([one[few] for one in end]) for end in zip(cells.x, (v, w), (d, e), strict=True)
     )
     first = np.abs(left[2]) < np.abs(right[2])  # the flatter end
-    slope, outer = np.where(first, left[2], right[2]), np.where(first, left[1], right[1])
+    slope = np.where(first, left[2], right[2])
     # falling inwards from the one, or rising to the other, it is a greatest value; or a least one
     rises, rise = np.where(first, -1.0, 1.0) * np.sign(slope), right[1] - left[1]
     design, number = cells.design[few], np.full(len(few), k)
-    most = tops.most[tops.number(number, rises), design]
-    near = (rises * outer >= most - PREDICTED * np.abs(rise)) & (rise * slope > 0.0)
-    return taken(Turns(number, rises, design, cells.positive[0][:, few], left, right), near)
+    ends = Turns(number, rises, design, cells.positive[0][:, few], left, right)
+    return taken(ends, (rise * slope > 0.0) & _extreme(tops, ends))
 
 
-def second_turns(f: Signed, ends: Turns) -> Turns:
+def _extreme(tops: Tops, ends: Turns) -> Mask:
+    """Whether the flat ends are extremes of what is known, as far as a cubic tells."""
+    v, w = ends.left[1], ends.right[1]
+    most = tops.most[tops.number(ends.row, ends.rises), ends.design]
+    top = np.maximum(ends.rises * v, ends.rises * w)
+    return np.asarray(top >= most - PREDICTED * np.abs(w - v))
+
+
+def second_turns(f: Signed, tops: Tops, ends: Turns) -> Turns:
     """Those that do, cut where the slope is of the other sign: from there on they turn once.
 
     Where the slope would be as much below zero as it is above it at the flat end, if it went on as
     it begins.
     """
+    ends = taken(ends, _extreme(tops, ends))
     if not len(ends.row):
         return ends
     every = np.arange(len(ends.row))

@@ -105,7 +105,7 @@ class _Search:
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
         self._settle(joined([cells, *self._crossed()]))
         if self.flat:
-            self.turns.append(self.tops.hopeful(second_turns(self.f, joined(self.flat))))
+            self.turns.append(self.tops.hopeful(second_turns(self.f, self.tops, joined(self.flat))))
         if self.turns:
             turn(self.f, self.range, self.tops, joined(self.turns))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
