@@ -249,7 +249,8 @@ class Spec:
         >>> Spec(Spherical(6)).has_parts, Spec(External(400)).has_parts
         (True, False)
         """
-        return self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
+        drawn = self.wheel.FLAT or self.wheel.SHELLS
+        return drawn and self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """The roller's radius r, by default L/20.

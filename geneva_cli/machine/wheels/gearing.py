@@ -57,6 +57,8 @@ class Gearing(SpecTable):
     SIGN: ClassVar[float] = 1.0
     # whether wheel and crank are flat parts, on parallel shafts
     FLAT: ClassVar[bool] = True
+    # whether they are shells of a sphere, on shafts that meet at its centre
+    SHELLS: ClassVar[bool] = False
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
