@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.cells import cubic
+from geneva_cli.numerics.cubics import cubic
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array

@@ -6,16 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
-from geneva_cli.numerics.cells import (
-    Beside,
-    Cells,
-    Range,
-    Turns,
-    cubic,
-    may_turn,
-    touches,
-    turns_of,
-)
+from geneva_cli.numerics.cells import Beside, Cells, Range, Turns, may_turn, turns_of
+from geneva_cli.numerics.cubics import cubic, touches
 from geneva_cli.numerics.extrema_many import ROUNDING, goes_back, unpredicted
 from geneva_cli.numerics.roots import PREDICTED
 

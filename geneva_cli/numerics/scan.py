@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.budget import check_time
-from geneva_cli.numerics.cells import touches
+from geneva_cli.numerics.cubics import touches
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
 
 if TYPE_CHECKING:

@@ -29,10 +29,9 @@ from geneva_cli.numerics.cells import (
     Turns,
     joined,
     taken,
-    touches,
     turns_in,
-    zero_of_cubic,
 )
+from geneva_cli.numerics.cubics import touches, zero_of_cubic
 from geneva_cli.numerics.extrema_many import unpredicted
 from geneva_cli.numerics.flat_ends import flat_ends, second_turns
 from geneva_cli.numerics.roots import DEEPEST

@@ -21,9 +21,10 @@ from geneva_cli.parts.crank import crank_circles
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.outlines import Outlines, slot_walls
 from geneva_cli.parts.plates import arm_plate, crank_group, wheel_part
-from geneva_cli.parts.shafts import crank_hub, wheel_hub
+from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.walls.ways import beside
 from geneva_cli.parts.wheel import wheel_circles, wheel_contour
+from geneva_cli.parts.wheel_hub import wheel_hub
 
 PITCH = "PITCH"
 

@@ -10,8 +10,9 @@ from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.shafts import crank_hub, wheel_hub
+from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.wheel import wheel_circles
+from geneva_cli.parts.wheel_hub import wheel_hub
 
 
 def wheel_plate(found: Outlines, contour: Contour) -> Plate:

@@ -1,47 +1,24 @@
-"""Hubs, and the shafts of wheel and crank: what is round about their axes, and where it ends.
+"""The crank's hub, and the shafts of wheel and crank: where they end along the axis.
 
-The wheel's hub stands below it, the crank's on the locking disc, or on the arm where there is no
-disc. Both are drawn where the spec gives a size of theirs; else only room is kept for them. Shafts
-are as wide as the bores that they are in. They end in the frame's lower face, and above where what
-they carry does; a wheel with ``wheel_hub_mm = 0`` has its shaft above it alone.
+The crank's hub stands on the locking disc, or on the arm where there is no disc. It is drawn where
+the spec gives a size of its; else only room is kept for it. Shafts are as wide as the bores that
+they are in. They end in the frame's lower face, and above where what they carry does; a wheel with
+``wheel_hub_mm = 0`` has its shaft above it alone.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import has_arm, shaft_bore
-from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.wheel import wheel_circles
-from geneva_cli.spec.tables import Size
+from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
 
-HUB, SHAFT = "HUB", "SHAFT"
-AXIS = (0.0, 0.0)
-
-
-def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
-    """The wheel's hub below it; None where the spec gives neither its diameter nor its length."""
-    given = assembly.mechanism.spec.size
-    asked = given.wheel_hub_mm is not None or given.wheel_hub_length_mm is not None
-    if not asked or sizes.wheel_hub <= sizes.wheel_bore:
-        return None
-    bores = _about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
-    outline = Circle(HUB, AXIS, sizes.wheel_hub)
-    return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(given, sizes), 0.0)
-
-
-def wheel_hub_length(given: Size, sizes: Sizes) -> float:
-    """The length of the wheel's hub: by default as far down as the crank arm."""
-    if given.wheel_hub_length_mm is not None:
-        return given.wheel_hub_length_mm
-    return given.pin_gap_mm + sizes.arm_thickness
+SHAFT = "SHAFT"
 
 
 def crank_hub(found: Outlines) -> Plate | None:
@@ -58,7 +35,7 @@ def crank_hub(found: Outlines) -> Plate | None:
         high = on_arm + given.crank_hub_length_mm
     if high <= low:
         return None
-    bores = _about_axis(crank_circles(found.assembly, sizes) if sizes.crank_bore else [])
+    bores = about_axis(crank_circles(found.assembly, sizes) if sizes.crank_bore else [])
     return Plate("crank's hub", HUB, Circle(HUB, AXIS, sizes.crank_hub), bores, low, high)
 
 
@@ -116,16 +93,6 @@ def crank_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
 
 def _shaft(part: str, radius: float, low: float, high: float) -> Plate:
     return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)
-
-
-def _about_axis(circles: list[Shape]) -> tuple[Shape, ...]:
-    """The bore among some circles: the one about the axis, which may have a keyway."""
-    bores = (shape for shape in circles if shape.layer == "BORE")
-    return tuple(
-        shape
-        for shape in bores
-        if not isinstance(shape, Circle) or math.hypot(*shape.centre) == 0.0
-    )
 
 
 def _refuse(part: str, low: float, high: float) -> None:

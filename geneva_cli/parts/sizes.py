@@ -10,7 +10,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.assembly import Assembly
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
 
@@ -42,6 +43,17 @@ class Sizes(NamedTuple):
     def horn(self) -> float:
         """Thickness of the horn between slot and recess, thinnest at the mouth."""
         return self.arm - self.half_width - self.recess
+
+
+def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
+    """A machine's assembly and its parts' sizes; None where no flat parts can be cut."""
+    if not mechanism.spec.is_flat:
+        return None
+    try:
+        where = assembly(mechanism)
+        return where, sizes(where)
+    except GenevaError:
+        return None  # as the check of the parts says
 
 
 def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:

@@ -8,10 +8,10 @@ from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.shafts import wheel_hub
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
+from geneva_cli.parts.wheel_hub import wheel_hub
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:

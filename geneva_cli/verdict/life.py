@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.quantities import PV, ends_of
 from geneva_cli.analysis.strength import horn, pin, roller
-from geneva_cli.verdict.lock_sizes import sized
+from geneva_cli.parts.sizes import sized
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

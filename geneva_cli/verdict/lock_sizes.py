@@ -11,14 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.reliefs import sectors
-from geneva_cli.parts.sizes import Sizes, sizes
+from geneva_cli.parts.sizes import Sizes, sized
 
 
 class LockSizes(NamedTuple):
@@ -26,17 +25,6 @@ class LockSizes(NamedTuple):
 
     half_width: float  # of the slot: roller and clearance
     lock: Lock  # in its narrowest sector
-
-
-def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
-    """A machine's assembly and its parts' sizes; None where no flat parts can be cut."""
-    if not mechanism.spec.is_flat:
-        return None
-    try:
-        where = assembly(mechanism)
-        return where, sizes(where)
-    except GenevaError:
-        return None  # as the check of the parts says
 
 
 def lock_of(where: Assembly, found: Sizes) -> Lock:

@@ -10,12 +10,12 @@ from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts import drawings
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.shafts import HUB, wheel_hub
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, bored, circle_of
 from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 from geneva_cli.parts.wheel import dial_bolts
+from geneva_cli.parts.wheel_hub import HUB, wheel_hub
 
 SAME = 1e-6  # mm
 

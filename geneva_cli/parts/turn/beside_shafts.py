@@ -24,8 +24,9 @@ from geneva_cli.parts.link_drawings import placed
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_part
-from geneva_cli.parts.shafts import HUB, shafts
+from geneva_cli.parts.shafts import shafts
 from geneva_cli.parts.turn.planes import crank_stop
+from geneva_cli.parts.wheel_hub import HUB
 
 SAME = 1e-9  # of the centre distance: what shares less of a height only touches
 

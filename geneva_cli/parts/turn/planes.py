@@ -24,7 +24,8 @@ from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import SAME, Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.shafts import wheel_hub_length, wheel_shaft_ends, wheel_shaft_radius
+from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
+from geneva_cli.parts.wheel_hub import wheel_hub_length
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

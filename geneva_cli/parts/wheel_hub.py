@@ -1,0 +1,46 @@
+"""The wheel's hub: it stands below the wheel, about its axis.
+
+It is drawn where the spec gives a size of its; else only room is kept for it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.wheel import wheel_circles
+from geneva_cli.spec.tables import Size
+
+HUB = "HUB"
+AXIS = (0.0, 0.0)
+
+
+def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
+    """The wheel's hub below it; None where the spec gives neither its diameter nor its length."""
+    given = assembly.mechanism.spec.size
+    asked = given.wheel_hub_mm is not None or given.wheel_hub_length_mm is not None
+    if not asked or sizes.wheel_hub <= sizes.wheel_bore:
+        return None
+    bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
+    outline = Circle(HUB, AXIS, sizes.wheel_hub)
+    return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(given, sizes), 0.0)
+
+
+def wheel_hub_length(given: Size, sizes: Sizes) -> float:
+    """The length of the wheel's hub: by default as far down as the crank arm."""
+    if given.wheel_hub_length_mm is not None:
+        return given.wheel_hub_length_mm
+    return given.pin_gap_mm + sizes.arm_thickness
+
+
+def about_axis(circles: list[Shape]) -> tuple[Shape, ...]:
+    """The bore among some circles: the one about the axis, which may have a keyway."""
+    bores = (shape for shape in circles if shape.layer == "BORE")
+    return tuple(
+        shape
+        for shape in bores
+        if not isinstance(shape, Circle) or math.hypot(*shape.centre) == 0.0
+    )
