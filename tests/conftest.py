@@ -1,6 +1,7 @@
 """Machines under test, built as a spec would build them."""
 
 import functools
+import gc
 import importlib
 import pkgutil
 
@@ -15,6 +16,17 @@ from geneva_cli.parts.turn import full_turn
 from geneva_cli.parts.walls import chain as walls_chain
 from geneva_cli.parts.walls import curved as curved_walls
 from geneva_cli.verdict import cautions
+
+
+def pytest_configure():
+    """Tests are collected without looking for garbage, of which there is none."""
+    gc.disable()
+
+
+def pytest_collection_finish():
+    """What is collected, eleven thousand tests, stays to the end and is looked at no more."""
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session")
