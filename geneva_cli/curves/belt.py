@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geneva_cli.curves.shapes import Circle, Contour, Line, Segment, about, closed
+from geneva_cli.curves.shapes import Circle, Contour, Line, Segment, about, closed, two_arcs
 
 SAME = 1e-12  # radians: directions nearer to each other are one
 
@@ -39,9 +39,7 @@ def belt(layer: str, circles: Sequence[Circle]) -> Contour:
         if found and math.dist(found[-1].end, arc.start) > SAME:
             found.append(Line(found[-1].end, arc.start))
         if len(arcs) == 1:
-            found += [
-                about(circle.centre, circle.radius, at, math.pi) for at in (start, start + math.pi)
-            ]
+            found += two_arcs(circle, start)
         elif sweep > SAME:
             found.append(arc)
     if len(arcs) > 1 and math.dist(found[-1].end, found[0].start) > SAME:

@@ -85,6 +85,12 @@ def about(centre: Point, radius: float, start: float, sweep: float) -> Arc:
     )
 
 
+def two_arcs(circle: Circle, start: float = 0.0) -> tuple[Arc, Arc]:
+    """A circle's halves, counterclockwise from a direction on, radians."""
+    centre, radius = circle.centre, circle.radius
+    return about(centre, radius, start, math.pi), about(centre, radius, start + math.pi, math.pi)
+
+
 def joined(segments: Iterable[Segment]) -> tuple[Segment, ...]:
     """Segments end to end, each made to start exactly where the one before it ends."""
     out: list[Segment] = []

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.measure import at, segment_length
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape, about
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape, two_arcs
 from geneva_cli.curves.sheet import ABOVE, BELOW, Label, Measure
 
 if TYPE_CHECKING:
@@ -86,10 +86,7 @@ def crosses(label: Label, lines: Array, gap: float = 0.0) -> bool:
 def chords(shape: Shape) -> Array:
     """A shape's chords, (n, 4)."""
     if isinstance(shape, Circle):
-        pieces: Iterable[Segment] = (
-            about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi)
-        )
-        return _chords(pieces)
+        return _chords(two_arcs(shape))
     assert isinstance(shape, Contour)
     return _chords(shape.segments)
 

@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, about, closed
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.parts.arm import crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
 from geneva_cli.parts.frame import lowest, standing_plates
@@ -109,10 +109,7 @@ def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Poi
 
 
 def _contour(shape: Contour | Circle) -> Contour:
-    if isinstance(shape, Contour):
-        return shape
-    halves = (about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi))
-    return closed(shape.layer, halves)
+    return shape if isinstance(shape, Contour) else closed(shape.layer, two_arcs(shape))
 
 
 def _far(piece: Segment) -> Iterator[Point]:
