@@ -22,27 +22,28 @@ from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.strength import roller
 from geneva_cli.analysis.strength.roller_many import passages_of_many
-from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
+from geneva_cli.analysis.tolerance.many import entry_jumps_worst, used
 from geneva_cli.analysis.vibration.many import Vibrations, vibrations_of_many
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.study.sweep import strength_columns as strength
-from geneva_cli.study.sweep.strength_columns import Columns, QuantityGroup
+from geneva_cli.study.sweep.quantity_group import Columns, Designs, QuantityGroup
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
 
 
-def _life(machine: Mechanism, asked: Collection[str]) -> Columns:
+def _life(of: Designs, asked: Collection[str]) -> Columns:
     """Of the roller and its slot."""
-    spec, given, loaded = machine.spec, setting(machine), strength.loaded(machine)
+    machine, loaded = of.machine, of.loaded
+    spec, given = machine.spec, setting(machine)
     out: dict[str, Number | None] = {}
     if {"pv_max_W_m2"} & set(asked) and spec.size.face_width_mm is not None:
         out["pv_max_W_m2"] = greatest_of_many(machine, [PV])[PV].max * loaded
     if "pin_stress_MPa" in asked:
-        out["pin_stress_MPa"] = strength.pin(machine, asked).get("stress_MPa")
+        out["pin_stress_MPa"] = strength.pin(of, asked).get("stress_MPa")
     if "horn_stress_MPa" in asked:
-        out["horn_stress_MPa"] = strength.horn(machine, asked).get("stress_MPa")
+        out["horn_stress_MPa"] = strength.horn(of, asked).get("stress_MPa")
     if not set(asked) - set(out):
         return out
     ways = passages_of_many(machine)
@@ -67,8 +68,8 @@ def _life(machine: Mechanism, asked: Collection[str]) -> Columns:
     return out
 
 
-def _vibration(machine: Mechanism, asked: Collection[str]) -> Columns:
-    found = vibrations_of_many(machine, asked)
+def _vibration(of: Designs, asked: Collection[str]) -> Columns:
+    found = vibrations_of_many(of.machine, asked)
     if found is None:
         return {}
     # without damping there is no steady state; without a period ratio the design says why
@@ -76,45 +77,44 @@ def _vibration(machine: Mechanism, asked: Collection[str]) -> Columns:
     return found._replace(steady_share=steady)._asdict()
 
 
-def _blows(machine: Mechanism, found: Blows) -> dict[str, Number | None]:
+def _blows(found: Blows) -> dict[str, Number | None]:
     return {name: np.where(np.isnan(row), np.inf, row) for name, row in found._asdict().items()}
 
 
-def _entry(machine: Mechanism, asked: Collection[str]) -> Columns:
-    return _blows(machine, entry_blows(machine))
+def _entry(of: Designs, asked: Collection[str]) -> Columns:
+    return _blows(entry_blows(of.machine))
 
 
-def _reversal(machine: Mechanism, asked: Collection[str]) -> Columns:
+def _reversal(of: Designs, asked: Collection[str]) -> Columns:
+    machine = of.machine
     coasts = np.ravel(inertia_kgm2(machine.spec)) > 0.0
     drag = np.where(coasts, np.ravel(lasting_drag_Nm(machine)), np.inf)
-    return {**_blows(machine, reversal_blows(machine)), "drag_Nm": drag}
+    return {**_blows(reversal_blows(machine)), "drag_Nm": drag}
 
 
-def _sizing(machine: Mechanism, asked: Collection[str]) -> Columns:
+def _sizing(of: Designs, asked: Collection[str]) -> Columns:
     """NaN where nothing resists the wheel: its design says which values it has."""
-    loaded = strength.loaded(machine)
-    found = sizings_of_many(machine, asked)
-    return {name: np.where(np.isnan(row), np.inf, row) * loaded for name, row in found.items()}
+    found = sizings_of_many(of.machine, asked)
+    return {name: np.where(np.isnan(row), np.inf, row) * of.loaded for name, row in found.items()}
 
 
-def _slot(machine: Mechanism, asked: Collection[str]) -> Columns:
-    found = positive_drives(machine)
+def _slot(of: Designs, asked: Collection[str]) -> Columns:
+    found = positive_drives(of.machine)
     if found is None:
         return {}
     return dict(zip(SLOT, (found.share, found.gap_mm, found.gap_at_deg), strict=True))
 
 
-def _play(machine: Mechanism, asked: Collection[str]) -> Columns:
-    found = motion_plays(machine)
-    return {} if found is None else found._asdict()
+def _play(of: Designs, asked: Collection[str]) -> Columns:
+    return {} if of.plays is None else of.plays._asdict()
 
 
-def _jump(machine: Mechanism, asked: Collection[str]) -> Columns:
+def _jump(of: Designs, asked: Collection[str]) -> Columns:
     """Of designs with tolerances that are none too wide: others say so themselves."""
-    found, plays = entry_jumps_worst(machine, used(machine)), motion_plays(machine)
-    if found is None or plays is None:
+    found = entry_jumps_worst(of.machine, used(of.machine))
+    if found is None or of.plays is None:
         return {}
-    return {"worst": np.where(np.isnan(plays.worst_deg), np.nan, found)}
+    return {"worst": np.where(np.isnan(of.plays.worst_deg), np.nan, found)}
 
 
 LIFE = (
@@ -149,9 +149,10 @@ def part_columns(machine: Mechanism, names: Collection[str]) -> dict[str, Number
     for name in filter(is_known, names):
         table, _, own = name.rpartition(".")
         asked.setdefault(table, []).append(own)
+    designs = Designs(machine)
     out: dict[str, Number | None] = {}
     for table, some in asked.items():
-        found = GROUPS[table].of(machine, some)
+        found = GROUPS[table].of(designs, some)
         for name in some:
             value = found.get(name)
             out[f"{table}.{name}"] = np.inf if value is None else value

@@ -5,42 +5,20 @@ NaN is what must be asked of the design alone; infinite what the design alone ha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from collections.abc import Collection
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.strength import pin as pins
 from geneva_cli.analysis.strength import shafts
 from geneva_cli.analysis.strength.horn import HornStress, horn_of_many
 from geneva_cli.analysis.strength.lock import LockUnderTorque, lock_of_many
-from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.lock_sizes import lock_sizes_of_many
+from geneva_cli.study.sweep.quantity_group import Columns, Designs, QuantityGroup
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
-
-Columns: TypeAlias = "Mapping[str, Number | None]"  # (m,) each, or one number for all
-
-
-class QuantityGroup(NamedTuple):
-    """Quantities of one table that are had together, and what gives those that are asked for."""
-
-    names: tuple[str, ...]
-    of: Callable[[Mechanism, Collection[str]], Columns]
-
-
-def loaded(machine: Mechanism) -> Array:
-    """1 where something resists the wheel, NaN where the design must be asked why nothing does."""
-    given = setting(machine)
-    return np.ravel(np.where(given.inertia_Nm + given.resists_Nm > 0.0, 1.0, np.nan))
-
-
-def _force_N(machine: Mechanism) -> Array:
-    return greatest_of_many(machine, ["pin_force_N"])["pin_force_N"].max * loaded(machine)
 
 
 def _margin(stress: Number, allowed: Number) -> Array:
@@ -51,13 +29,13 @@ def _margin(stress: Number, allowed: Number) -> Array:
         return np.where(known, np.ravel(allowed) / stress - 1.0, stress + np.inf)
 
 
-def pin(machine: Mechanism, asked: Collection[str]) -> Columns:
+def pin(of: Designs, asked: Collection[str]) -> Columns:
     """Under the greatest force, where a face width is known."""
-    found = pins.pin(machine)
+    found = pins.pin(of.machine)
     if found is None:
         return {}
-    force = _force_N(machine)[:, None]
-    under, allowed = found.under(force), machine.spec.material_roller.stress_max_MPa
+    force = of.force_N[:, None]
+    under, allowed = found.under(force), of.machine.spec.material_roller.stress_max_MPa
     stress = np.ravel(under.equivalent)
     out: dict[str, Number | None] = {
         "diameter_mm": found.diameter_mm,
@@ -71,31 +49,32 @@ def pin(machine: Mechanism, asked: Collection[str]) -> Columns:
     return out
 
 
-def horn(machine: Mechanism, asked: Collection[str]) -> Columns:
+def horn(of: Designs, asked: Collection[str]) -> Columns:
     """Under the roller, where a face width is known; none where nothing bounds the force."""
-    width, allowed = machine.spec.size.face_width_mm, machine.spec.material_wheel.stress_max_MPa
-    sizes = None if width is None else lock_sizes_of_many(machine)
+    spec = of.machine.spec
+    width, allowed = spec.size.face_width_mm, spec.material_wheel.stress_max_MPa
+    sizes = None if width is None else of.lock_sizes
     if width is None or sizes is None:
         return {}
-    force = _force_N(machine)
-    found = horn_of_many(machine, sizes.half_width, sizes.lock.recess, width)
+    force = of.force_N
+    found = horn_of_many(of.machine, sizes.half_width, sizes.lock.recess, width)
     rows = {name: _known(row) for name, row in found._asdict().items()}
     if allowed is not None:
         rows["margin"] = _margin(rows["stress_MPa"], allowed)
     return {name: np.where(np.isfinite(force), row, force) for name, row in rows.items()}
 
 
-def _lock(machine: Mechanism, asked: Collection[str]) -> Columns:
+def _lock(of: Designs, asked: Collection[str]) -> Columns:
     """Under the torque in the dwell, where a face width is known."""
-    sizes = lock_sizes_of_many(machine)
-    found = sizes and lock_of_many(machine, sizes.half_width, sizes.lock)
+    sizes = of.lock_sizes
+    found = sizes and lock_of_many(of.machine, sizes.half_width, sizes.lock)
     if found is None:
         return {}
     _, *names = found._fields  # the first is a word
     rows = {name: _known(found._asdict()[name]) for name in names}
     rows["deflection_deg"] = _known(found.deflection_deg)
     contact, approach = (np.asarray(row) for row in (found.contact_stress_MPa, found.approach_deg))
-    allowed = machine.spec.limits.lock_stress_max_MPa
+    allowed = of.machine.spec.limits.lock_stress_max_MPa
     if allowed is not None:
         most = np.where(np.isnan(approach), np.inf, np.fmax(contact, found.pressure_MPa))
         rows["margin"] = _margin(_known(most), allowed)
@@ -108,26 +87,26 @@ def _known(row: Number | None) -> Array:
     return np.where(np.isnan(found), np.inf, found)
 
 
-def _wheel_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
-    return _shaft(machine, shafts.wheel_shaft(machine.spec.shaft), shafts.on_wheel)
+def _wheel_shaft(of: Designs, asked: Collection[str]) -> Columns:
+    return _shaft(of, shafts.wheel_shaft(of.machine.spec.shaft), shafts.on_wheel)
 
 
-def _crank_shaft(machine: Mechanism, asked: Collection[str]) -> Columns:
-    spec = machine.spec
+def _crank_shaft(of: Designs, asked: Collection[str]) -> Columns:
+    spec = of.machine.spec
     on = shafts.on_driven_crank if spec.drive.CRANKED else shafts.on_crank
-    return _shaft(machine, shafts.crank_shaft(spec.shaft), on)
+    return _shaft(of, shafts.crank_shaft(spec.shaft), on)
 
 
-def _shaft(machine: Mechanism, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
+def _shaft(of: Designs, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
     """Of shafts that are parallel, as ``verdict.strength`` has it."""
-    if not machine.spec.wheel.FLAT:
+    if not of.machine.spec.wheel.FLAT:
         return {}
-    found = shafts.shaft_of_many(machine, ends, on)
+    found = shafts.shaft_of_many(of.machine, ends, on)
     if found is None:
         return {}
-    moment = cast("Array", found.moment_Nm) * loaded(machine)
+    moment = cast("Array", found.moment_Nm) * of.loaded
     rows = {k: v for k, v in found._asdict().items() if v is not None}
-    allowed = machine.spec.shaft.shear_stress_max_MPa
+    allowed = of.machine.spec.shaft.shear_stress_max_MPa
     if found.stress_MPa is not None and allowed is not None:
         rows["margin"] = _margin(found.stress_MPa, allowed)
     return {k: np.where(np.isfinite(moment), v, moment) for k, v in rows.items()}
