@@ -1,6 +1,6 @@
 """Extremes of loads of many designs: is any missed? Part of `make stress`.
 
-    stress_loads_many.py [--designs N] [--machine NAME]... [--seconds S]
+    stress_loads_many.py [--designs N] [--machine NAME]... [--seconds S] [--seed N]
 
 Random designs of every machine (those of tests/design_arrays.py), each under a load of its own,
 with friction: the greatest and least of its forces, torques and stresses is held against a scan
@@ -41,7 +41,9 @@ def main():
     print(f"{'machine':26}{'designs':>10}{'missed':>8}{'passed by':>12}{'CPU s':>8}")
     wrong = False
     for name in asked.machine:
-        done, missed, most, seconds = stressed(name, asked.designs, seconds=asked.seconds)
+        done, missed, most, seconds = stressed(
+            name, asked.designs, asked.seed, seconds=asked.seconds
+        )
         print(f"{name:26}{done:>10}{missed:>8}{most:>12.1e}{seconds:>8.0f}", flush=True)
         wrong |= bool(missed)
     sys.exit(wrong)

@@ -1,6 +1,6 @@
 """Peaks of many designs: is any missed, and how exact are they? Part of `make stress`.
 
-    stress_many.py [--designs N] [--machine NAME]... [--seconds S]
+    stress_many.py [--designs N] [--machine NAME]... [--seconds S] [--seed N]
 
 Random designs of every machine (those of tests/design_arrays.py). Each design's greatest velocity
 and acceleration is held against a scan of its own that knows no Newton and no bracket: a peak is
@@ -124,7 +124,7 @@ def main():
     print(f"{'machine':26}{'designs':>10}{'missed':>8}{'short':>10}{'error':>10}{'CPU s':>8}")
     wrong = False
     for name in asked.machine:
-        row = stressed(name, asked.designs, seconds=asked.seconds)
+        row = stressed(name, asked.designs, asked.seed, seconds=asked.seconds)
         error = "-" if row.worst is None else f"{row.worst:.1e}"
         print(
             f"{name:26}{row.designs:>10}{row.missed:>8}{row.short:>10.1e}{error:>10}"
