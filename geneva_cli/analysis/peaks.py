@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import reduce
 from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
@@ -132,50 +133,44 @@ def peaks(engagement: Engagement) -> Peaks:
     )
 
 
+def _greater(one: Peak, other: Peak) -> Peak:
+    """The greater of two sizes; of two that are one peak, where the first is."""
+    at_deg = other.at_deg if other.max > one.max * (1.0 + TIE) else one.at_deg
+    return Peak(max(one.max, other.max), at_deg)
+
+
 def worst(mechanism: Mechanism) -> Peaks:
     """The greatest peaks over all engagements; angles are the machine's input angles."""
     each = [placed(mechanism, s) for s in mechanism.engagements]
-
-    def greatest(candidates: list[Peak]) -> Peak:
-        best = candidates[0]
-        for other in candidates[1:]:
-            best = other if other.max > best.max * (1.0 + TIE) else best
-        return best
-
     return Peaks(
-        greatest([e.velocity for e in each]),
-        greatest([e.acceleration for e in each]),
-        greatest([e.jerk for e in each]),
-        greatest([e.power for e in each]),
+        reduce(_greater, [e.velocity for e in each]),
+        reduce(_greater, [e.acceleration for e in each]),
+        reduce(_greater, [e.jerk for e in each]),
+        reduce(_greater, [e.power for e in each]),
         Ends(*[max(values) for values in zip(*[e.ends for e in each], strict=True)]),
     )
 
 
 def worst_of(mechanism: Mechanism, quantity: str) -> Peak:
     """The greatest peak of one quantity over all engagements, at the machine's input angle."""
-    best = None
-    for engagement in mechanism.engagements:
-        found = _peak(engagement.motion, quantity)
-        if best is None or found.max > best.max * (1.0 + TIE):
-            best = Peak(found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg))
-    assert best is not None  # a machine moves
-    return best
+    each = [_placed(mechanism, s, _peak(s.motion, quantity)) for s in mechanism.engagements]
+    return reduce(_greater, each)
 
 
 def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
     """An engagement's peaks, their angles the machine's input angles."""
     found = peaks(engagement)
-
-    def moved(p: Peak) -> Peak:
-        return Peak(p.max, mechanism.shown_deg(engagement.mid_deg + p.at_deg))
-
     return Peaks(
-        moved(found.velocity),
-        moved(found.acceleration),
-        moved(found.jerk),
-        moved(found.power),
+        _placed(mechanism, engagement, found.velocity),
+        _placed(mechanism, engagement, found.acceleration),
+        _placed(mechanism, engagement, found.jerk),
+        _placed(mechanism, engagement, found.power),
         found.ends,
     )
+
+
+def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak) -> Peak:
+    return Peak(p.max, mechanism.shown_deg(engagement.mid_deg + p.at_deg))
 
 
 def peaks_table(mechanism: Mechanism) -> Table:

@@ -161,10 +161,11 @@ def _part(
 
 
 def _greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
-    """The greater of two peaks; of two that are one the first."""
+    """The greater of two sizes; of two that are one peak, where the first is."""
     more = other.max > first.max * (1.0 + TIE)
     return PeakOfMany(
-        np.where(more, other.max, first.max), np.where(more, other.at_deg, first.at_deg)
+        np.where(other.max > first.max, other.max, first.max),
+        np.where(more, other.at_deg, first.at_deg),
     )
 
 

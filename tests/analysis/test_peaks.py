@@ -9,8 +9,10 @@ import math
 import numpy as np
 import pytest
 from witness import QUANTITIES, Geneva, mp, near
+from words import Drive, Keys, Spec, Wheel
 
-from geneva_cli.analysis.peaks import ends, peaks, worst
+from geneva_cli.analysis.peaks import ends, peaks, worst, worst_of
+from geneva_cli.machine.mechanism import build
 
 OFFSETS = (-0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.99)
 NAMES = ("velocity", "acceleration", "jerk", "power")
@@ -203,3 +205,17 @@ def test_worst_engagement_of_a_side_crank_with_two_rollers(machine):
         got, own = getattr(found, name), getattr(greatest, name)
         assert got == (own.max, pytest.approx(s.mid_deg + own.at_deg, abs=1e-12))
     assert found.ends.acceleration_entry == max(ends(s).acceleration_entry for s in m.engagements)
+
+
+def test_worst_of_two_that_are_nearly_one():
+    """Nearer than 1e-13 they are one peak, where the first is; the size is the greater's."""
+    turned = Drive("side-crank", 60.0, 3, (0.0, 120.0, 240.0 - 3e-12))
+    m = build(Spec(Wheel(3), turned, Keys("side-crank", 0.3)))
+    each = [peaks(s) for s in m.engagements]
+    found = worst(m)
+    for name in NAMES:
+        first, second = (getattr(p, name).max for p in each[1:])
+        assert first < second < first * (1.0 + 1e-13)
+        assert getattr(found, name).max == second
+        assert getattr(found, name) == worst_of(m, name)
+        assert getattr(found, name).at_deg > 0.0  # the second's is below

@@ -59,3 +59,19 @@ def test_of_designs_that_differ_in_nothing_the_motion_knows():
     found = many(machine(6, "side-crank", A=0.6), {"drive.n_rpm": np.array([30.0, 60.0, 90.0])})
     peaks = worst_of_many(found.machine, ["velocity"])["velocity"]
     assert found.spread(peaks.max).tolist() == [0.625] * 3
+
+
+def test_what_comes_up_to_a_level_and_stays_there():
+    """A gear sector's ratio is the greatest speed, though its slot ends a rounding below.
+
+    Or above: by what the acceleration there makes of two ulps of the slot's half angle.
+    """
+    spec, rules = MACHINES["gear sector, any ratio"]
+    varied = drawn(rules, 400, 17)
+    found = many(spec, varied)
+    peaks = worst_of_many(found.machine, ["velocity", "acceleration"])
+    speed, acceleration = (peak.max for peak in peaks.values())
+    ratio = varied["drive.gear_ratio"][found.which]
+    assert len(speed) > 50
+    assert np.all(speed >= ratio)
+    assert np.all(speed <= ratio * (1.0 + 4e-15) + 4e-16 * acceleration)
