@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from mpmath import mp
-from witness import Geneva, to_degrees, to_radians
+from witness import Geneva, mp, to_degrees, to_radians
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.analysis.peaks import peaks
@@ -71,7 +70,7 @@ def test_a_step(z, sector, ratio):
     before, after = (
         s.motion(x, 1).c[1] for x in (-s.motion.half_sector, -s.motion.half_sector + 1e-9)
     )
-    assert before == pytest.approx(after, abs=1e-14)  # a_t is an arc cosine: 10 ulp of the speed
+    assert before == pytest.approx(after, abs=4e-15)  # a_t: a few ulp of the speed
     assert s.motion_deg == pytest.approx(
         2.0 * (s.through.exit_deg - s.motion.handover_deg) + sector, rel=1e-15
     )
@@ -95,6 +94,28 @@ def test_the_jump_is_the_slots_acceleration_there():
     assert s.motion(0.0, 2).c[2] == 0.0
     assert peaks(s).acceleration.max >= jump
     assert to_degrees(mp.mpf(1)) > 57
+
+
+def test_a_slot_near_90_degrees_from_the_keys():
+    """Half angle 86 degrees: the acceleration at the handover, b solved for in 50 digits.
+
+    One unit in the last place of a key moves it by 5e-15 of itself; some such are allowed.
+    """
+    sector, ratio = 40.39888175618229, 2.870674432158498
+    D, u = to_radians(sector), mp.mpf(ratio)
+
+    def handover(b):
+        l = mp.sin(b)
+        return mp.acos((u * (1 + l * l) + l * l) / (l * (1 + 2 * u)))
+
+    def excess(b):
+        return b - slots(b)(handover(b))[0] + u * D / 2 - mp.pi / 3
+
+    b = mp.findroot(excess, (mp.mpf(86) * mp.pi / 180, mp.mpf(85) * mp.pi / 180), solver="anderson")
+    s = machine(3, sector, ratio).engagements[0]
+    jump = s.motion(-s.motion.half_sector, 2).derivatives()[2]
+    assert jump == pytest.approx(float(-slots(b)(handover(b))[2]), rel=3e-14)
+    assert s.through.half_step == pytest.approx(float(b), rel=2e-15)
 
 
 @pytest.mark.parametrize(("sector", "bound"), [(60.0, "at least"), (300.0, "at most")])

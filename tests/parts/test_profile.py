@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
+from witness import mp
 from words import Drive, Motion, Spec, Wheel, named
 
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -31,11 +31,11 @@ def test_pitch_curve_flanks_pressure_and_curvature(law: str, ratio: float | str)
     R = L * mechanism.ratio
     offset = 9.25
     for i, degrees in enumerate(x):
-        phi = mp.radians(mpf(float(degrees)))
-        u = mpf(float(degrees)) / 120 + mpf(1) / 2
-        s, s1, s2 = (mpf(v) for v in named(law)(float(u), 2).derivatives())
+        phi = mp.radians(mp.mpf(float(degrees)))
+        u = mp.mpf(float(degrees)) / 120 + mp.mpf(1) / 2
+        s, s1, s2 = (mp.mpf(v) for v in named(law)(float(u), 2).derivatives())
         step, angle = mp.pi / 3, 2 * mp.pi / 3
-        psi, psi1, psi2 = step * (s - mpf(1) / 2), step * s1 / angle, step * s2 / angle**2
+        psi, psi1, psi2 = step * (s - mp.mpf(1) / 2), step * s1 / angle, step * s2 / angle**2
         M = L * mp.expj(-psi) - R * mp.expj(-(psi + phi))
         M1 = -1j * L * psi1 * mp.expj(-psi) + 1j * R * (1 + psi1) * mp.expj(-(psi + phi))
         assert abs(complex(M) - complex(*at.centre[i])) < 4 * math.ulp(L)

@@ -3,8 +3,8 @@
 The roller starts the wheel in a straight slot of half angle b. Where the wheel has reached u times
 the crank's speed, toothed sectors take over at that ratio for a crank angle D, and the next roller
 stops the wheel in its own slot. The speeds agree at the crank angle a_t with
-cos a_t = (u (1 + l²) + l²) / (l (1 + 2u)); the acceleration jumps there, but not for u = l/(1-l),
-where a_t = 0 and the pitch circles are R and L - R. The step is 2 (b - psi_t) + u D.
+sin²(a_t/2) = (1-l) (1 - (1-l)(1+u)) / (2l (1 + 2u)); the acceleration jumps there, but not for
+u = l/(1-l), where a_t = 0 and the pitch circles are R and L - R. The step is 2 (b - psi_t) + u D.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import larger, library, parameter, size, smaller
+from geneva_cli.numerics.arrays import larger, library, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
@@ -126,12 +126,13 @@ class GearSector(PinPath, kw_only=True):
         """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""
         m = library(b, 0.0 if isinstance(self.gear_ratio, str) else self.gear_ratio)
         l = m.sin(b)
+        short = 2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l, of a slot near 90 deg, too
         if isinstance(self.gear_ratio, str):
-            return l / (1.0 - l), 0.0, 0.0
+            return l / short, 0.0, 0.0
         u = self.gear_ratio
-        cosine = (u * (1.0 + l * l) + l * l) / (l * (1.0 + 2.0 * u))
-        a = m.acos(smaller(1.0, cosine))
-        return u, a, m.atan2(l * m.sin(a), 1.0 - l * m.cos(a))
+        square = larger(0.0, short * (1.0 - short * (1.0 + u)) / (2.0 * l * (1.0 + 2.0 * u)))
+        a = 2.0 * m.asin(m.sqrt(square))
+        return u, a, m.atan2(l * m.sin(a), short + 2.0 * l * square)
 
 
 class SectorMotion(Motion):
