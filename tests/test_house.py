@@ -186,7 +186,8 @@ ANY = {
     "machine.registry": {"_found"},
     "machine.spec": {"replace", "table"},
     "parts.catalogue": {"_made"},
-    "parts.sheet.sheet": {"on_paper", "rows", "_composed", "_items"},
+    "parts.sheet.composed": {"on_paper", "_composed", "_items"},
+    "parts.sheet.views": {"rows"},
 }
 
 

@@ -7,8 +7,7 @@ bush or a bearing needs is for who chooses it.
 
 from __future__ import annotations
 
-import cmath
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -22,12 +21,12 @@ from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.centre_marks import centre_marks
-from geneva_cli.parts.gear_drawings import gear_bores
+from geneva_cli.parts.gear_drawings import gear_bores, gear_span
 from geneva_cli.parts.groove_plate import TOLERANCE, groove_members
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
-from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.links import Links, drawn_links, placed_holes
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import even, thicknesses, wall_min
@@ -64,7 +63,7 @@ def frame_plate(
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     known = list(_bores(proof, found, bars))
     holes = [
-        Circle(HOLES, at, max((r for c, r in known if _same(c, at, L)), default=even(L / 20.0)))
+        Circle(HOLES, at, max((r for c, r in known if same(c, at, L)), default=even(L / 20.0)))
         for at in standing(mechanism)
     ]
     if fixed is None:
@@ -80,6 +79,8 @@ def frame_plate(
     outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
     lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
+    if mechanism.spec.drive.gears:
+        lows.append(gear_span(proof)[0])
     top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
     return Plate(NAME, LAYER, outline, tuple(holes), top - thicknesses(size, L).arm, top)
 
@@ -95,7 +96,7 @@ def standing_plates(
     yield Member(frame_plate(Proof(found.assembly.given, found), fixed, bars))
 
 
-def lowest(standing: list[Member]) -> float:
+def lowest(standing: Sequence[Member]) -> float:
     """The lower face of the frame, the last of the plates that stand."""
     frame = standing[-1].part
     assert isinstance(frame, Plate)
@@ -128,7 +129,7 @@ def _bores(proof: Proof, found: Outlines | None, bars: Links) -> Iterator[tuple[
         if given is not None:
             yield (x, 0.0), 0.5 * given
     for member in bars.cut:
-        yield from ((hole.centre, hole.radius) for hole in _placed_holes(member))
+        yield from ((hole.centre, hole.radius) for hole in placed_holes(member))
     yield from ((gear.at, gear.bore) for gear in bars.gears if gear.bore)
     if mechanism.spec.drive.gears:
         yield from ((at, r) for at, r in gear_bores(proof) if r)
@@ -138,32 +139,24 @@ def _fixed(bars: Links) -> Iterator[Circle]:
     """The holes by which links that stand, as a guide, are screwed to the frame."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from _placed_holes(member)
+            yield from placed_holes(member)
 
 
 def _mounted(members: list[Member], L: float) -> Iterator[Circle]:
     """The holes that mount plates about the crank's axis, once."""
-    holes = dict.fromkeys(hole for one in members for hole in _placed_holes(one))
-    yield from (hole for hole in holes if not _same(hole.centre, (L, 0.0), L))
-
-
-def _placed_holes(member: Member) -> Iterator[Circle]:
-    """The round holes of a plate, where they are at input angle 0."""
-    assert isinstance(member.part, Plate)
-    turn, (x, y) = cmath.rect(1.0, member.turn), member.at
-    for hole in member.part.holes:
-        if isinstance(hole, Circle):
-            z = complex(*hole.centre) * turn + complex(x, y)
-            yield Circle(HOLES, (z.real, z.imag), hole.radius)
+    holes = dict.fromkeys(hole for one in members for hole in placed_holes(one))
+    yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 
 def _lowest(mechanism: Mechanism, found: Outlines | None, bars: Links) -> float:
     """The lowest place of what moves, along the axis."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
+    under += [gear.low for gear in bars.gears]
     arm = thicknesses(size, L).arm if found and has_arm(found) else 0.0
     return min([*under, -size.pin_gap_mm - arm])
 
 
-def _same(p: Point, q: Point, L: float) -> bool:
+def same(p: Point, q: Point, L: float) -> bool:
+    """Whether two places are one, with the centre distance L."""
     return abs(complex(*p) - complex(*q)) < SAME * L

@@ -6,7 +6,7 @@ drawn: they belong to a module and a cutter that no key of a spec names.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,14 +14,17 @@ import numpy as np
 from geneva_cli.curves import fit
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import mapped
+from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Shape, closed
 from geneva_cli.machine.drives.drive import Gears
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_curves import SAMPLES, ratio_and_turn, required_gears
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_sizes import link_sizes
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.shafts import SHAFT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,25 +42,56 @@ def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
 
     Raises GenevaError for a machine without noncircular gears.
     """
-    mechanism = proof.mechanism
-    pair, L = required_gears(mechanism), mechanism.center_distance_mm
-    C = pair.distance_mm
-    fine = min(tolerance, FINE[curves] * C)
-    sense = -mechanism.spec.wheel.SIGN  # the crank runs against the wheel outside, with it inside
-    driven, driver = (
-        closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, fine))
-        for curve in (driven_curve(pair, sense), driver_curve(pair, sense))
-    )
+    L, C = proof.mechanism.center_distance_mm, required_gears(proof.mechanism).distance_mm
     bores = [Circle(BORE, (x - L, y), r) for (x, y), r in gear_bores(proof) if r]
     line = Contour(PITCH, (Line((0.0, 0.0), (C, 0.0)),), closed=False)
-    shapes: tuple[Shape, ...] = (
-        driven,
-        mapped(driver, lambda p: (p[0] + C, p[1])),
-        *bores,
-        line,
-        *centre_marks(bores),
+    pitch = pitch_curves(proof.mechanism, min(tolerance, FINE[curves] * C), curves)
+    shapes: tuple[Shape, ...] = (*pitch, *bores, line, *centre_marks(bores))
+    return Drawing(f"{titled(proof.mechanism)}: pitch curves of the gears", shapes)
+
+
+def pitch_curves(mechanism: Mechanism, tolerance: float, curves: str) -> tuple[Contour, Contour]:
+    """Those of driven gear and driver as they mesh at input angle 0, to a tolerance in mm."""
+    pair = required_gears(mechanism)
+    sense = crank_sense(mechanism)
+    driven, driver = (
+        closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, tolerance))
+        for curve in (driven_curve(pair, sense), driver_curve(pair, sense))
     )
-    return Drawing(f"{titled(mechanism)}: pitch curves of the gears", shapes)
+    return driven, mapped(driver, lambda p: (p[0] + pair.distance_mm, p[1]))
+
+
+def crank_sense(mechanism: Mechanism) -> float:
+    """1 where the crank turns counterclockwise: against the wheel outside, with it inside."""
+    return -mechanism.spec.wheel.SIGN
+
+
+def gear_shapes(proof: Proof, tolerance: float, curves: str) -> list[Shape]:
+    """Pitch curves and bores in the machine; none without such gears."""
+    mechanism = proof.mechanism
+    if mechanism.spec.drive.gears is None:
+        return []
+    L = mechanism.center_distance_mm
+    pitch = pitch_curves(mechanism, tolerance, curves)
+    moved = [mapped(curve, lambda p: (p[0] + L, p[1])) for curve in pitch]
+    return [*moved, *(Circle(BORE, at, r) for at, r in gear_bores(proof) if r)]
+
+
+def gear_span(proof: Proof) -> tuple[float, float]:
+    """The lower and upper end of the gears along the axis: the plane below the arm is theirs."""
+    return link_sizes(
+        proof.mechanism, [], proof.found if proof.mechanism.spec.is_flat else None
+    ).span(2)
+
+
+def driver_shaft(proof: Proof, lowest: float) -> Iterator[Member]:
+    """The driver's shaft, from the frame's lower face up; none without such gears."""
+    if proof.mechanism.spec.drive.gears is None:
+        return
+    _, (at, radius) = gear_bores(proof)
+    if radius:
+        outline, (_, high) = Circle(SHAFT, (0.0, 0.0), radius), gear_span(proof)
+        yield Member(Plate("driver gear's shaft", SHAFT, outline, (), lowest, high), at)
 
 
 def gear_bores(proof: Proof) -> list[tuple[Point, float]]:

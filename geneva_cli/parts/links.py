@@ -44,6 +44,7 @@ class Links(NamedTuple):
     gears: tuple[Gear, ...]
     pin_low: float | None = None  # lower end of the pin, on a link, that carries the wheel's roller
     standing: frozenset[str] = frozenset()  # names of those that are fixed to the frame
+    blocks: frozenset[str] = frozenset()  # and of those that slide in another
 
     @property
     def plates(self) -> list[Plate]:
@@ -52,12 +53,14 @@ class Links(NamedTuple):
 
 
 class Gear(NamedTuple):
-    """A pitch circle with its bore; teeth are not drawn."""
+    """A pitch circle with its bore, and its place along the axis; teeth are not drawn."""
 
     name: str
     at: Point
     radius: float
     bore: float
+    low: float
+    high: float
 
 
 def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
@@ -73,26 +76,32 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     sizes = link_sizes(mechanism, links, found)
     L = mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]
-    cut = [member for link in bars for member in _members(link, sizes, L)]
+    each = [list(_members(link, sizes, L)) for link in bars]
+    cut = [member for members in each for member in members]
     r = mechanism.roller_radius_mm
     between = [
         *pins(bars, sizes, SAME * L),
         *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r)),
     ]
-    gears = [_gear(link, sizes, L) for link in links if link.radius_mm]
+    bored = [hole for member in cut for hole in placed_holes(member)]
+    gears = [_gear(link, sizes, L, bored) for link in links if link.radius_mm]
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
         pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
     standing = frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE)
-    return Links(sizes, tuple(cut), tuple(between), tuple(gears), pin_low, standing)
+    blocks = frozenset(block.part.name for members in each for block in members[1:])
+    return Links(sizes, tuple(cut), tuple(between), tuple(gears), pin_low, standing, blocks)
 
 
-def _gear(link: Link, sizes: LinkSizes, L: float) -> Gear:
+def _gear(link: Link, sizes: LinkSizes, L: float, bored: list[Circle]) -> Gear:
+    """A gear has the bore of the link on its shaft, if there is one."""
     (at,) = places(link)
     z = complex(at[len(at) // 2])
-    bore = sizes.bore(link.radius_mm, L, abs(z - L) < SAME * L)
-    return Gear(link.name, (z.real, z.imag), link.radius_mm, bore)
+    own = sizes.bore(link.radius_mm, L, abs(z - L) < SAME * L)
+    there = (hole.radius for hole in bored if abs(complex(*hole.centre) - z) < SAME * L)
+    bore = next(there, own)
+    return Gear(link.name, (z.real, z.imag), link.radius_mm, bore, *sizes.span(link.plane))
 
 
 def _members(link: Link, sizes: LinkSizes, L: float) -> Iterator[Member]:
@@ -150,6 +159,16 @@ def _members(link: Link, sizes: LinkSizes, L: float) -> Iterator[Member]:
     _refuse(plate)
     yield placed(plate, at[0], unit)
     yield from blocks
+
+
+def placed_holes(member: Member) -> Iterator[Circle]:
+    """The round holes of a plate, where they are at input angle 0."""
+    assert isinstance(member.part, Plate)
+    turn, (x, y) = cmath.rect(1.0, member.turn), member.at
+    for hole in member.part.holes:
+        if isinstance(hole, Circle):
+            z = complex(*hole.centre) * turn + complex(x, y)
+            yield Circle(hole.layer, (z.real, z.imag), hole.radius)
 
 
 def _circle(layer: str, at: complex, radius: float) -> Circle:

@@ -12,57 +12,44 @@ import numpy as np
 
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.measure import mapped, turned
-from geneva_cli.curves.plates import Group, Member
+from geneva_cli.curves.plates import Group
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.parts.arm import LAYER as ARM
-from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.arm import CrankArm
+from geneva_cli.parts.built import Built, built
 from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_line, wheel_shapes
-from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import lowest, standing_plates
+from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
-from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.plates import crank_group, wheel_part
-from geneva_cli.parts.shafts import shafts
-from geneva_cli.parts.turn.planes import crank_stop
+from geneva_cli.parts.proof import Proof
 
 BEYOND = 0.04  # of the centre distance: between a part and the arrow that says how it turns
 
 
 def machine(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The machine at input angle 0, from the frame up to the wheel."""
+    return machine_and_parts(found, tolerance, curves)[0]
+
+
+def machine_and_parts(found: Outlines, tolerance: float, curves: str) -> tuple[Drawing, Built]:
+    """The same, and its parts."""
     assembly = found.assembly
-    at = np.zeros(1)
-    psi, angle = float(assembly.wheel(at)[0]), float(assembly.crank(at)[0])
     contour, *circles = wheel_shapes(found, tolerance, curves)
+    whole = built(found, contour, tolerance, curves)
+    psi, angle = whole.wheel.turn, whole.crank.turn
     drawn: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
-    carrier = crank_arm(found) if has_arm(found) else None
-    bars = drawn_links(assembly.given, found)
-    carried = [*crank_shapes(found), *_arm(found, carrier)]
+    carried = [*crank_shapes(found), *_arm(found, whole.arm)]
     drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
-    first = list(first_members(assembly.given, bars))
-    fixed = list(standing_plates(found, bars, tolerance, curves))
-    on_axes = list(shafts(found, lowest(fixed), crank_stop(found, bars)))
     # a first wheel is drawn itself, and not its pitch circle
-    drawn += together(bars._replace(gears=()) if first else bars)
-    drawn += [*shapes(first), *shapes(fixed)]
+    drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
+    drawn += gear_shapes(Proof(assembly.given, found), tolerance, curves)
+    drawn += [*shapes(whole.first), *shapes(whole.standing)]
     drawn += _ways(found, psi, tolerance, curves)
     title = titled(assembly.mechanism)
-    solid = Group(
-        title,
-        (
-            Member(wheel_part(found, contour), turn=psi),
-            Member(crank_group(found, carrier, bars.pin_low), (assembly.L, 0.0), angle),
-            *bars.cut,
-            *bars.joined,
-            *first,
-            *on_axes,
-            *fixed,
-        ),
-    )
+    solid = Group(title, whole.members)
     look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
-    return Drawing(title, tuple(once(drawn)), look, solid)
+    return Drawing(title, tuple(once(drawn)), look, solid), whole
 
 
 def _turns(found: Outlines) -> Iterator[Arc]:

@@ -3,7 +3,7 @@
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
 axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
 turns on: the wheel's, the crank's, a roller's own, a link's first joint. z is along the axis, from
-the wheel's lower face: the stack. Shafts that carry links alone are left out.
+the wheel's lower face: the stack.
 """
 
 from __future__ import annotations
@@ -20,16 +20,14 @@ from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.arm import crank_arm, has_arm
-from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import frame_plate, lowest, standing_plates
+from geneva_cli.parts.built import built
+from geneva_cli.parts.frame import frame_plate
+from geneva_cli.parts.link_shafts import link_shafts
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_part
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.shafts import shafts
 from geneva_cli.parts.sphere.listed import dimensions, shell_rows
-from geneva_cli.parts.turn.planes import crank_stop
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Table, rows_table
 
@@ -75,30 +73,25 @@ def parts_list(proof: Proof) -> Table:
 
 
 def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
-    """All plates of a flat machine, each kind once with its count, as the solids have them."""
-    spec, arm = found.assembly.given.spec, None
-    if has_arm(found):
-        with suppress(GenevaError):  # the check of the arm says why there is none
-            arm = crank_arm(found)
-    bars = None
-    with suppress(GenevaError):  # and that of the links
-        bars = drawn_links(found.assembly.given, found)
-    crank = crank_group(found, arm, bars.pin_low if bars else None)
-    members = [Member(wheel_part(found, found.wheel)), Member(crank)]
-    if bars:
-        members += [*bars.cut, *bars.joined, *first_members(found.assembly.given, bars)]
-        fixed = list(standing_plates(found, bars))
-        members += [*shafts(found, lowest(fixed), crank_stop(found, bars)), *fixed]
-    yield from plate_rows(spec, Group("", tuple(members)))
+    """All plates of a flat machine, each kind once with its count, as the solids have them.
+
+    They are wheel and crank alone where sizes leave no arm or links; a check says why.
+    """
+    try:
+        members = built(found).members
+    except GenevaError:
+        members = Member(wheel_part(found, found.wheel)), Member(crank_group(found))
+    yield from plate_rows(found.assembly.given.spec, Group("", members))
 
 
 def link_rows(proof: Proof) -> Iterator[dict[str, object]]:
-    """The links alone and the frame, of a machine whose wheel is not drawn."""
+    """The links with their shafts and the frame alone, of a machine whose wheel is not drawn."""
     mechanism = proof.mechanism
     bars = drawn_links(mechanism)
     members = [*bars.cut, *bars.joined]
     if mechanism.spec.wheel.FLAT:
-        members.append(Member(frame_plate(proof, [], bars)))
+        frame = frame_plate(proof, [], bars)
+        members += [*link_shafts(mechanism, bars, frame.low), Member(frame)]
     yield from plate_rows(mechanism.spec, Group("", tuple(members)))
 
 

@@ -251,6 +251,45 @@ def test_a_pin_may_be_left_out():
     assert len(holes(drawn_links(design.mechanism).plates[1])) == 3
 
 
+SHAFTS = {
+    "side-crank-z6": {"input crank's shaft": ("input crank", "frame")},
+    "four-bar-z4": {"crank's shaft": ("crank", "frame"), "rocker's pivot": ("rocker", "frame")},
+    "slider-crank": {"crank's shaft": ("crank", "frame")},
+    "geneva-pair": {"first crank's shaft": ("first crank", "frame")},
+    "epicyclic-soft-z6": {"shaft of carrier, planet's arm, planet": ("carrier", None)},
+    "gear-sector": {"crank's shaft": ("crank", "frame")},
+    "noncircular-gears": {"driver gear's shaft": (None, "frame")},
+}
+
+
+@pytest.mark.parametrize("name", SHAFTS)
+def test_shafts_that_carry_links_are_parts(name):
+    """From the frame's lower face to the upper one of the link, and as wide as its bore."""
+    rows = {r["name"]: r for r in shown(name, "parts") if r["row"] == "part"}
+    for shaft, (link, frame) in SHAFTS[name].items():
+        row = rows[shaft]
+        if link:
+            assert float(row["z_high_mm"]) == pytest.approx(float(rows[link]["z_high_mm"]))
+        if frame:
+            assert float(row["z_low_mm"]) == pytest.approx(float(rows[frame]["z_low_mm"]))
+        assert float(row["z_low_mm"]) < float(row["z_high_mm"])
+
+
+def test_nothing_passes_below_a_link_that_stands_beside_the_crank():
+    """So its shaft reaches the frame: it lies in the lowest plane, with every design's drive."""
+    for path in sorted(repo.DESIGNS.glob("*.toml")):
+        mechanism = load(str(path)).mechanism
+        L, turn = mechanism.center_distance_mm, np.linspace(-180.0, 180.0, 25)
+        links = links_at(mechanism, turn)
+        for link in links:
+            for (x, y), kind in zip(link.joints, link.kinds, strict=True):
+                at = x + 1j * y + 0.0 * turn
+                stands = np.ptp(at.real) + np.ptp(at.imag) < 1e-9 * L
+                beside = abs(at[0] - L) > 1e-9 * L and abs(at[0]) > 1e-9 * L
+                if stands and beside and kind in (Joint.SHAFT, Joint.PIN):
+                    assert link.plane == max(one.plane for one in links), (path.stem, link.name)
+
+
 def test_kerf_and_solids(tmp_path):
     """Outlines grow by half the cut and holes shrink; the solids stand in their planes."""
     design = load(str(repo.DESIGNS / "slider-crank.toml"))

@@ -2,12 +2,14 @@
 
 import math
 import re
+from functools import cache
 
 import numpy as np
 import pytest
 import repo
 import shapely
 from drawing_witness import vertices
+from shapely import affinity
 from shapely.geometry import LineString, Polygon, box
 from words import Drive, Keys, Motion, Spec, Wheel
 
@@ -16,10 +18,11 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import Label
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.sheet import marks
 from geneva_cli.parts.sheet.board import Board
 from geneva_cli.parts.sheet.paper import FORMATS, SCALES
-from geneva_cli.parts.sheet.points import polyline, tables
+from geneva_cli.parts.sheet.points import gear_tables, polyline, tables
 from geneva_cli.parts.sheet.sheet import sheet
 from geneva_cli.spec.tables import Size, Tolerance
 
@@ -57,12 +60,23 @@ def of(spec, tolerance=TOLERANCE):
     return Design.of(spec).sheet(tolerance)
 
 
+@pytest.fixture(scope="module")
+def sheets():
+    """A design's sheet by its name, each made once."""
+
+    @cache
+    def made(name):
+        design = load(str(repo.DESIGNS / f"{name}.toml"))
+        return design, design.sheet(TOLERANCE)
+
+    return made
+
+
 @pytest.mark.parametrize(
     "path", [p for p in DESIGNS if p.stem not in UNDRAWN], ids=lambda p: p.stem
 )
-def test_no_text_of_a_design_stands_on_anything(path):
-    design = load(str(path))
-    found = design.sheet(TOLERANCE)
+def test_no_text_of_a_design_stands_on_anything(path, sheets):
+    design, found = sheets(path.stem)
     assert overlaps(found) == []
     assert (found.width, found.height) in [(f.width, f.height) for f in FORMATS]
     assert found.scale in SCALES
@@ -150,9 +164,8 @@ def test_without_clearance_the_fit_gives_it():
     assert {"6× 12 H7 (+0.018/0)", "Ø 12 g6 (-0.006/-0.017)"} <= set(texts)
 
 
-def test_the_title_block_says_what_is_there():
-    design = load(str(repo.DESIGNS / "limits.toml"))
-    found = design.sheet(TOLERANCE)
+def test_the_title_block_says_what_is_there(sheets):
+    design, found = sheets("limits")
     texts = {label.text for label in found.labels}
     rows = design.part_table("parts").to_dict()
     parts = zip(rows["name"], rows["mass_kg"], rows["count"], strict=True)
@@ -173,10 +186,74 @@ def test_the_roller_turns_on_a_pin_that_the_arm_holds():
         assert "turns on its pin Ø 6 h6 (0/-0.008), which is pressed in" in labels
 
 
-def test_a_list_of_parts_that_is_too_long_for_its_field_is_referred_to():
-    texts = {label.text for label in load(str(repo.DESIGNS / "four-bar-z4.toml")).sheet().labels}
+def test_a_list_of_parts_that_is_too_long_for_its_field_is_referred_to(sheets):
+    texts = {label.text for label in sheets("four-bar-z4")[1].labels}
     assert "see list" in texts
     assert not any(text.endswith("...") for text in texts)
+
+
+LENGTHS = {
+    "four-bar-z4": ("crank a", "coupler b", "rocker c"),
+    "slider-crank": ("crank a", "rod b"),
+    "side-crank-z6": ("input crank r",),
+    "epicyclic-z4": ("carrier R0", "planet crank rp"),
+    "geneva-pair": ("first crank radius",),
+}
+
+
+@pytest.mark.parametrize("name", LENGTHS)
+def test_links_have_their_views(name, sheets):
+    """Each link by its name, with the lengths of the list of parts as dimensions on paper."""
+    design, found = sheets(name)
+    rows = design.part_table("parts").to_rows()
+    titles = [re.sub(r", t = .*", "", label.text) for label in found.labels]
+    bars = drawn_links(design.mechanism, design.parts)
+    for i, row in enumerate((row for row in rows if row["row"] == "part"), 1):
+        if row["name"] in {plate.name for plate in bars.plates}:
+            assert f"{i} {row['name']}" in titles
+    linear = {round(m.value, 3) for m in found.measures if m.kind == "linear"}
+    values = {row["name"]: row["value"] for row in rows if row["row"] == "dimension"}
+    assert {round(values[one], 3) for one in LENGTHS[name]} <= linear
+    # the first crank's roller is on a pin that is pressed into it, as the arm's is
+    pressed = [label.text for label in found.texts if " P7 " in label.text]
+    assert len(pressed) == (2 if name == "geneva-pair" else 1)
+
+
+def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
+    """The printed points of both: they touch on the line of centres, C apart, and never cross."""
+    design, found = sheets("noncircular-gears")
+    L = design.mechanism.center_distance_mm
+    driven, driver = gear_tables(design.mechanism, 0.01)
+    rings = []
+    for block in (driven, driver):
+        downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
+        printed = [t.text for t in downwards if re.fullmatch(r"-?\d+\.\d{3}", t.text)]
+        points = list(zip(map(float, printed[::2]), map(float, printed[1::2]), strict=True))
+        assert "mirror image" in " ".join(label.text for label in block.labels)
+        turns = [math.atan2(y, x) for x, y in points]
+        points = [p for _, p in sorted(zip(turns, points, strict=True))]
+        rings.append(points + [(x, -y) for x, y in reversed(points)])
+    C = design.spec.drive.gears.distance_mm
+    one, other = Polygon(rings[0]), affinity.translate(Polygon(rings[1]), C)
+    close = 1e-4 * L  # of the table's chords
+    assert one.distance(other) < 2.0 * close
+    assert one.intersection(other).area < close * C
+    assert round(one.bounds[2] - other.bounds[0], 3) == 0.0
+    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "linear")
+    assert "gears" in {label.text for label in found.labels}
+
+
+def test_small_machines_are_enlarged_and_large_ones_fill_their_paper(sheets):
+    _, pair = sheets("geneva-pair")
+    assert (pair.scale, pair.width) == (2.0, 594.0)
+    for name in ("geneva-pair", "side-crank-z6", "epicyclic-z4"):
+        _, found = sheets(name)
+        reach = [at for label in found.labels for at in label.corners]
+        reach += [p for m in found.measures for p in m.points]
+        reach = [p for p in reach if p[0] < found.width - 190.0]  # beside list and title block
+        x, y = zip(*reach, strict=True)
+        filled = (max(x) - min(x)) * (max(y) - min(y))
+        assert filled > 0.5 * (found.width - 190.0) * found.height
 
 
 def test_points_of_a_curved_slot_are_on_it():

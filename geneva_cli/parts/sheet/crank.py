@@ -8,7 +8,7 @@ from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Arc, Circle, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.parts.arm import CrankArm, bolts
-from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.sheet import sized
@@ -157,11 +157,6 @@ def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> Non
     view.cross((0.0, 0.0), reach)
     view.cross((L, 0.0), max(found.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
-
-
-def carried(found: Outlines) -> int:
-    """How many rollers there are on the crank."""
-    return len(roller_centres(found.assembly))
 
 
 def _is(a: float, b: float) -> bool:

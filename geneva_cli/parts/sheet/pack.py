@@ -1,45 +1,70 @@
 """Blocks side by side on a sheet: the largest first, each as high up and then as far left as goes.
 
-A block's place is a corner that the frame and the blocks before it leave open.
+A block's place is a corner that the frame and the blocks before it leave open. Largest is by area,
+or by height or width where that does not go; what goes is spread over the sheet.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 from geneva_cli.parts.sheet.view import Block
 
-APART = 8.0  # mm: between two blocks
+APART = 8.0, 12.0, 18.0, 27.0, 40.0  # mm: between two blocks, the least first
+Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
+ORDERS: tuple[Callable[[Block], float], ...] = (
+    lambda block: -block.width * block.height,
+    lambda block: -block.height,
+    lambda block: -block.width,
+)
 
 
-def packed(
-    blocks: Sequence[Block], taken: Sequence[Block], area: tuple[float, float, float, float]
-) -> list[Block] | None:
-    """The blocks where they have room in an area (x0, y0, x1, y1) beside those that are there.
+def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
+    """The blocks where they have room in an area beside those that are there.
 
     None where they have none.
     """
+    for order in ORDERS:
+        found = _packed(blocks, taken, area, order, APART[0])
+        if found is None:
+            continue
+        for apart in APART[1:]:
+            wider = _packed(blocks, taken, area, order, apart)
+            if wider is None:
+                break
+            found = wider
+        return found
+    return None
+
+
+def _packed(
+    blocks: Sequence[Block],
+    taken: Sequence[Block],
+    area: Box,
+    order: Callable[[Block], float],
+    apart: float,
+) -> list[Block] | None:
     x0, y0, x1, y1 = area
     found: dict[int, Block] = {}
-    around = list(taken)
-    for i in sorted(range(len(blocks)), key=lambda k: -blocks[k].width * blocks[k].height):
+    around = [(b.x0, b.y0, b.x1, b.y1) for b in taken]
+    for i in sorted(range(len(blocks)), key=lambda k: order(blocks[k])):
         block = blocks[i]
-        lefts = sorted({x0 + APART, *(b.x1 + APART for b in around)})
-        tops = sorted({y1 - APART, *(b.y0 - APART for b in around)}, reverse=True)
+        lefts = sorted({x0 + apart, *(box[2] + apart for box in around)})
+        tops = sorted({y1 - apart, *(box[1] - apart for box in around)}, reverse=True)
         for top, left in ((top, left) for top in tops for left in lefts):
-            placed = block.moved(left - block.x0, top - block.y1)
-            fits = placed.x1 <= x1 - APART and placed.y0 >= y0 + APART
-            if fits and not any(_meet(placed, other) for other in around):
+            box = (left, top - block.height, left + block.width, top)
+            fits = box[2] <= x1 - apart and box[1] >= y0 + apart
+            if fits and not any(_meet(box, other, apart) for other in around):
                 break
         else:
             return None
-        found[i] = placed
-        around.append(placed)
+        found[i] = block.moved(left - block.x0, top - block.y1)
+        around.append(box)
     return [found[i] for i in range(len(blocks))]
 
 
-def _meet(a: Block, b: Block) -> bool:
-    gap = 0.999 * APART
-    return not (
-        a.x1 + gap <= b.x0 or b.x1 + gap <= a.x0 or a.y1 + gap <= b.y0 or b.y1 + gap <= a.y0
-    )
+def _meet(a: Box, b: Box, apart: float) -> bool:
+    gap = 0.999 * apart
+    beside = a[2] + gap <= b[0] or b[2] + gap <= a[0]
+    return not (beside or a[3] + gap <= b[1] or b[3] + gap <= a[1])

@@ -1,4 +1,4 @@
-"""Tables of points, of curves that no few numbers describe: curved slots, a cam's groove."""
+"""Tables of points, of curves that no few numbers describe: curved slots, grooves, pitch curves."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.gear_drawings import crank_sense, driven_curve, driver_curve
 from geneva_cli.parts.groove import groove_curve
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sheet import sized
@@ -21,6 +23,7 @@ COARSE = 1e-4  # of the centre distance: no table is finer than that
 COLUMNS = (9.0, 17.0, 17.0)
 ROWS = 40  # at most, before the table goes on beside itself
 MIRRORED = "; the other half is its mirror image in the x axis"
+SAME = 1e-9  # of the centre distance
 BEGIN = 4  # intervals
 DEPTH = 14  # halvings of one
 BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is looked at
@@ -54,6 +57,26 @@ def tables(found: Outlines, tolerance: float) -> list[Block]:
         last = 180.0 if symmetric else 360.0
         points = polyline(lambda t: guided(t)[0], 0.0, last, close)
         what = "groove: points of its centre line"
+        made.append(_table(what + (MIRRORED if symmetric else ""), points, close))
+    return made
+
+
+def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
+    """A table for each noncircular gear; none without them."""
+    pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
+    if pair is None:
+        return []
+    close, made = max(tolerance, COARSE * L), []
+    for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):
+        both = of(pair, crank_sense(mechanism))
+
+        def curve(t: Array, both: Callable[[Array], tuple[Array, Array]] = both) -> Array:
+            return both(np.radians(t))[0]
+
+        seen = np.linspace(0.0, 180.0, 37)
+        symmetric = bool(np.abs(curve(-seen) - curve(seen) * (1.0, -1.0)).max() < SAME * L)
+        points = polyline(curve, 0.0, 180.0 if symmetric else 360.0, close)
+        what = f"{name}: points of its pitch curve about its axis, at input angle 0"
         made.append(_table(what + (MIRRORED if symmetric else ""), points, close))
     return made
 

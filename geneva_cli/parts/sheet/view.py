@@ -236,7 +236,7 @@ def number(value: float, decimals: int = 3) -> str:
     >>> number(173.20508), number(20.0)
     ('173.205', '20')
     """
-    text = f"{value:.{decimals}f}"
+    text = f"{round(value, decimals) + 0.0:.{decimals}f}"  # no -0
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 

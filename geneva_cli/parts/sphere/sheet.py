@@ -8,6 +8,7 @@ where it is near.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from geneva_cli.curves.measure import mapped
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape, about, closed
@@ -15,8 +16,8 @@ from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, Sheet, polar
 from geneva_cli.curves.sphere import Region
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.composed import on_paper
 from geneva_cli.parts.sheet.paper import table
-from geneva_cli.parts.sheet.sheet import on_paper
 from geneva_cli.parts.sheet.view import Block, View, number, times
 from geneva_cli.parts.sphere.drawings import PITCH, crank_cone, crank_flat, wheel_cone, wheel_flat
 from geneva_cli.parts.sphere.laid_flat import CYLINDER, Cone
@@ -45,13 +46,13 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     ]
     angles = table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS)
 
-    def blocks(scale: float) -> list[Block]:
+    def blocks(scale: float) -> Iterator[list[Block]]:
         views = (
             _section(found, locks, scale),
             _flat("wheel", found, wheel_cone(found), wheel, scale),
             _flat("crank", found, crank_cone(found), crank, scale),
         )
-        return [*(view.block() for view in views), angles]
+        yield [*(view.block() for view in views), angles]
 
     items = list(shell_rows(proof))
     return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)

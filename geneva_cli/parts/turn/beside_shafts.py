@@ -17,15 +17,9 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
-from geneva_cli.parts.arm import crank_arm, has_arm
-from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import lowest, standing_plates
+from geneva_cli.parts.built import built
 from geneva_cli.parts.link_drawings import placed
-from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.plates import crank_group, wheel_part
-from geneva_cli.parts.shafts import shafts
-from geneva_cli.parts.turn.planes import crank_stop
 from geneva_cli.parts.wheel_hub import HUB
 
 SAME = 1e-9  # of the centre distance: what shares less of a height only touches
@@ -65,17 +59,11 @@ def beside_shafts(found: Outlines) -> Beside | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    given, axis = found.assembly.given, (found.assembly.L, 0.0)
-    bars = drawn_links(given, found)
-    fixed = list(standing_plates(found, bars))
-    carrier = crank_arm(found) if has_arm(found) else None
-    crank = crank_group(found, carrier, bars.pin_low)
-    first = first_members(given, bars)
-    members = [Member(wheel_part(found, found.wheel)), Member(crank, axis), *first, *fixed[:-1]]
+    whole = built(found)
+    members = [whole.wheel, whole.crank, *whole.first, *whole.standing[:-1]]
     rings = [ring for one in members for ring in _rings(one)]
     axes = [ring for ring in rings if ring.layer == HUB]
-    for one in shafts(found, lowest(fixed), crank_stop(found, bars)):
-        axes += _rings(one)
+    axes += [ring for one in whole.shafts for ring in _rings(one)]
     near = SAME * found.assembly.L
     return min(
         (

@@ -1,0 +1,137 @@
+"""Blocks on a sheet of paper, with the list of items and a title block.
+
+The views have one scale, the largest of the standard's with which all goes on one sheet, A1 at
+most, the smallest sheet that will do. Above 1:1 the largest part is no wider than a hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from geneva_cli.curves.sheet import Sheet
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.sheet.pack import packed
+from geneva_cli.parts.sheet.paper import (
+    BLOCK,
+    FORMATS,
+    LEFT,
+    MARGIN,
+    SCALES,
+    PaperSize,
+    frame,
+    scale_name,
+    table,
+    title_block,
+)
+from geneva_cli.parts.sheet.view import Block, number
+from geneva_cli.spec.tables import Material
+
+ENLARGED = 170.0  # mm: how large a part is drawn at most above 1:1
+GENERAL = "ISO 2768-m"  # tolerances of what has none of its own
+ITEMS = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm: columns of the list of items
+
+
+def on_paper(
+    spec: Spec,
+    rows: list[dict[str, Any]],
+    largest: float,
+    blocks: Callable[[float], Iterable[list[Block]]],
+    area: float = 0.0,
+) -> Sheet:
+    """The sheet of blocks to the largest scale with which all go on one; ``rows`` are its items.
+
+    ``blocks`` yields what may be on it, the best first. ``largest`` is the longest of what is
+    drawn, mm, and ``area``, mm², what some of it needs at least. Raises GenevaError where no scale
+    will do.
+    """
+    for scale in SCALES:
+        width, height = FORMATS[-1].width, FORMATS[-1].height
+        most = ENLARGED if scale > 1.0 else width
+        if scale * largest > most or scale * scale * area > width * height:
+            continue
+        drawn = list(blocks(scale))
+        for paper in FORMATS:
+            for one in drawn:
+                made = _composed(spec, paper, scale, rows, one)
+                if made is not None:
+                    return made
+    raise GenevaError(
+        "--part sheet: the parts and their tables do not go on one A1 sheet; a coarser "
+        "--tolerance makes shorter tables"
+    )
+
+
+def _composed(
+    spec: Spec,
+    paper: PaperSize,
+    scale: float,
+    rows: list[dict[str, Any]],
+    blocks: list[Block],
+) -> Sheet | None:
+    """All on one sheet; None where it has no room."""
+    materials = [_material(spec.material_wheel), _material(spec.material_roller)]
+    fields = {
+        "scale": scale_name(scale),
+        "mass": f"{_rounded(sum(r['mass_kg'] * r['count'] for r in rows))} kg",
+        "material": materials[0] if len(set(materials)) == 1 else "see list",
+        "tolerances": GENERAL,
+        "units": "mm, degrees",
+        "size": paper.name,
+        "sheet": "1/1",
+    }
+    names = ", ".join(str(row["name"]) for row in rows)
+    head = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    right, low = paper.width - MARGIN, MARGIN
+    corner = title_block(fields, head, names).moved(right - BLOCK, low)
+    items = _items(rows, materials)
+    items = items.moved(right - items.width, corner.y1)
+    area = LEFT, MARGIN, right, paper.height - MARGIN
+    placed = packed(blocks, [corner, items], area)
+    if placed is None:
+        return None
+    every = [corner, items, *placed]
+    return Sheet(
+        head,
+        paper.width,
+        paper.height,
+        scale,
+        (*frame(paper), *(s for b in every for s in b.shapes)),
+        tuple(label for b in every for label in b.labels),
+        tuple(m for b in every for m in b.measures),
+    )
+
+
+def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
+    """The list of items (ISO 7573), from below."""
+    own = {"material.wheel": materials[0], "material.roller": materials[1]}
+    lines = [
+        (
+            str(i),
+            str(row["name"]),
+            str(row["count"]),
+            number(row["thickness_mm"]),
+            _rounded(row["mass_kg"]),
+            own[row["material"]],
+        )
+        for i, row in enumerate(rows, 1)
+    ]
+    heading = ("item", "part", "count", "t", "kg each", "material")
+    return table((), [heading, *lines], ITEMS)
+
+
+def _material(of: Material) -> str:
+    """Steel where nothing else is said, or else the density that is given."""
+    usual = type(of)()
+    same = (of.youngs_modulus_GPa, of.poisson_ratio, of.density_kgm3) == (
+        usual.youngs_modulus_GPa,
+        usual.poisson_ratio,
+        usual.density_kgm3,
+    )
+    return "steel" if same else f"{of.density_kgm3:g} kg/m³"
+
+
+def _rounded(mass: float) -> str:
+    """Four digits, and no exponent."""
+    return number(float(f"{mass:.4g}"), 9)

@@ -1,0 +1,172 @@
+"""The views of links and gears, and a table of the round parts between links."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
+from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.machine.layout import Joint
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.frame import same
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links import Gear, Links, placed_holes
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.paper import table
+from geneva_cli.parts.sheet.view import Block, View, number, times
+
+UP = 0.5 * math.pi
+NEAR = 1e-6  # mm
+COLUMNS = (62.0, 44.0, 46.0, 16.0)  # mm, of the table of round parts
+HEADING = ("round parts",)
+TOOTHLESS = "teeth are for who cuts them"
+
+
+def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
+    """A link, or a block that slides in one: its holes, eyes and slots, from its first hole."""
+    plate = member.part
+    assert isinstance(plate, Plate)
+    for shape in (plate.outline, *plate.holes):
+        view.draw(shape, OUTLINE)
+    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    slots = [hole for hole in plate.holes if isinstance(hole, Contour)]
+    for hole in holes:
+        view.cross(hole.centre, 2.0 * hole.radius)
+    base = _base(view, plate, holes)
+    for slot in slots:
+        _slot(view, slot, base)
+    _places(view, holes, base)
+    pressed = _pressed(mechanism)
+    shown: dict[str, list[Circle]] = {}
+    for hole, there in zip(holes, placed_holes(member), strict=True):
+        held = any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed)
+        text = sized.pin_hole(mechanism, hole.radius) if held else sized.bore(hole.radius)
+        shown.setdefault(text, []).append(hole)
+    for text, some in shown.items():
+        view.diameter(some, times(len(some), text))
+    _outline(view, plate, plate.name in bars.blocks)
+
+
+def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
+    """What a link is measured from: its own origin if that is on it, else its first hole."""
+    assert isinstance(plate.outline, Contour)
+    eyes = (piece for piece in plate.outline.segments if isinstance(piece, Arc))
+    own = next((eye for eye in eyes if math.hypot(*eye.centre) < NEAR), None)
+    first = min((hole.centre for hole in holes), key=lambda p: math.hypot(*p))
+    if own is None or math.hypot(*first) < NEAR:
+        return first
+    view.cross((0.0, 0.0), own.radius)
+    view.remark("one piece with its shaft")
+    return 0.0, 0.0
+
+
+def _pressed(mechanism: Mechanism) -> list[Point]:
+    """Where pins of rollers are pressed in, at input angle 0: in a link, or in its block."""
+    found = []
+    for link in links_at(mechanism, np.zeros(1)):
+        for way, kind in zip(places(link), link.kinds, strict=True):
+            if kind in (Joint.ROLLER, Joint.CARRIED):
+                found.append((float(way[0].real), float(way[0].imag)))
+    return found
+
+
+def _places(view: View, holes: list[Circle], base: Point) -> None:
+    """How far the other holes are from the first, along the link and across."""
+    for axis, turn in ((0, 0.0), (1, UP)):
+        seen = {number(0.0)}
+        for hole in sorted(holes, key=lambda h: abs(h.centre[axis] - base[axis])):
+            text = number(abs(hole.centre[axis] - base[axis]))
+            if text not in seen:
+                seen.add(text)
+                view.linear(base, hole.centre, turn, text)
+
+
+def _slot(view: View, slot: Contour, base: Point) -> None:
+    """Width and ends of a slot of round ends, and its direction where that is not the link's."""
+    ends = [piece for piece in slot.segments if isinstance(piece, Arc)]
+    near, far = sorted(ends, key=lambda arc: math.dist(arc.centre, base))
+    (x0, y0), (x1, y1) = near.centre, far.centre
+    way = math.atan2(y1 - y0, x1 - x0)
+    view.centre_line(at(near, 0.5), at(far, 0.5))
+    view.linear(base, near.centre, way, sized.plain(_along(base, near.centre, way)))
+    view.linear(near.centre, far.centre, way, sized.plain(math.dist(near.centre, far.centre)))
+    half = near.radius
+    sides = [(x1 + s * half * math.sin(way), y1 - s * half * math.cos(way)) for s in (-1.0, 1.0)]
+    view.linear(sides[0], sides[1], way + UP, sized.fitted(2.0 * half, "", "H7"))
+    turn = math.degrees(abs(math.remainder(way, math.tau)))
+    if turn > NEAR and math.hypot(*base) < NEAR:
+        legs = (0.0, way) if way > 0.0 else (way, 0.0)
+        reach = math.dist(base, near.centre)
+        view.angular([legs], 0.0, reach, f"{number(turn)}°")
+
+
+def _along(p: Point, q: Point, way: float) -> float:
+    return abs((q[0] - p[0]) * math.cos(way) + (q[1] - p[1]) * math.sin(way))
+
+
+def _outline(view: View, plate: Plate, slides: bool) -> None:
+    """The radii of its eyes; a block has the width that goes into the slot, and its length."""
+    assert isinstance(plate.outline, Contour)
+    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
+    if slides:
+        half, (x, _) = arcs[0].radius, arcs[0].centre
+        end = abs(x) + half
+        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(2.0 * half, "", "g6"))
+        view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
+        return
+    radii: dict[str, list[Arc]] = {}
+    for arc in arcs:
+        radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
+    for text, some in radii.items():
+        view.of_arcs(some, times(len(some), text))
+
+
+def draw_gear(view: View, gear: Gear) -> None:
+    """A gear's pitch circle and bore."""
+    pitch, bore = (Circle("", (0.0, 0.0), r) for r in (gear.radius, gear.bore))
+    view.draw(pitch, CENTRE)
+    view.cross((0.0, 0.0), gear.radius)
+    view.diameter([pitch], f"pitch {sized.plain(2.0 * gear.radius, 'Ø ')}")
+    if gear.bore:
+        view.draw(bore, OUTLINE)
+        view.diameter([bore], sized.bore(gear.bore))
+    view.remark(f"pitch circle; {TOOTHLESS}")
+
+
+def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -> None:
+    """The pitch curves of two gears as they mesh at input angle 0, with bores, about their axes."""
+    for shape in shapes:
+        view.draw(shape, OUTLINE if isinstance(shape, Circle) else CENTRE)
+    view.centre_line(*ends)
+    for bore in shapes:
+        if isinstance(bore, Circle):
+            view.cross(bore.centre, bore.radius)
+            view.diameter([bore], sized.bore(bore.radius))
+    view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
+    view.remark(f"pitch curves; {TOOTHLESS}")
+
+
+def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
+    """A table of the pins, washers, spacers and rollers that links have between them."""
+    found = list(_rows(members, mechanism))
+    return [table(HEADING, [("part", "outside", "bore", "length"), *found], COLUMNS)] * bool(found)
+
+
+def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
+    for plate in dict.fromkeys(one.part for one in members if isinstance(one.part, Plate)):
+        assert isinstance(plate.outline, Circle)
+        outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
+        rolls = plate.layer == "ROLLER"
+        outside = sized.plain(2.0 * outer, "Ø ")
+        if not bores:
+            outside = sized.pin(outer)
+        elif rolls:
+            outside = sized.roller(mechanism, outer)
+        inside = "".join(sized.roller_bore(bore.radius) for bore in bores)
+        yield plate.name, outside, inside, number(plate.thickness)
