@@ -31,6 +31,14 @@ class Anchors(ABC):
 
     cuts: Sequence[float]
 
+    @property
+    @abstractmethod
+    def alike(self) -> bool:
+        """Whether they differ in numbers alone, so that one call can serve them all.
+
+        Those of one design need not, as of gears given by points.
+        """
+
     @abstractmethod
     def __len__(self) -> int:
         """How many."""
@@ -62,14 +70,13 @@ class EachAnchor(Anchors):
 
     @cached_property
     def alike(self) -> bool:
-        """Whether they differ in numbers alone, so that one call can serve them all."""
-        return are_alike(self.each)
+        """True of many designs, whose numbers are arrays."""
+        one = isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float)
+        return not one or are_alike(self.each)
 
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
         """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
-        many = not (isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float))
-        # anchors of one design need not differ in numbers alone, as of gears given by points
-        if are_designs(input_deg, self.cuts[0], self.cuts[-1]) and (many or self.alike):
+        if are_designs(input_deg, self.cuts[0], self.cuts[-1]) and self.alike:
             return solve(chosen(input_deg, self.cuts, self.each), input_deg)
         if not isinstance(input_deg, float) and input_deg.size and self.alike:
             import numpy as np
@@ -95,6 +102,11 @@ class StackedAnchors(Anchors):
         self.stack: Stack[Anchor] = Stack(each)
         self.rows = self.stack.rows
         self.cuts = cuts([anchor.input_deg for anchor in each])
+
+    @property
+    def alike(self) -> bool:
+        """True of all."""
+        return True
 
     def __len__(self) -> int:
         return len(self.stack)

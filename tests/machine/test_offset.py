@@ -6,10 +6,14 @@ place of the input angle, or of ``offset_mm``, moves.
 
 import math
 
+import design_arrays
+import numpy as np
 import pytest
+from design_arrays import RATIO
 from stress import DIGITS, LIMIT, Table, mp, other_one, read
 
 from geneva_cli.analysis.peaks import worst
+from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.angles import cos_squared_less
 
 NEAR = (1e-4, 1e-9, 1e-14)
@@ -54,3 +58,12 @@ def test_the_distance_to_the_limit(p, q):
             want = exact - mp.mpf(x)
             # 112 bits behind the point, of which what is left after 53 of x are the digits
             assert abs(cos_squared_less(p, q, x) - want) <= abs(want) * 2**-53 + mp.mpf(2) ** -110
+
+
+def test_gears_by_points():
+    """Their anchors differ in more than numbers: angles as of many designs are cut up, too."""
+    keys = design_arrays.machine(6, "noncircular-gears", own={"offset_mm": 15.0}, ratio=RATIO)
+    (s,) = build(keys).engagements
+    x = np.linspace(s.entry_deg, s.exit_deg, 41)
+    for one, row in zip(s.motion(x).arrays(), s.motion(x[:, None]).arrays(), strict=True):
+        assert np.array_equal(one[:, None], row)

@@ -53,8 +53,8 @@ def one(text):
         consistent(found)
         sound(flat(peaks_table(found)))
         sound(motion_table(found, 97))
-        sound(flat(report(found).table), BOUNDLESS)
-        sound(checks_table([Verdict("", checks=tuple(judged(found)))]), BOUNDLESS)
+        tried(lambda: flat(report(found).table))  # loads that would be rounding are refused
+        tried(lambda: checks_table([Verdict("", checks=tuple(judged(found)))]))
         tolerance = TOLERANCE * found.center_distance_mm / 100.0
         for part in PARTS:
             for samples in (None, 33, 50) if is_table(found, part, False) else ():

@@ -48,9 +48,10 @@ class OffsetFollowed(Followed):
 
     def _told(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
         """The wheel's angle, or its rate, one order lower."""
-        (entry, mid, exit_), cuts = self.path.anchors, self.path.anchors.cuts
+        anchors = self.path.anchors
+        (entry, mid, exit_), cuts = anchors, anchors.cuts
         first, last = (self._from_end(end, order, angle) for end in (entry, exit_))
-        if are_designs(input_deg, *cuts):  # one formula serves both ends
+        if are_designs(input_deg, *cuts) and anchors.alike:  # one formula serves both ends
 
             def nearer(x: Number) -> Jet:
                 return self._from_end(chosen(x, (mid.input_deg,), (entry, exit_)), order, angle)(x)
