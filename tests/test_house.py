@@ -3,10 +3,12 @@ rooms touch files or know Typer; and nobody asks which machine it is.
 """
 
 import ast
+import functools
 import os
 import re
 import textwrap
 from graphlib import CycleError, TopologicalSorter
+from typing import NamedTuple
 
 import pytest
 
@@ -70,6 +72,7 @@ def modules():
 
 
 MODULES = sorted(modules())
+KNOWN = frozenset(MODULES)
 
 
 def source(module):
@@ -87,28 +90,34 @@ def floor(module):
     return next((i for i, rooms in enumerate(FLOORS) if room(module) in rooms), None)
 
 
+def named(node):
+    """The name that stands there alone; nothing where it is more."""
+    return node.id if isinstance(node, ast.Name) else ""
+
+
 def running(tree):
     """The nodes that run: all but what stands under ``if TYPE_CHECKING``."""
-    for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
-            for other in node.orelse:
-                yield from running(other)
-            continue
+    rest = [tree]
+    while rest:
+        node = rest.pop()
         yield node
-        yield from running(node)
+        if isinstance(node, ast.If) and named(node.test) == "TYPE_CHECKING":
+            rest += node.orelse
+        else:
+            rest += ast.iter_child_nodes(node)
 
 
 def own(name):
     """The module of ours that ``geneva_cli.name`` means, whatever is taken of it."""
     parts = name.split(".")
-    while parts and ".".join(parts) not in MODULES:
+    while parts and ".".join(parts) not in KNOWN:
         parts.pop()
     return ".".join(parts)
 
 
-def imports(text):
-    """All modules that a source imports, at its top or in a function; ours without the package."""
-    for node in running(ast.parse(text)):
+def imported(tree):
+    """All modules that are imported, at the top or in a function; ours without the package."""
+    for node in running(tree):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -122,7 +131,7 @@ def imports(text):
 
 
 def ours(text):
-    return {name for name in imports(text) if not name.endswith("(theirs)")} - {""}
+    return {name for name in read(text).imports if not name.endswith("(theirs)")} - {""}
 
 
 def climbs(module, text):
@@ -137,26 +146,26 @@ def beside_designs(text):
     return {m for m in ours(text) if room(m) in inner} - ALONE
 
 
-def streams(text):
-    """Calls and names in a source that touch a file or a stream."""
-    for node in running(ast.parse(text)):
-        said = ast.unparse(node)
-        if isinstance(node, ast.Call) and ast.unparse(node.func) in (
-            "open",
-            "io.open",
-            "os.open",
-            "print",
-            "input",
-            "exec",
+CALLS = ("open", "io.open", "os.open", "print", "input", "exec")
+
+
+def streams(tree):
+    """Calls and names that touch a file or a stream."""
+    for node in running(tree):
+        # the text of calls and of few attributes: that of every node takes as long as all else
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in CALLS:
+            yield ast.unparse(node)
+        if (
+            isinstance(node, ast.Attribute)
+            and node.attr in ("stdin", "stdout", "stderr")
+            and named(node.value) == "sys"
         ):
-            yield said
-        if isinstance(node, ast.Attribute) and said in ("sys.stdin", "sys.stdout", "sys.stderr"):
-            yield said
+            yield ast.unparse(node)
 
 
-def asks(text):
-    """Where a source asks which machine it is: by a kind's name, or by a literal attribute."""
-    for node in ast.walk(ast.parse(text)):
+def asks(tree):
+    """Where it is asked which machine it is: by a kind's name, or by a literal attribute."""
+    for node in ast.walk(tree):
         if isinstance(node, ast.Compare):
             for side in (node.left, *node.comparators):
                 words = {n.value for n in ast.walk(side) if isinstance(n, ast.Constant)}
@@ -164,11 +173,13 @@ def asks(text):
                     yield ast.unparse(node)
         if not (isinstance(node, ast.Call) and len(node.args) > 1):
             continue
-        called, second = ast.unparse(node.func), node.args[1]
-        literal = called in ("getattr", "hasattr") and isinstance(second, ast.Constant)
-        kinds = {ast.unparse(n).rpartition(".")[2] for n in ast.walk(second)}
-        if literal or (called in ("isinstance", "issubclass") and kinds & CLASSES):
+        called, second = named(node.func), node.args[1]
+        if called in ("getattr", "hasattr") and isinstance(second, ast.Constant):
             yield ast.unparse(node)
+        if called in ("isinstance", "issubclass"):
+            kinds = {ast.unparse(n).rpartition(".")[2] for n in ast.walk(second)}
+            if kinds & CLASSES:
+                yield ast.unparse(node)
 
 
 CORE = {"numerics", "machine", "curves", "analysis", "parts"}
@@ -191,9 +202,9 @@ ANY = {
 }
 
 
-def untyped(text):
-    """The names of functions, fields and aliases of a source that are annotated with ``Any``."""
-    for node in ast.walk(ast.parse(text)):
+def untyped(tree):
+    """The names of functions, fields and aliases that are annotated with ``Any``."""
+    for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef):
             given = node.args
             every = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
@@ -213,6 +224,22 @@ CLASSES = {
     for kinds in (registry.DRIVES, registry.GEARINGS, registry.LAWS)
     for path in kinds.values()
 } | {"Transmission", "PinPath", "Linkage", "Followed", "Classic", "LawMotion", "SolvedSlot"}
+
+
+class Read(NamedTuple):
+    """What the rules ask of a source."""
+
+    imports: list
+    streams: list
+    asks: list
+    untyped: set
+
+
+@functools.cache
+def read(text):
+    """A source, parsed once for all rules."""
+    tree = ast.parse(text)
+    return Read(list(imported(tree)), list(streams(tree)), list(asks(tree)), set(untyped(tree)))
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m])
@@ -267,17 +294,18 @@ def test_a_command_that_goes_round_the_design_would_be_noticed(line):
 
 @pytest.mark.parametrize("module", [m for m in MODULES if room(m) not in STREAMS])
 def test_touches_no_stream(module):
-    assert list(streams(source(module))) == []
+    assert read(source(module)).streams == []
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if room(m) not in TYPER])
 def test_does_not_know_typer(module):
-    assert not [name for name in imports(source(module)) if name.startswith(("typer", "click"))]
+    found = read(source(module)).imports
+    assert not [name for name in found if name.startswith(("typer", "click"))]
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m != "machine.registry"])
 def test_nobody_asks_which_machine_it_is(module):
-    assert list(asks(source(module))) == []
+    assert read(source(module)).asks == []
 
 
 @pytest.mark.parametrize(
@@ -301,7 +329,7 @@ def test_an_import_upwards_would_be_noticed(line):
 )
 def test_no_number_of_the_core_is_any(module):
     """What goes through a formula is a float, an array, or one of both, to the type checker too."""
-    assert set(untyped(source(module))) == ANY.get(module, set())
+    assert read(source(module)).untyped == ANY.get(module, set())
 
 
 @pytest.mark.parametrize(
@@ -315,12 +343,12 @@ def test_no_number_of_the_core_is_any(module):
     ],
 )
 def test_an_any_would_be_noticed(line):
-    assert list(untyped(line))
+    assert read(line).untyped
 
 
 def test_a_stream_would_be_noticed():
-    assert list(streams("def f():\n    print(1)")) == ["print(1)"]
-    assert list(streams("x = sys.stdout.isatty()")) == ["sys.stdout"]
+    assert read("def f():\n    print(1)").streams == ["print(1)"]
+    assert read("x = sys.stdout.isatty()").streams == ["sys.stdout"]
 
 
 @pytest.mark.parametrize(
@@ -334,4 +362,4 @@ def test_a_stream_would_be_noticed():
     ],
 )
 def test_a_question_would_be_noticed(line):
-    assert list(asks(line))
+    assert read(line).asks
