@@ -1,4 +1,4 @@
-"""Roots and boundaries as of ``roots`` for many designs at once: a function for each design.
+"""Roots as of ``roots`` for many designs at once: a function for each design.
 
 Newton, kept in its bracket, works on the designs that are still open, and on nothing else. A design
 that is not a number anywhere has no number for an answer, and disturbs no other.
@@ -15,8 +15,6 @@ from geneva_cli.numerics.roots import STEPS
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
-
-FALSI = 0.02  # of a bracket: the next place is no nearer to its ends
 
 
 class Roots(NamedTuple):
@@ -64,45 +62,6 @@ def roots_many(
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0
         return newton_many(slope, a, b, 0.5 * (a + b), rising, close)[0]
-
-
-class End(NamedTuple):
-    """Places of designs, and what is left of a limit there."""
-
-    x: Array
-    left: Array
-
-
-def boundary_many(
-    left: Callable[[Whole, Array, float], Array],
-    good: End,
-    bad: End,
-    enough: Callable[[Array], Array],
-) -> Array:
-    """The last places from ``good`` up to ``bad`` where something is left of a limit: (n,).
-
-    Regula falsi as of ``roots.Falsi``, until a bracket is no wider than ``enough`` of its end.
-    ``left(which, x, width)`` tells what is left for the designs ``which`` at x, of brackets that
-    are no wider than ``width``.
-    """
-    (low, f_low), (high, f_high) = ([part.copy() for part in end] for end in (good, bad))
-    kept = np.zeros(len(low), dtype=int)
-    here = np.arange(len(low))
-    for _ in range(STEPS):
-        here = here[high[here] - low[here] > enough(high[here])]
-        if not len(here):
-            break
-        a, b = low[here], high[here]
-        share = np.clip(f_low[here] / (f_low[here] - f_high[here]), FALSI, 1.0 - FALSI)
-        x = a + (b - a) * share
-        f = left(here, x, float((b - a).max()))
-        holds = f >= 0.0
-        f_high[here[holds & (kept[here] == 1)]] *= 0.5
-        f_low[here[~holds & (kept[here] == -1)]] *= 0.5
-        kept[here] = np.where(holds, 1, -1)
-        low[here[holds]], f_low[here[holds]] = x[holds], f[holds]
-        high[here[~holds]], f_high[here[~holds]] = x[~holds], f[~holds]
-    return low
 
 
 def newton_many(

@@ -194,22 +194,3 @@ def test_roots_many():
     assert flat[0] == root(lambda x: (x - 0.1, 0.0), 0.0, 1.0)
     falling = many.roots_many(lambda x, _: (0.25 - x, 0.0 * x - 1.0), np.zeros(2), np.ones(2))
     assert falling.tolist() == [0.25, 0.25]
-
-
-def test_boundary_many():
-    """Each design's last place below its limit; those that are done are asked no more."""
-    limit = np.array([2.0, 0.5, 1e-6, 3.999])
-    asked = []
-
-    def left(which, x, width):
-        asked.append(len(which))
-        assert width <= 2.0
-        return limit[which] - x**2
-
-    good = many.End(np.zeros(4), limit)
-    bad = many.End(np.full(4, 2.0), limit - 4.0)
-    found = many.boundary_many(left, good, bad, lambda x: 1e-12 * x)
-    assert (found**2 <= limit).all()
-    assert found == pytest.approx(np.sqrt(limit), rel=1e-12)
-    assert sum(asked) < 100
-    assert asked[-1] < 4

@@ -16,13 +16,14 @@ from test_outline import made
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.outlines import slot_walls
-from geneva_cli.parts.turn.freedom import EXACT, SHARE, free_angles
+from geneva_cli.parts.turn.freedom import EXACT, free_angles
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.wheel import wheel_contour
 
 SECONDS = 30  # of one machine
 WIDTHS, RECESSES = 3, 10  # of slots, and of recesses for each: walls of curved slots cost the most
 PLACES = 4
+ROUNDING = 1e-9  # of a play: a grazing contact is known to the root of what its sides are
 BESIDE = 5.0  # degrees of the input, about entry and exit, for half of them
 MORE = (0.001, 0.01, 0.05, 0.2)  # mm, at L = 100: one may leave no horn
 
@@ -87,7 +88,7 @@ def require_no_less_play(found, rng, widths, recesses):
 def require_no_less(play, less, one, at):
     """The play of a wheel, and that of one with less clearance if there is one."""
     if less is not None:
-        enough = less * (1.0 - 2.0 * SHARE) - 2.0 * EXACT
+        enough = less * (1.0 - ROUNDING) - EXACT
         assert (play >= enough).all(), (less, play, at, one.sizes)
 
 

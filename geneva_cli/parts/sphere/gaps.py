@@ -17,8 +17,10 @@ from geneva_cli.numerics.budget import check_time
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.stops import WheelCaps, about, caps, polar, round_cap
 from geneva_cli.parts.sphere.wheel import edge
-from geneva_cli.parts.turn.turned import Pose
+from geneva_cli.parts.turn.stops import stopped
+from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -41,6 +43,9 @@ class BallGaps:
         self.wheel = Arcs(every)
         self.around = Arcs(edge(found), closed=False)  # one slot, which is as all others are
         self.sectors = [Arcs(region.boundary) for region in sectors]
+        self._turning = WheelCaps(self.around, 2.0 * found.half_step)
+        self._roller = round_cap(found.roller)
+        self._sides = caps(self.sectors) if self.sectors else None
         self._frame = np.array(at_mid_motion(found))  # rows: its axes in the wheel's frame
         self._rollers = np.array([place(found.arm, azimuth) for azimuth in found.rollers])
         self._corners = [
@@ -77,27 +82,26 @@ class BallGaps:
         near = self.near if near is None else near
         columns = []
         for i in range(pose.pins.shape[1]):
-            away, _ = self._to_wheel(_about(pose.pins[:, i], -(pose.wheel + lead)))
+            away, _ = self._to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.found.radius_mm * (away - self.found.roller))
         out: Array = np.minimum(np.column_stack(columns), near)
         return out
 
-    def pressure(self, pose: Pose, lead: Array) -> Array:
-        """The pressure angle, radians, (n,), of the roller that is nearest to the wheel.
+    def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
+        """How far the wheel can be turned until parts overlap by ``close`` mm; see ``Gapped``."""
+        deep, wheel, rolling, locking = close / self.found.radius_mm, pose.wheel, [], []
+        for i in range(pose.pins.shape[1]):
+            one, axis = self._roller, pose.pins[:, i : i + 1]
+            rolling.append(self._turning.touches(one, axis, _same, wheel, way, deep))
+        if self._sides:
+            axes = [self._out(axis, pose.crank) for axis in self._sides.axis]
 
-        Between the great circle from its centre to the wheel, and the way of the wheel's nearest
-        point about its axis.
-        """
-        nearest = self.rollers(pose, lead).argmin(axis=1)
-        centre = _about(pose.pins[np.arange(len(nearest)), nearest], -(pose.wheel + lead))
-        _, foot = self._to_wheel(centre)
-        x, y, _ = foot.T
-        way = np.column_stack((-y, x, np.zeros(len(x))))
-        normal = np.cross(np.cross(foot, centre), foot)  # at the foot, towards the centre
-        size = np.linalg.norm(normal, axis=1) * np.linalg.norm(way, axis=1)
-        cosine = np.abs((normal * way).sum(axis=1)) / np.maximum(size, 1e-300)
-        out: Array = np.arccos(np.minimum(cosine, 1.0))
-        return out
+            def on_crank(points: Array, n: NDArray[np.intp]) -> Array:
+                return self._in_crank(points, pose.crank[n])
+
+            axis = np.stack(axes, axis=1)
+            locking.append(self._turning.touches(self._sides, axis, on_crank, wheel, way, deep))
+        return stopped(rolling, locking, len(way), most)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """The gap between the locking sectors and the wheel, (n,); see ``rollers``."""
@@ -108,7 +112,7 @@ class BallGaps:
         check_time()
         turn = pose.wheel + lead
         # The wheel's edge against the sectors: its corners, and what faces their edges' axes ...
-        axis = _about(np.tile(self._frame[2], (len(turn), 1)), -turn)
+        axis = about(np.tile(self._frame[2], (len(turn), 1)), -turn)
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
         owner, piece = np.nonzero(far <= self.found.lock + least[0] + ROUNDING)
         owners: list[NDArray[np.intp]] = []
@@ -117,20 +121,20 @@ class BallGaps:
             owners.append(owner)
             points.append(self.wheel.at(piece, share * self.wheel.sweep[piece]))
         for one in self._facing:
-            towards = _about(self._out(one, pose.crank[owner]), -turn[owner])
+            towards = about(self._out(one, pose.crank[owner]), -turn[owner])
             which, at = self.wheel.facing(piece, towards)
             owners.append(owner[which])
             points.append(at)
         which_ = np.concatenate(owners)
-        seen = self._in_crank(_about(np.concatenate(points), turn[which_]), pose.crank[which_])
-        close = _polar(seen) < self.found.lock + least[0]
+        seen = self._in_crank(about(np.concatenate(points), turn[which_]), pose.crank[which_])
+        close = polar(seen) < self.found.lock + least[0]
         which_, seen = which_[close], seen[close]
         for sector in self.sectors if len(seen) else ():
             np.minimum.at(least, which_, sector.signed(seen)[0])
         # ... and the sectors' corners against the wheel.
         for corner in itertools.chain(*self._corners):
-            at = _about(self._out(corner, pose.crank), -turn)
-            here = np.flatnonzero(_polar(at) - self.found.rim < least)
+            at = about(self._out(corner, pose.crank), -turn)
+            here = np.flatnonzero(polar(at) - self.found.rim < least)
             if len(here):
                 away, _ = self._to_wheel(at[here])
                 least[here] = np.minimum(least[here], away)
@@ -139,7 +143,7 @@ class BallGaps:
     def in_wheel(self, roller: int, input_deg: Array) -> Array:
         """A roller's centre in the wheel's frame, directions (n, 3)."""
         pose = self.pose(input_deg)
-        return _about(pose.pins[:, roller], -pose.wheel)
+        return about(pose.pins[:, roller], -pose.wheel)
 
     def _to_wheel(self, points: Array) -> tuple[Array, Array]:
         """Distance of points in the wheel's frame from its edge, radians, and where it is nearest.
@@ -149,30 +153,21 @@ class BallGaps:
         check_time()
         step = 2.0 * self.found.half_step
         back = step * np.round(np.arctan2(points[:, 1], points[:, 0]) / step)
-        away, foot = self.around.signed(_about(points, -back))
-        return away, _about(foot, back)
+        away, foot = self.around.signed(about(points, -back))
+        return away, about(foot, back)
 
     def _out(self, of_crank: Array, turn: Array) -> Array:
         """A direction in the crank's frame, or one for each, (n, 3), as it stands at crank angles.
 
         The crank turns clockwise about its axis where the wheel turns counterclockwise.
         """
-        found: Array = _about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self._frame
+        found: Array = about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self._frame
         return found
 
     def _in_crank(self, points: Array, turn: Array) -> Array:
         """Directions that stand still in the crank's frame."""
-        return _about(points @ self._frame.T, turn)
+        return about(points @ self._frame.T, turn)
 
 
-def _polar(points: Array) -> Array:
-    """Angles of directions (n, 3) from z."""
-    angle: Array = np.arctan2(np.hypot(points[:, 0], points[:, 1]), points[:, 2])
-    return angle
-
-
-def _about(points: Array, angle: Array) -> Array:
-    """Directions (n, 3), each turned about z by its own angle, radians."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, z = points.T
-    return np.column_stack((x * c - y * s, x * s + y * c, z))
+def _same(points: Array, _: NDArray[np.intp]) -> Array:
+    return points

@@ -15,7 +15,8 @@ from geneva_cli.numerics.budget import check_time
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.contacts import candidates
-from geneva_cli.parts.turn.turned import Pose
+from geneva_cli.parts.turn.stops import Stops
+from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 NEAR = 0.02  # of the centre distance: wider gaps are not told apart; they are given as this
 SAGITTA = 2e-6  # of the centre distance: how far an arc's samples may miss it
 SAME = 1e-9  # of the centre distance: corners nearer to each other are one
-STEP = 1e-7  # of the centre distance: over which a normal is taken
 TOUCH = 1e-7  # of the locking disc: what lies in it by less touches it
 WORK = 1e8  # distances between points and pieces in a full turn, at most: about 5 s
 LONGEST = 0.02  # of the centre distance, between samples of a line
@@ -143,26 +143,16 @@ class Gaps:
             out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
         return out
 
-    def pressure(self, pose: Pose, lead: Array) -> Array:
-        """The pressure angle, radians, (n,), of the roller that is nearest to the wheel.
+    def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
+        """How far the wheel can be turned until parts overlap by ``close``; see ``Stops.first``."""
+        self._work(len(way) * self._stops.pairs)
+        return self._stops.first(pose, way, most, close)
 
-        Between their common normal and the way of the wheel's nearest point about its axis.
-        """
-        turn = -(pose.wheel + lead)
-        places = np.stack(
-            [turned_points(pose.pins[:, i], turn) for i in range(pose.pins.shape[1])], axis=1
-        )
-        nearest = self.rollers(pose, lead).argmin(axis=1)
-        at = places[np.arange(len(turn)), nearest]
-        step, far = STEP * self.assembly.L, self.near + self.sizes.roller
-        x, y = np.array((step, 0.0)), np.array((0.0, step))
-        slope = [self._to_wheel(at + d, far) - self._to_wheel(at - d, far) for d in (x, y)]
-        normal = np.column_stack(slope) / (2.0 * step)
-        touch = at - normal * self._to_wheel(at, far)[:, None]
-        lever = normal[:, 1] * touch[:, 0] - normal[:, 0] * touch[:, 1]
-        size = np.hypot(*normal.T) * np.hypot(*touch.T)
-        out: Array = np.arccos(np.minimum(np.abs(lever) / np.maximum(size, 1e-300), 1.0))
-        return out
+    @cached_property
+    def _stops(self) -> Stops:
+        each = len(self.wheel) // len(self.assembly.slots)
+        one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
+        return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """The gap between the crank's outline and the wheel's, (n,); see ``rollers``."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.parts.turn.freedom import free_angles, search_deg, touching
+from geneva_cli.parts.turn.freedom import search_deg, stopped, touching
 from geneva_cli.parts.turn.turned import Turned
 
 if TYPE_CHECKING:
@@ -129,8 +129,7 @@ def _places(parts: Turned) -> Array:
 
 def _measured(parts: Turned, at: Array) -> Play:
     assembly = parts.assembly
-    back, on = free_angles(parts, at)
-    pushes = [_pressure(parts, at, lead) for lead in (-back, on)]
+    back, on = stopped(parts, at)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
     last = assembly.start_deg + assembly.turn_deg
@@ -144,7 +143,18 @@ def _measured(parts: Turned, at: Array) -> Play:
             resting[here] = True
         else:
             guided[here] |= parts.past_mouth(roller, x) > -NEAR * assembly.L
-    return Play(at, np.degrees(back), np.degrees(on), resting, guided & ~resting, speed, *pushes)
+    known = touching(parts)
+    back_push, on_push = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
+    return Play(
+        at,
+        np.degrees(back.lead),
+        np.degrees(on.lead),
+        resting,
+        guided & ~resting,
+        speed,
+        back_push,
+        on_push,
+    )
 
 
 def _merged(a: Play, b: Play) -> Play:
@@ -186,14 +196,3 @@ def _closing(parts: Turned, play: Play) -> Iterator[Array]:
     if angle.max() > 0.0:
         top = np.argsort(-angle, kind="stable")[:MOST]
         yield _cut(play, np.concatenate((top - 1, top, top + 1)))
-
-
-def _pressure(parts: Turned, at: Array, lead: Array) -> Array:
-    """Pressure angles, degrees, of rollers that stop the wheel at its play ``lead``, radians."""
-    gaps, out = parts.gaps, np.zeros(len(at))
-    here = np.flatnonzero(np.abs(lead) > touching(parts))
-    if len(here):
-        pose, lead = gaps.pose(at[here]), lead[here]
-        stops = gaps.rollers(pose, lead).min(axis=1) <= gaps.locking(pose, lead)
-        out[here] = np.where(stops, np.degrees(gaps.pressure(pose, lead)), 0.0)
-    return out

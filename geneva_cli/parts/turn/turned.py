@@ -25,6 +25,13 @@ class Pose(NamedTuple):
         return Pose(self.wheel[which], self.crank[which], self.pins[which])
 
 
+class Stopped(NamedTuple):
+    """How far the wheel can be turned one way from n poses."""
+
+    lead: Array  # (n,) radians
+    pressure: Array  # (n,) radians, the pressure angle of a roller that stops it; 0 of all else
+
+
 class Gapped(Protocol):
     """The gaps between wheel, crank and rollers, mm, negative where they overlap.
 
@@ -35,10 +42,6 @@ class Gapped(Protocol):
     @property
     def near(self) -> float:
         """The widest gap that is told from others, mm."""
-
-    @property
-    def around(self) -> Sized:
-        """The pieces of the wheel's outline that a point is compared with."""
 
     def begin(self) -> None:
         """Count work from here on; too much of it raises NotProved."""
@@ -55,8 +58,11 @@ class Gapped(Protocol):
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """The gap between what locks on the crank and the wheel, (n,)."""
 
-    def pressure(self, pose: Pose, lead: Array) -> Array:
-        """The pressure angle, radians, (n,), of the roller that is nearest to the wheel."""
+    def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
+        """How far the wheel can be turned from positions where nothing overlaps by ``close`` mm.
+
+        ``way`` is (n,), 1 on or -1 back; it is turned until something does, or by ``most`` radians.
+        """
 
 
 class Lengths(Protocol):

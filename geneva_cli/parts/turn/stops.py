@@ -1,0 +1,258 @@
+"""Where a turning wheel comes to touch what stands beside it, in closed form.
+
+Outlines are lines, arcs and corners, which are arcs of radius 0, and a roller is an arc all the way
+round. As the wheel turns, the centre of one of its arcs goes round the wheel's axis, and so does
+the foot of one of its lines. Arcs touch where their centres are as far apart as the sum of their
+radii, or in a hollow as the difference; an arc and a line where its centre is a radius off. All of
+these are triangles of three known sides, so a stop needs no search and none is stepped over. Of the
+two angles of each triangle, one is where the parts come nearer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.parts.turn.turned import Pose, Stopped
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+SLACK = 1e-9  # radians, and of a length: pieces that meet smoothly leave nothing between them
+ZERO = 1e-13  # radians: a stop that lies behind by less is here
+BLOCK = 1 << 15  # pairs of pieces that are looked at together: in the cache
+
+
+class Rounds(NamedTuple):
+    """Arcs and corners, (k,) each."""
+
+    x: Array  # centres
+    y: Array
+    radius: Array
+    sense: Array  # 1 where the material is inside, -1 in a hollow
+    mx: Array  # directions of the middles
+    my: Array
+    least: Array  # cosines of the angles from there to the ends
+
+    def face(
+        self, which: NDArray[np.intp], x: Array, y: Array, turn: Array, sense: Array | float = 1.0
+    ) -> NDArray[np.bool_]:
+        """Whether some arcs go through the directions (x, y), turned and ``sense`` times."""
+        c, s = np.cos(turn), np.sin(turn)
+        along = self.mx[which] * (x * c - y * s) + self.my[which] * (x * s + y * c)
+        out: NDArray[np.bool_] = sense * along >= self.least[which]
+        return out
+
+
+class Lines(NamedTuple):
+    """Lines, (k,) each: directions of the normals out of the material, how far off the origin the
+    lines are along these, and where they start and end along themselves.
+    """
+
+    normal: Array
+    off: Array
+    start: Array
+    end: Array
+
+
+class Others(NamedTuple):
+    """What the wheel meets, as it stands in n poses: rollers, or the crank."""
+
+    rounds: Rounds
+    x: Array  # (n, k), the centres
+    y: Array
+    turn: Array  # (n,), from its own frame
+
+
+class Touch(NamedTuple):
+    """Contacts: of which pose, at which turn of the wheel, and the pressure angle's cosine."""
+
+    row: NDArray[np.intp]
+    lead: Array
+    cosine: Array
+
+
+def rounds(outline: Polyarc) -> Rounds:
+    """The arcs of an outline, and its corners where material comes to a point."""
+    arc, corner = np.flatnonzero(outline.arc), np.flatnonzero(outline.turn_start > 0.0)
+    zero, cos = np.zeros(len(corner)), outline.cos_half[arc]
+    least = cos - SLACK * np.sqrt(np.maximum(1.0 - cos * cos, 0.0)) - SLACK * SLACK
+    columns = (
+        (outline.cx[arc], outline.x0[corner]),
+        (outline.cy[arc], outline.y0[corner]),
+        (outline.radius[arc], zero),
+        (outline.sense[arc], zero + 1.0),
+        (outline.mx[arc], zero + 1.0),
+        (outline.my[arc], zero),
+        (least, zero - 2.0),
+    )
+    return Rounds(*[np.concatenate(both) for both in columns])
+
+
+def lines(outline: Polyarc) -> Lines:
+    """The lines of an outline."""
+    at = np.flatnonzero(~outline.arc)
+    tx, ty = outline.dx[at] / outline.length[at], outline.dy[at] / outline.length[at]
+    x, y = outline.x0[at], outline.y0[at]
+    start = x * tx + y * ty
+    end, spare = start + outline.length[at], SLACK * (np.abs(start) + outline.length[at])
+    return Lines(np.arctan2(-tx, ty), x * ty - y * tx, start - spare, end + spare)
+
+
+class Stops:
+    """Where rollers and crank stop the wheel of one machine, as it turns.
+
+    ``wheel`` is its outline, or as much of it as repeats itself after ``pitch`` radians; the crank
+    is in its own frame, and its axis at (L, 0).
+    """
+
+    def __init__(
+        self, wheel: Polyarc, pitch: float, crank: Polyarc | None, L: float, roller: float
+    ) -> None:
+        self.pitch, self.L, self.radius = pitch, L, roller
+        self.rounds, self.lines = rounds(wheel), lines(wheel)
+        self.far = np.hypot(self.rounds.x, self.rounds.y)
+        self.ahead = np.arctan2(self.rounds.y, self.rounds.x)
+        one, no = np.ones(1), np.zeros(1)
+        self.roller = Rounds(no, no, roller * one, one, one, no, -2.0 * one)
+        self.crank = rounds(crank) if crank else None
+        self.edges = lines(crank) if crank else None
+        other = len(self.crank.x) + len(self.edges.off) if self.crank and self.edges else 0
+        self.pairs = (len(self.far) + len(self.lines.off)) * (1 + other)  # for one roller
+
+    def first(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
+        """How far the wheel can be turned in n poses, ``way`` 1 on or -1 back, and what stops it.
+
+        From positions where nothing overlaps by more than ``close`` mm, until something does; as
+        far as ``most``, which is less than the pitch, where nothing stops it.
+        """
+        rolling: list[Touch] = []
+        locking: list[Touch] = []
+        for x, y in (pose.pins[:, i].T for i in range(pose.pins.shape[1])):
+            roller = Others(self.roller, x[:, None], y[:, None], 0.0 * x)
+            rolling += self._at_rounds(roller, pose, way, most, close)
+            rolling += self._at_lines(roller, pose, way, most, close)
+        if self.crank is not None and self.edges is not None:
+            c, s = np.cos(pose.crank)[:, None], np.sin(pose.crank)[:, None]
+            x, y = self.crank.x * c - self.crank.y * s, self.crank.x * s + self.crank.y * c
+            crank = Others(self.crank, self.L + x, y, pose.crank)
+            locking += self._at_rounds(crank, pose, way, most, close)
+            locking += self._at_lines(crank, pose, way, most, close)
+            locking += self._at_edges(self.edges, pose, way, most, close)
+        return stopped(rolling, locking, len(way), most)
+
+    def _at_rounds(
+        self, others: Others, pose: Pose, way: Array, most: float, close: float
+    ) -> Iterator[Touch]:
+        """Arcs at arcs: both convex, or one of them in the hollow of the other."""
+        own, other = self.rounds, others.rounds
+        apart = own.sense[:, None] * own.radius[:, None] + other.sense * other.radius - close
+        both = own.sense[:, None] + other.sense
+        apart = np.where(both > 0.0, apart, -apart)
+        ps, qs = np.nonzero((both >= 0.0) & (apart > 0.0))
+        ds, hollow = apart[ps, qs], both[ps, qs] == 0.0
+        away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
+        step = max(1, BLOCK // max(1, len(ps)))
+        for block in range(0, len(way), step):
+            sigma, rho = away[block : block + step, qs], self.far[ps]
+            with np.errstate(divide="ignore", invalid="ignore"):
+                # of the angle between the centres, seen from the axis: the squares of sine and
+                # cosine of half of it
+                size = 4.0 * rho * sigma
+                sine = (ds - rho + sigma) * (ds + rho - sigma) / size
+                cosine = (rho + sigma - ds) * (rho + sigma + ds) / size
+            row, pair = np.nonzero((sine >= 0.0) & (cosine >= 0.0))
+            n, p, q = row + block, ps[pair], qs[pair]
+            h, g = np.sqrt(sine[row, pair]), np.sqrt(cosine[row, pair])
+            sign = np.where(hollow[pair], way[n], -way[n])
+            angle = sign * (2.0 * np.arctan2(h, g))
+            lead = ahead_by(
+                way[n] * (towards[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
+            )
+            near = np.flatnonzero(lead < most)
+            n, p, q, h, g = n[near], p[near], q[near], h[near], g[near]
+            sign, angle, lead = sign[near], angle[near], lead[near]
+            # the direction from the wheel's centre to the other, seen with the other ahead
+            d, r, s = ds[pair[near]], self.far[p], away[n, q]
+            x = ((s - r) + 2.0 * r * h * h) / d
+            y = -2.0 * sign * r * h * g / d
+            good = own.face(p, x, y, self.ahead[p] - angle, other.sense[q])
+            good &= other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
+            lever = own.sense[p] * other.radius[q]
+            touch = np.hypot(s - lever * x, lever * y)
+            yield Touch(n[good], lead[good], (np.abs(y) * s / touch)[good])
+
+    def _at_lines(
+        self, others: Others, pose: Pose, way: Array, most: float, close: float
+    ) -> Iterator[Touch]:
+        """The wheel's lines at convex arcs."""
+        own, other = self.lines, others.rounds
+        ps, qs = np.nonzero((own.off[:, None] == own.off[:, None]) & (other.sense > 0.0))
+        level = own.off[ps] + other.radius[qs] - close
+        away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
+        step = max(1, BLOCK // max(1, len(ps)))
+        for block in range(0, len(way), step):
+            sigma = away[block : block + step, qs]
+            row, pair = np.nonzero(np.abs(level) <= sigma)
+            n, p, q, s = row + block, ps[pair], qs[pair], sigma[row, pair]
+            angle = -way[n] * np.arccos(level[pair] / s)  # from the normal to the arc's centre
+            normal = towards[n, q] - angle
+            lead = ahead_by(way[n] * (normal - own.normal[p] - pose.wheel[n]), self.pitch)
+            along = s * np.sin(angle)
+            good = (lead < most) & (along >= own.start[p]) & (along <= own.end[p])
+            good &= other.face(q, -1.0 + 0.0 * s, 0.0 * s, normal - others.turn[n])
+            cosine = np.abs(along) / np.hypot(along, own.off[p])
+            yield Touch(n[good], lead[good], cosine[good])
+
+    def _at_edges(
+        self, edges: Lines, pose: Pose, way: Array, most: float, close: float
+    ) -> Iterator[Touch]:
+        """The wheel's convex arcs at the crank's lines."""
+        own, normal = self.rounds, edges.normal + pose.crank[:, None]
+        # seen from the wheel's axis
+        off, shift = edges.off + self.L * np.cos(normal), -self.L * np.sin(normal)
+        start, end = edges.start + shift, edges.end + shift
+        ps, qs = np.nonzero((own.sense[:, None] > 0.0) & (edges.off == edges.off))
+        level = own.radius[ps] - close
+        step = max(1, BLOCK // max(1, len(ps)))
+        for block in range(0, len(way), step):
+            high = off[block : block + step, qs] + level
+            row, pair = np.nonzero(np.abs(high) <= self.far[ps])
+            n, p, q, r = row + block, ps[pair], qs[pair], self.far[ps[pair]]
+            angle = way[n] * np.arccos(high[row, pair] / r)  # from the normal to the arc's centre
+            lead = ahead_by(
+                way[n] * (normal[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
+            )
+            along = r * np.sin(angle)
+            good = (lead < most) & (along >= start[n, q]) & (along <= end[n, q])
+            good &= own.face(p, -1.0 + 0.0 * r, 0.0 * r, self.ahead[p] - angle)
+            yield Touch(n[good], lead[good], np.zeros(len(n))[good])
+
+
+def ahead_by(lead: Array, pitch: float) -> Array:
+    """Angles from 0 up to the pitch, after which a wheel is as before."""
+    found = lead % pitch
+    return np.where(found > pitch - ZERO, 0.0, found)
+
+
+def stopped(rolling: list[Touch], locking: list[Touch], count: int, most: float) -> Stopped:
+    """What stops the wheel first in ``count`` poses: rollers, what locks, or nothing up to most."""
+    nothing = Touch(np.arange(count), np.full(count, most), np.zeros(count))
+    by_roller, cosine = _first([nothing, *rolling])
+    by_crank, _ = _first([nothing, *locking])
+    rolls = (by_roller < most) & (by_roller <= by_crank)
+    pressure = np.where(rolls, np.arccos(np.minimum(cosine, 1.0)), 0.0)
+    return Stopped(np.minimum(by_roller, by_crank), pressure)
+
+
+def _first(touches: list[Touch]) -> tuple[Array, Array]:
+    """The first contact of each pose: its turn, and its cosine."""
+    row, lead, cosine = (np.concatenate(each) for each in zip(*touches, strict=True))
+    order = np.lexsort((lead, row))
+    first = order[np.flatnonzero(np.diff(row[order], prepend=-1))]
+    return lead[first], cosine[first]
