@@ -3,8 +3,9 @@
 The roller starts the wheel in a straight slot of half angle b. Where the wheel has reached u times
 the crank's speed, toothed sectors take over at that ratio for a crank angle D, and the next roller
 stops the wheel in its own slot. The speeds agree at the crank angle a_t with
-sin²(a_t/2) = (1-l) (1 - (1-l)(1+u)) / (2l (1 + 2u)); the acceleration jumps there, but not for
-u = l/(1-l), where a_t = 0 and the pitch circles are R and L - R. The step is 2 (b - psi_t) + u D.
+sin²(a_t/2) = w (1-w) / (2l (1+u) (1 + 2u)), w = 1 - (1-l)(1+u); the acceleration jumps there, but
+not for w = 0, u = l/(1-l), where a_t = 0 and the pitch circles are R and L - R. The step is
+2 (b - psi_t) + u D.
 """
 
 from __future__ import annotations
@@ -62,16 +63,14 @@ class GearSector(PinPath, kw_only=True):
 
     def plan(self, spec: Spec) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
-        b = self._half_angle(spec.wheel.z)
-        u, handover, _ = self._handover(b)
+        b, u, handover, _ = self._solved(math.pi / spec.wheel.z)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), spec.given_distance_mm)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """The slot's half angle, and where and at what ratio the gears take over."""
         L = plan.center_distance_mm
-        b = math.asin(plan.ratio)
-        u, handover, _ = self._handover(b)
+        b, u, handover, _ = self._solved(plan.engagements[0].half_step)
         return (
             Dimension("crank radius", L * plan.ratio, "mm"),
             Dimension("slot's half angle b", math.degrees(b), "deg"),
@@ -85,7 +84,8 @@ class GearSector(PinPath, kw_only=True):
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The crank with its rollers, one at each end of the sector, and both pitch circles."""
         L, still = plan.center_distance_mm, 0.0 * input_deg
-        u, axis, R = self._handover(math.asin(plan.ratio))[0], (still + L, still), L * plan.ratio
+        axis, R = (still + L, still), L * plan.ratio
+        u = self._solved(plan.engagements[0].half_step).ratio
         m = library(input_deg)
         ends = [radians(input_deg + side * 0.5 * self.sector_deg) for side in (1.0, -1.0)]
         rollers = [(L - R * m.cos(a), R * m.sin(a)) for a in ends]
@@ -96,43 +96,57 @@ class GearSector(PinPath, kw_only=True):
             Link("wheel gear", ((still, still),), (shaft,), 2, L / (1.0 + u)),
         )
 
-    def _half_angle(self, z: int) -> float:
-        """The half angle b of the slots, which together with the gears give the step."""
-        wanted, D = math.pi / z, radians(self.sector_deg)
-
-        def excess(b: float) -> float:
-            u, _, turn = self._handover(b)
-            return b - turn + 0.5 * u * D - wanted
-
-        if isinstance(self.gear_ratio, str):  # the step grows with b
-            return boundary(lambda b: excess(b) >= 0.0, wanted, 1e-9)
-        # A slot with u > sin b/(1 - sin b) never reaches the speed u; of the others, the sooner one
+    def _solved(self, half_step: float) -> Handover:
+        """The slot and its handover that together with the gears give the step."""
+        D, u = radians(self.sector_deg), self.gear_ratio
+        if isinstance(u, str):  # the step grows with b
+            b = boundary(lambda b: _shockless(b).turned(D) >= half_step, half_step, 1e-9)
+            return _shockless(b)
+        # A slot with u > l/(1-l) never reaches the speed u; of the others, the sooner one
         # reaches it, the less it turns the wheel.
-        u = self.gear_ratio
-        ends = (math.pi / 2.0 - 1e-6, library(u).asin(u / (1.0 + u)))
-        least, most = (2.0 * (D / 2.0 - excess(b) / u) for b in reversed(ends))
+        ends = (math.pi / 2.0 - 1e-6, 0.0)
+        least, most = (2.0 * (half_step - _handover(u, x).turned(0.0)) / u for x in reversed(ends))
         refuse(
             (least > D) | (most < D),
             lambda: GenevaError(
                 f"sector_deg = {self.sector_deg:g}: a slot that comes up to {u:g} times the "
-                f"crank's speed leaves no such step of {360.0 / z:.6g} deg; it must be at "
-                f"least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
+                f"crank's speed leaves no such step of {math.degrees(2.0 * half_step):.6g} deg; it "
+                f"must be at least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
                 ("drive", "sector_deg"),
             ),
         )
-        return boundary(lambda b: excess(b) < 0.0, *ends)
+        return _handover(u, boundary(lambda x: _handover(u, x).turned(D) < half_step, *ends))
 
-    def _handover(self, b: float) -> tuple[float, float, float]:
-        """Gear ratio, crank angle and wheel angle of the handover, for a slot of half angle b."""
-        m = library(b, 0.0 if isinstance(self.gear_ratio, str) else self.gear_ratio)
-        l = m.sin(b)
-        short = 2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l, of a slot near 90 deg, too
-        if isinstance(self.gear_ratio, str):
-            return l / short, 0.0, 0.0
-        u = self.gear_ratio
-        square = larger(0.0, short * (1.0 - short * (1.0 + u)) / (2.0 * l * (1.0 + 2.0 * u)))
-        a = 2.0 * m.asin(m.sqrt(square))
-        return u, a, m.atan2(l * m.sin(a), short + 2.0 * l * square)
+
+class Handover(NamedTuple):
+    """Half angle b of a slot, and where gears of a ratio u take over: a_t and psi_t, radians."""
+
+    half_angle: float
+    ratio: float
+    crank: float
+    wheel: float
+
+    def turned(self, sector: float) -> float:
+        """Half the step, for gears that drive over a crank angle."""
+        return self.half_angle - self.wheel + 0.5 * self.ratio * sector
+
+
+def _shockless(b: float) -> Handover:
+    """At mid-motion: u = l/(1-l)."""
+    m = library(b)
+    short = 2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
+    return Handover(b, m.sin(b) / short, 0.0, 0.0)
+
+
+def _handover(u: float, x: float) -> Handover:
+    """Of the slot with w = sin² x: in x, b is smooth up to 90 degrees, and a_t down to 0."""
+    m = library(u, x)
+    s, c = m.sin(x), m.cos(x)
+    l, short = (u + s * s) / (1.0 + u), c * c / (1.0 + u)
+    sine = s * c / m.sqrt(2.0 * l * (1.0 + u) * (1.0 + 2.0 * u))
+    a = 2.0 * m.asin(sine)
+    b = m.atan2(l, m.sqrt(short * (1.0 + l)))
+    return Handover(b, u, a, m.atan2(l * m.sin(a), short + 2.0 * l * sine * sine))
 
 
 class SectorMotion(Motion):
