@@ -14,13 +14,18 @@ from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.measure import mapped, turned
 from geneva_cli.curves.plates import Group
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
+from geneva_cli.machine.layout import Joint
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.built import Built, built
 from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_line, wheel_shapes
+from geneva_cli.parts.frame import LAYER as STANDING
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links import SAME
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 
@@ -44,12 +49,28 @@ def machine_and_parts(found: Outlines, tolerance: float, curves: str) -> tuple[D
     # a first wheel is drawn itself, and not its pitch circle
     drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
     drawn += gear_shapes(Proof(assembly.given, found), tolerance, curves)
-    drawn += [*shapes(whole.first), *shapes(whole.standing)]
+    drawn += shapes(whole.first)
+    drawn += _standing(whole, drawn)
     drawn += _ways(found, psi, tolerance, curves)
     title = titled(assembly.mechanism)
     solid = Group(title, whole.members)
     look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
     return Drawing(title, tuple(once(drawn)), look, solid), whole
+
+
+def _standing(whole: Built, drawn: list[Shape]) -> list[Shape]:
+    """The plates that stand: outlines, grooves, and holes that no bore above them shows."""
+    seen = {_round(shape) for shape in drawn if isinstance(shape, Circle)}
+    found = shapes(whole.standing)
+    return [
+        shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
+        for shape in found
+        if not (isinstance(shape, Circle) and _round(shape) in seen)
+    ]
+
+
+def _round(circle: Circle) -> tuple[float, ...]:
+    return tuple(round(value, 6) for value in (*circle.centre, circle.radius))
 
 
 def _turns(found: Outlines) -> Iterator[Arc]:
@@ -59,6 +80,7 @@ def _turns(found: Outlines) -> Iterator[Arc]:
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
     yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
     if not assembly.given.spec.drive.CRANKED:
+        yield from _link_turns(found)
         return
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
@@ -66,6 +88,19 @@ def _turns(found: Outlines) -> Iterator[Arc]:
     far = max(math.hypot(*c) for c in roller_centres(assembly)) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
     yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
+
+
+def _link_turns(found: Outlines) -> Iterator[Arc]:
+    """The sense in which the link on the crank's shaft turns, beyond its end or the disc's."""
+    given, L = found.assembly.given, found.assembly.L
+    for link in links_at(given, np.array([-0.5, 0.0, 0.5])):
+        first, *others = places(link)
+        if link.kinds[0] is not Joint.SHAFT or not others or np.abs(first - L).max() > SAME * L:
+            continue
+        ahead = others[0] - first
+        sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))
+        far = max(float(np.abs(ahead).max()), found.sizes.lock) + 2.0 * BEYOND * L
+        yield about((L, 0.0), far, -sense * 0.5, sense)
 
 
 def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:

@@ -16,6 +16,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli import load
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import Label
+from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links
@@ -24,6 +25,8 @@ from geneva_cli.parts.sheet.board import Board
 from geneva_cli.parts.sheet.paper import FORMATS, SCALES
 from geneva_cli.parts.sheet.points import gear_tables, polyline, tables
 from geneva_cli.parts.sheet.sheet import sheet
+from geneva_cli.parts.sphere.drawings import wheel_cone
+from geneva_cli.parts.sphere.sheet import flat_slot
 from geneva_cli.spec.tables import Size, Tolerance
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -226,9 +229,7 @@ def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
     driven, driver = gear_tables(design.mechanism, 0.01)
     rings = []
     for block in (driven, driver):
-        downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
-        printed = [t.text for t in downwards if re.fullmatch(r"-?\d+\.\d{3}", t.text)]
-        points = list(zip(map(float, printed[::2]), map(float, printed[1::2]), strict=True))
+        points = printed(block)
         assert "mirror image" in " ".join(label.text for label in block.labels)
         turns = [math.atan2(y, x) for x, y in points]
         points = [p for _, p in sorted(zip(turns, points, strict=True))]
@@ -271,6 +272,42 @@ def test_points_of_a_curved_slot_are_on_it():
     worst = max(table.distance(shapely.Point(p)) for p in true)
     assert stated == pytest.approx(1e-4 * design.mechanism.center_distance_mm, abs=5e-5)
     assert 0.2 * stated < worst < stated + 1e-3  # coordinates have three decimals
+
+
+def printed(block):
+    """The points of a table, as they are read from its texts."""
+    downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
+    texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
+    return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
+
+
+def test_points_of_a_slot_laid_flat_are_on_the_sphere():
+    """Rolled up again, each is on a recess, the rim, a wall or the round end, seen from its centre.
+
+    Within the rounding to three decimals and a tenth of the table's tolerance.
+    """
+    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).drawn(TOLERANCE).shells.ball
+    cone, R, b = wheel_cone(ball), ball.radius_mm, math.pi / ball.z
+    points = printed(flat_slot(ball, TOLERANCE))
+    assert points[-1][1] == 0.0 > max(y for _, y in points[:-1])
+    crank = place(ball.axes, -b)
+    seen = set()
+    for x, y in points:
+        polar = cone.polar + math.atan((math.hypot(x, y) - cone.apex_mm) / R)
+        azimuth = math.atan2(y, x) / math.cos(cone.polar)
+        at = np.array(place(polar, azimuth))
+        off = {
+            "recess": math.acos(at @ crank) - ball.recess,
+            "rim": polar - ball.rim,
+            "wall": math.asin(-at[1]) - ball.half_width,
+            "end": math.acos(at @ place(ball.bottom, 0.0)) - ball.half_width,
+        }
+        nearest = min(off, key=lambda name: abs(off[name]))
+        seen.add(nearest)
+        assert R * abs(off[nearest]) < 1e-3 + 0.1 * TOLERANCE
+    assert seen >= {"recess", "wall", "end"}
+    turns = [math.atan2(y, x) / math.cos(cone.polar) for x, y in points]
+    assert min(turns) == pytest.approx(-b, abs=1e-3 / R)  # begins amid two slots
 
 
 def test_a_polyline_is_as_near_as_asked():

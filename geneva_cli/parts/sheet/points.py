@@ -49,7 +49,7 @@ def tables(found: Outlines, tolerance: float) -> list[Block]:
         width = sized.slot_width(assembly.mechanism, found.sizes.half_width)
         what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
         more = MIRRORED if symmetric else ""
-        made.append(_table(what + more, points, close))
+        made.append(point_table(what + more, points, close))
     guide = assembly.rollers[0][0].groove
     if guide is not None:
         guided = groove_curve(guide, assembly.L, 0.0)
@@ -57,7 +57,7 @@ def tables(found: Outlines, tolerance: float) -> list[Block]:
         last = 180.0 if symmetric else 360.0
         points = polyline(lambda t: guided(t)[0], 0.0, last, close)
         what = "groove: points of its centre line"
-        made.append(_table(what + (MIRRORED if symmetric else ""), points, close))
+        made.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
     return made
 
 
@@ -77,13 +77,18 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
         symmetric = bool(np.abs(curve(-seen) - curve(seen) * (1.0, -1.0)).max() < SAME * L)
         points = polyline(curve, 0.0, 180.0 if symmetric else 360.0, close)
         what = f"{name}: points of its pitch curve about its axis, at input angle 0"
-        made.append(_table(what + (MIRRORED if symmetric else ""), points, close))
+        made.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
     return made
 
 
-def polyline(curve: Callable[[Array], Array], a: float, b: float, tolerance: float) -> Array:
-    """Points of a curve, (n, 2), such that no chord between them misses it by more."""
-    nodes = np.linspace(a, b, BEGIN + 1)
+def polyline(
+    curve: Callable[[Array], Array], a: float, b: float, tolerance: float, begin: int = BEGIN
+) -> Array:
+    """Points of a curve, (n, 2), such that no chord between them misses it by more.
+
+    There are ``begin`` chords at least.
+    """
+    nodes = np.linspace(a, b, begin + 1)
     for _ in range(DEPTH):
         steps = np.diff(nodes)
         inner = np.concatenate([nodes[:-1] + share * steps for share in BETWEEN])
@@ -100,7 +105,7 @@ def polyline(curve: Callable[[Array], Array], a: float, b: float, tolerance: flo
     return curve(nodes)
 
 
-def _table(title: str, points: Array, close: float) -> Block:
+def point_table(title: str, points: Array, close: float) -> Block:
     """The points side by side in as many columns as they need, with their tolerance."""
     groups = math.ceil(len(points) / ROWS)
     high = math.ceil(len(points) / groups)

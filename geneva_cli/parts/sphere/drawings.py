@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.drawing import Annotations, Drawing
 from geneva_cli.curves.measure import bounds, mapped
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
@@ -53,7 +53,7 @@ def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
     beside = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     carried = _crank(crank_shells(found, locks, at_mid_motion(found)))
     whole = Group(title, (Member(wheel_shell(found)), Member(carried)))
-    return _drawing(found, title, [*left, *beside], whole)
+    return _drawing(found, title, [*left, *beside], whole)._replace(look=Annotations((), ()))
 
 
 def _drawing(found: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
@@ -80,10 +80,7 @@ def crank_cone(found: Ball) -> Cone:
 def wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
     """The wheel's outline on its cone laid flat, and the ways of rollers."""
     b = found.half_step
-    one: list[Segment] = []
-    for arc in edge(found):
-        one += cone.segments(arc, 0.0, tolerance, curves)
-    slot = Contour("WHEEL", joined(one), closed=False)
+    slot = slot_flat(found, cone, tolerance, curves)
     mouth = math.acos(math.cos(found.rim) / math.cos(found.half_width))
     ends = [cone.point(polar, 0.0) for polar in (mouth, found.bottom)]
     way = Contour(PITCH, (Line(*ends),), closed=False)
@@ -101,6 +98,14 @@ def wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[S
     first, last = outer[0].start, outer[-1].end
     rim = closed("WHEEL", [*outer, Line(last, inner[0]), *back, Line(inner[-1], first)])
     return [rim, *pitch]
+
+
+def slot_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
+    """The edge about the first slot, from amid two slots to amid the next two."""
+    one: list[Segment] = []
+    for arc in edge(found):
+        one += cone.segments(arc, 0.0, tolerance, curves)
+    return Contour("WHEEL", joined(one), closed=False)
 
 
 def crank_flat(

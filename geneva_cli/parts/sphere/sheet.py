@@ -9,8 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from geneva_cli.curves.measure import mapped
+import numpy as np
+
+from geneva_cli.curves.measure import at, mapped
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, Sheet, polar
 from geneva_cli.curves.sphere import Region
@@ -18,16 +21,28 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.composed import on_paper
 from geneva_cli.parts.sheet.paper import table
+from geneva_cli.parts.sheet.points import COARSE, MIRRORED, point_table, polyline
 from geneva_cli.parts.sheet.view import Block, View, number, times
-from geneva_cli.parts.sphere.drawings import PITCH, crank_cone, crank_flat, wheel_cone, wheel_flat
+from geneva_cli.parts.sphere.drawings import (
+    PITCH,
+    crank_cone,
+    crank_flat,
+    slot_flat,
+    wheel_cone,
+    wheel_flat,
+)
 from geneva_cli.parts.sphere.laid_flat import CYLINDER, Cone
 from geneva_cli.parts.sphere.listed import dimensions, shell_rows
 from geneva_cli.parts.sphere.sizes import Ball
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 UP = 0.5 * math.pi
 SAME = 1e-6  # of a radius
 FAR = 4.0  # sphere's radii: an apex farther off is on no sheet
 BEYOND = 0.1  # of the sphere's radius: axes, over the shells
+FINE = 0.1  # of a table's tolerance: what its curve is fitted to
 CROSS = 0.05  # of it: at the apex
 HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
 COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
@@ -44,7 +59,10 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
         for d in dimensions(proof.mechanism)
         if isinstance(d.value, (int, float))
     ]
-    angles = table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS)
+    fixed = [
+        table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),
+        flat_slot(found, tolerance),
+    ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         views = (
@@ -52,7 +70,7 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
             _flat("wheel", found, wheel_cone(found), wheel, scale),
             _flat("crank", found, crank_cone(found), crank, scale),
         )
-        yield [*(view.block() for view in views), angles]
+        yield [*(view.block() for view in views), *fixed]
 
     items = list(shell_rows(proof))
     return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)
@@ -101,8 +119,8 @@ def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float
     """A cone laid flat: its radii from the apex, the depth of a slot, the angles between slots."""
     view = View(f"{whose}, laid flat", scale)
     view.remark(cone.said(whose))
-    near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * found.radius_mm
-    shift = cone.apex_mm if near else 0.0
+    shift = _shift(found, cone)
+    near = shift != 0.0
     moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
     for shape in moved:
         view.draw(shape, CENTRE if shape.layer == PITCH else OUTLINE)
@@ -130,6 +148,32 @@ def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float
         view.linear(first.start, after.start, UP, times(found.z - 1, sized.plain(
             abs(after.start[1] - first.start[1]))))  # fmt: skip
     return view
+
+
+def _shift(found: Ball, cone: Cone) -> float:
+    """From a cone's apex to where it touches, mm; 0 where that is too far for a sheet."""
+    near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * found.radius_mm
+    return cone.apex_mm if near else 0.0
+
+
+def flat_slot(found: Ball, tolerance: float) -> Block:
+    """A table of half of a slot, laid flat: its edge from amid two slots to its end."""
+    cone, close = wheel_cone(found), max(tolerance, COARSE * found.radius_mm)
+    shift = _shift(found, cone)
+    points: list[Point] = []
+    for piece in slot_flat(found, cone, FINE * close, "arcs").segments:
+
+        def curve(t: Array, piece: Segment = piece) -> Array:
+            return np.array([at(piece, float(share)) for share in t])
+
+        for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
+            if y < -SAME * found.radius_mm and (not points or math.dist(points[-1], (x, y)) > SAME):
+                points.append((float(x), float(y)))
+    points.append(cone.point(found.bottom - found.half_width, 0.0))
+    shown = np.array(points) + np.array([shift, 0.0])
+    origin = "the cone's apex" if shift else "where the cone touches"
+    title = f"slot 1 laid flat: points of its edge from {origin}{MIRRORED}"
+    return point_table(title, shown, close)
 
 
 def _sectors(view: View, locking: list[Segment], far: float) -> None:
