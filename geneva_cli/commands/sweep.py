@@ -1,7 +1,7 @@
 """``geneva sweep``."""
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
@@ -11,6 +11,7 @@ from geneva_cli.commands.options import Format, Given, SpecPath
 from geneva_cli.errors import GenevaError, cut
 
 if TYPE_CHECKING:
+    from geneva_cli.study.sweep.outcome import Outcome
     from geneva_cli.study.sweep.request import Request
 
 Rows: TypeAlias = list[list[Any]]
@@ -42,7 +43,9 @@ def run(
     random: Annotated[
         int | None, typer.Option(metavar="N", help="N designs drawn from the box, not the grid.")
     ] = None,
-    seed: Annotated[int, typer.Option(metavar="S", help="What they are drawn with.")] = 0,
+    seed: Annotated[
+        int | None, typer.Option(metavar="S", help="What they are drawn with; 0 without.")
+    ] = None,
     check: Annotated[bool, typer.Option("--check", help="Add whether all checks pass.")] = False,
     subject_to: Annotated[
         list[str] | None,
@@ -80,10 +83,13 @@ def run(
     the header. With --random and --best a key may vary between LOW:HIGH.
     """
     from geneva_cli.output.formats import FORMATS
+    from geneva_cli.study.sweep.outcome import Outcome
     from geneva_cli.study.sweep.request import request
 
     if format and format not in FORMATS:
         raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
+    if best:
+        _refuse_beside_best(output, format, resume)
     asked = request(
         spec,
         vary or (),
@@ -103,57 +109,49 @@ def run(
         return
     if resume and (asked.chooses or format not in ("", "csv")):
         raise GenevaError("--resume goes on with all rows of a sweep, as csv or parquet")
+    outcome = Outcome(asked)
     if format in ("", "csv"):
-        done, failed = _write_rows(asked, output, resume)
+        _write_rows(asked, outcome, output, resume)
     else:
-        done, failed = _show_rows(asked, output, format)
-    if failed:
-        print(
-            f"{spec}: {failed:,} of {done:,} designs cannot be built: column error says why",
-            file=sys.stderr,
-        )
+        _show_rows(asked, outcome, output, format)
+    for note in outcome.notes():
+        print(f"{spec}: {note}", file=sys.stderr)
 
 
-def _write_rows(asked: "Request", output: str, resume: bool) -> tuple[int, int]:
-    """All rows as they come, or the choice of them; how many designs there were, and not built."""
+def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
+    """All rows as they come, or the choice of them."""
     from geneva_cli.output.rows import Growth
 
-    found, count, failed = asked.sweep, 0, 0
+    found = asked.sweep
     first = found.shard.number == 1
-
-    def counted(blocks: Iterable[Rows]) -> Iterator[Rows]:
-        nonlocal count, failed
-        for block in blocks:
-            count += len(block)
-            failed += sum(row[-1] is not None for row in block)
-            yield block
-
     with Growth(found.names, asked.key, first, output, resume, asked.files) as rows:
-        blocks = counted(_shown(asked, rows.done))
-        for block in asked.chosen(blocks) if asked.chooses else blocks:
+        for block in outcome.rows(_shown(asked, rows.done)):
             rows.append(block)
         rows.finish()
-    return count, failed
 
 
-def _show_rows(asked: "Request", output: str, format: str) -> tuple[int, int]:
+def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -> None:
     """The same as a table of another format, which is made when all rows are there."""
     from geneva_cli.output import show
     from geneva_cli.table import rows_table
 
-    every = list(_shown(asked, 0))
-    kept = list(asked.chosen(every)) if asked.chooses else every
-    rows = [row for block in kept for row in block]
+    rows = [row for block in outcome.rows(_shown(asked, 0)) for row in block]
     show(rows_table(asked.sweep.names, rows), output, format, asked.files)
-    whole = [row for block in every for row in block]
-    return len(whole), sum(row[-1] is not None for row in whole)
+
+
+def _refuse_beside_best(output: str, format: str, resume: bool) -> None:
+    """What a search of the best cannot give, said before it begins."""
+    if output != "-" and not output.endswith(".toml"):
+        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
+    if format:
+        raise GenevaError(f"--format {format}: --best writes a spec, as TOML")
+    if resume:
+        raise GenevaError("--resume goes on with rows; --best has none to go on with")
 
 
 def _write_best(asked: "Request", output: str) -> None:
     from geneva_cli.output import show_text
 
-    if output != "-" and not output.endswith(".toml"):
-        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
     show_text("\n".join(asked.best(_shown(asked, 0))) + "\n", output)
 
 

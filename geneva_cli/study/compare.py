@@ -8,6 +8,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
+from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Table, rows_table
 
 OWN = ("quantity", "differs")  # columns of the table itself: no design's name
@@ -47,14 +48,15 @@ def compare(
 
 
 def _ratios(cells: Sequence[Cell]) -> list[Cell]:
-    """The first cell as it is, and the others over it where both are numbers."""
+    """The first cell as it is, and the others over it: words as they are, None over none or 0."""
     first, *others = cells
     return [first, *(_over(c, first) for c in others)]
 
 
 def _over(cell: Cell, first: Cell) -> Cell:
-    numbers = all(isinstance(c, (int, float)) and not isinstance(c, bool) for c in (cell, first))
-    return cell / first if numbers and first else cell  # type: ignore[operator]
+    if isinstance(cell, bool) or not is_number(cell):
+        return cell
+    return cell / first if is_number(first) and first else None
 
 
 def _columns(

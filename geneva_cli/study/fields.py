@@ -5,6 +5,7 @@ A section of the report is worked out only where one of its quantities is asked 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
@@ -16,6 +17,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.table import Table
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.registry import every_check
 from geneva_cli.verdict.report.sections import SECTIONS, Section
 from geneva_cli.verdict.report.values import Values
 
@@ -35,9 +37,10 @@ def machine(proof: Proof) -> Values:
 
 
 def judged(proof: Proof) -> Values:
-    """The value of each check, and whether all pass."""
+    """The value of each check, None of those that do not apply, and whether all pass."""
     rows = checks(proof.mechanism, proof)
-    values: Values = {f"checks.{c.name}": c.value for c in rows}
+    values: Values = {f"checks.{name}": None for name in every_check()}
+    values |= {f"checks.{c.name}": c.value for c in rows}
     failed = [c.name for c in rows if c.passes is False]
     return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
 
@@ -68,12 +71,16 @@ SHOWN = (ALL[0], *(s for s in SECTIONS if not s.makes_parts))  # where nothing i
 
 
 def values(proof: Proof, sections: Iterable[Section] = SHOWN) -> dict[str, Cell]:
-    """The quantities of some sections, without tables and texts of several lines."""
+    """The quantities of some sections, without tables and texts of several lines.
+
+    What nothing bounds is None, as in the report's json.
+    """
     out: dict[str, Cell] = {}
     for section in sections:
         for name, value in section.values(proof).items():
             if not isinstance(value, (tuple, Table)):
-                out[name] = value
+                endless = isinstance(value, float) and math.isinf(value)
+                out[name] = None if endless else value
     return out
 
 
@@ -84,6 +91,7 @@ class Pick(NamedTuple):
     sections: tuple[Section, ...]
     # the whole names in the order of the request, in which one may stand twice
     asked: tuple[str, ...] = ()
+    words: frozenset[str] = frozenset()  # names of those that are no numbers
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The quantities' values for a machine; None where one does not apply."""
@@ -107,20 +115,33 @@ def pick(
     proof = Proof(mechanism)
     known: dict[str, Section] = {}
     names: dict[str, str] = {}
+    words: set[str] = set()
     for section in ALL:
-        known |= dict.fromkeys(values(proof, (section,)), section)
+        found_here = values(proof, (section,))
+        known |= dict.fromkeys(found_here, section)
+        words |= {name for name, value in found_here.items() if isinstance(value, str)}
         names |= {a: found for a in asked if a not in names and (found := _named(a, known, by[a]))}
         if len(names) == len(set(asked)):
             break
     for a in asked:
         if a not in names:
             raise GenevaError(
-                f"{by[a]} {cut(a)}: no quantity of a design{nearest(a, known)}; `geneva compare` "
+                f"{by[a]} {cut(a)}: no quantity of a design{_nearest(a, known)}; `geneva compare` "
                 "shows all that are quick, and check names stand behind checks."
             )
     sections = tuple(dict.fromkeys(known[names[a]] for a in asked))
     whole = tuple(names[a] for a in asked)
-    return Pick(tuple(dict.fromkeys(whole)), sections, whole)
+    return Pick(tuple(dict.fromkeys(whole)), sections, whole, frozenset(words))
+
+
+def _nearest(asked: str, known: Iterable[str]) -> str:
+    """`` (did you mean "..."?)``: by a whole name, or by the end of one, as dwell for dwell_s."""
+    ends: dict[str, str] = {}
+    for name in known:
+        parts = name.split(".")
+        for i in range(len(parts)):
+            ends.setdefault(".".join(parts[i:]), name)
+    return nearest(asked, known) or nearest(asked, ends)
 
 
 def _named(asked: str, known: Iterable[str], option: str) -> str | None:

@@ -28,6 +28,27 @@ def test_the_papers_ratios():
     assert [round(r, 3) for r in ratios] == [1.6, 2.583, 4.164]
 
 
+def test_what_has_no_ratio_has_none():
+    """Over 0 and over nothing; 0 over a number is 0, and words stay."""
+    fields = ["acceleration.entry", "jerk.at_deg", "wheel.gearing", "not_driven_share"]
+    some = [path("press-345.toml"), path("press-straight.toml")]
+    found = by_quantity(compare(some, picks=fields, ratio=True))
+    assert [row["press-straight"] for row in found.values()] == [None, 0.0, "external", None]
+    swapped = by_quantity(compare(some[::-1], picks=fields, ratio=True))
+    assert [row["press-345"] for row in swapped.values()] == [0.0, None, "external", None]
+
+
+def test_what_nothing_bounds_is_none():
+    """Two pins of which one dwell has no length, and a wall as sharp as its roller: in the report's
+    json null, and no fault of the program."""
+    pins = by_quantity(compare([path("two-pins-z4.toml")]))
+    assert "timing.k" not in pins and "acceleration.max" in pins
+    limited = ["limits.contact_stress_max_MPa=500"]
+    stress = "checks.contact_stress_max_MPa"
+    found = by_quantity(compare([path("press-345.toml")], limited, picks=[stress, "passes"]))
+    assert list(found) == ["checks.passes"] and found["checks.passes"]["press-345"] is False
+
+
 def test_each_column_is_the_designs_own_report():
     names = ["internal-z6.toml", "four-bar-z4.toml", "spherical-z6.toml"]
     found = by_quantity(compare([path(n) for n in names]))
@@ -56,7 +77,9 @@ def test_differing_rows_are_marked_and_alone_on_request():
 
 
 def test_picked_quantities_by_whole_and_short_names():
-    table = compare([path("limits.toml")], picks=["dwell_s", "acceleration.max", "passes"])
+    """And a check that other machines have, whose row here would be empty."""
+    some = ["dwell_s", "acceleration.max", "passes", "branches_apart_mm"]
+    table = compare([path("limits.toml")], picks=some)
     assert list(by_quantity(table)) == ["timing.dwell_s", "acceleration.max", "checks.passes"]
 
 

@@ -196,6 +196,14 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume goes on with all"),
         (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
         (["--vary", "drive.A=0.1", "--jobs", "0"], "--jobs 0"),
+        (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it goes with --random"),
+        (["--vary", "drive.A=0.1", "--pareto", "min:wheel.gearing"], "a word has no order"),
+        (["--vary", "drive.A=0.1", "--subject-to", "kind >= 1"], "drive.kind: a word has no"),
+        (["--vary", "drive.A=0.1", "--pareto", "min:k,max:timing.k"], "both min and max"),
+        (["--vary", "drive.A=0.1", "--pick", "dwell"], '(did you mean "dwell_s"?)'),
+        (["--vary", "drive.A=0.1", "--best", "k", "-o", "all.csv"], "--best writes a spec"),
+        (["--vary", "drive.A=0.1", "--best", "k", "--format", "json"], "--best writes a spec"),
+        (["--vary", "drive.A=0.1", "--best", "k", "--resume"], "--best has none to go on with"),
         (["--vary", "drive.A=2,3"], "none of the 2 designs can be built: drive.A=2"),
         ([], "--vary is missing"),
     ],
@@ -204,6 +212,31 @@ def test_errors_come_at_once(arguments, said, tmp_path):
     found = geneva("sweep", SPEC, *arguments)
     assert (found.exit_code, found.stdout) == (2, "")
     assert said in found.stderr and len(found.stderr.splitlines()) == 1
+
+
+def test_where_no_row_is_left_it_says_why():
+    """Bounds that nothing keeps, and a load of a machine without one, as a line besides no rows."""
+    some = ("sweep", SPEC, "--vary", "drive.A=0,0.5,2")
+    few = geneva(*some, "--subject-to", "dwell_s >= 5", "--format", "json")
+    assert (few.exit_code, json.loads(few.stdout)) == (0, {"rows": []})
+    broken, none = few.stderr.splitlines()
+    assert broken.endswith(
+        "1 of 3 designs cannot be built: without bounds and --pareto column error says why"
+    )
+    assert none.endswith(
+        "no row of 3 is left: timing.dwell_s >= 5 is kept by 0, the nearest being 0.666667"
+    )
+    unknown = geneva(*some, "--pareto", "min:loads.pin_force_N.max,max:dwell_s")
+    assert len(unknown.stdout.splitlines()) == 1
+    assert unknown.stderr.endswith("is left: loads.pin_force_N.max is known of none\n")
+
+
+def test_one_design_anywhere_tells_what_there_is():
+    """The first 1000 cannot be built, nor the one in the middle; a later one can."""
+    found = sweep(read(SPEC), grid("drive.A=-5:0.9:0.001"), picks=["velocity.max"])
+    assert found.rows(5900, 5901)[0][1] == pytest.approx(1.0 / 1.9, rel=1e-15)
+    with pytest.raises(GenevaError, match=r"none of 1000 designs all over can be built: drive.A=2"):
+        sweep(read(SPEC), grid("drive.A=2:3:0.001"), picks=["velocity.max"])
 
 
 def test_a_key_that_the_spec_lacks_may_be_the_one_that_is_varied(tmp_path):

@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
 from geneva_cli.study.sweep.front import Objective
 from geneva_cli.study.sweep.run import Sweep
 from geneva_cli.study.sweep.values import Value
@@ -86,7 +86,8 @@ class SweepSearch:
 
     def __init__(self, found: Sweep, asked: Asked) -> None:
         self.found, self.sign = found, asked.objective.sign
-        self.at = found.names.index(asked.objective.name)
+        self.name = asked.objective.name
+        self.at = found.names.index(self.name)
         self.bounds = [(found.names.index(c.name), c) for c in asked.constraints]
         axes = found.plan.axes
         self.free = [i for i, a in enumerate(axes) if a.span]
@@ -144,18 +145,13 @@ class SweepSearch:
 
 
 class Tally:
-    """What is kept of rows that go by: the ``first`` few of the best, and how near the others come.
-
-    ``kept`` and ``nearest`` are of each bound: how many designs keep it, and the value of the one
-    that is nearest to keeping it, or farthest inside.
-    """
+    """What is kept of rows that go by: the ``first`` few of the best, and how near others come."""
 
     def __init__(self, search: SweepSearch) -> None:
         self.search = search
         self.tried = self.feasible = 0
         self.first: list[Row] = []
-        self.kept = [0] * len(search.bounds)
-        self.nearest: list[float | None] = [None] * len(search.bounds)
+        self.nearness = Nearness(search.bounds)
 
     def add(self, rows: Sequence[Row]) -> None:
         """More rows."""
@@ -164,23 +160,9 @@ class Tally:
         self.feasible += len(kept)
         # the first of equals stays first
         self.first = sorted((*self.first, *kept), key=self.search.cost)[:STARTS]
-        for k, (i, c) in enumerate(self.search.bounds):
-            values = [float(v) for row in rows if is_number(v := row[i])]
-            self.kept[k] += sum(c.kept(v) for v in values)
-            before = self.nearest[k]
-            values += [] if before is None else [before]
-            if values:
-                self.nearest[k] = max(values) if c.sign == ">=" else min(values)
+        self.nearness.add(rows)
 
     def none(self) -> str:
         """What to say where no design keeps the bounds."""
-        said = [
-            f"{c.name} is known of none"
-            if nearest is None
-            else f"{c} is kept by {count:,}, the nearest being {nearest:.6g}"
-            for (_, c), count, nearest in zip(
-                self.search.bounds, self.kept, self.nearest, strict=True
-            )
-        ]
-        why = "; ".join(said) or "none has the quantity"
+        why = "; ".join(self.nearness.said()) or f"{self.search.name} is known of none"
         return f"--best: none of {self.tried:,} designs will do: {why}"

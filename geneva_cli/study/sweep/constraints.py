@@ -40,8 +40,8 @@ class Constraint(NamedTuple):
 
 
 def is_number(value: object) -> TypeGuard[float]:
-    """Whether a cell of a row holds a number."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    """Whether a cell of a row holds a number; yes and no are 1 and 0."""
+    return isinstance(value, (int, float))
 
 
 def constraint(text: str) -> Constraint:
@@ -63,6 +63,38 @@ def constraint(text: str) -> Constraint:
     if not math.isfinite(bound):
         raise GenevaError(f"{said}: the bound must be a finite number")
     return Constraint(found[1], found[2], bound)
+
+
+class Nearness:
+    """How near the designs of a sweep come to keeping some bounds, as their rows go by.
+
+    ``kept`` and ``nearest`` are of each bound: how many designs keep it, and the value of the one
+    that is nearest to keeping it, or farthest inside; None where none has the quantity.
+    """
+
+    def __init__(self, bounds: Sequence[tuple[int, Constraint]]) -> None:
+        self.bounds = bounds  # with the number of each one's column
+        self.kept = [0] * len(bounds)
+        self.nearest: list[float | None] = [None] * len(bounds)
+
+    def add(self, rows: Sequence[Sequence[object]]) -> None:
+        """More rows."""
+        for k, (i, c) in enumerate(self.bounds):
+            values = [float(v) for row in rows if is_number(v := row[i])]
+            self.kept[k] += sum(c.kept(v) for v in values)
+            before = self.nearest[k]
+            values += [] if before is None else [before]
+            if values:
+                self.nearest[k] = max(values) if c.sign == ">=" else min(values)
+
+    def said(self) -> list[str]:
+        """How near they come to each."""
+        return [
+            f"{c.name} is known of none"
+            if nearest is None
+            else f"{c} is kept by {count:,}, the nearest being {nearest:.6g}"
+            for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True)
+        ]
 
 
 def refuse_contradictions(given: Sequence[Constraint]) -> None:

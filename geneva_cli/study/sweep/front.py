@@ -34,6 +34,14 @@ def objective(text: str, option: str = "--pareto") -> Objective:
     return Objective(SENSES[sense], name)
 
 
+def refuse_opposites(given: Sequence[Objective]) -> None:
+    """Raise GenevaError for a quantity that should be small and large, which every row is."""
+    names = [o.name for o in dict.fromkeys(given)]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice:
+        raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")
+
+
 def front(
     rows: Sequence[Sequence[Any]], columns: Sequence[int], signs: Sequence[float]
 ) -> list[int]:

@@ -29,6 +29,20 @@ class SweepPlan(NamedTuple):
     def __len__(self) -> int:
         return self.random or math.prod(len(a.values) for a in self.axes)
 
+    def middle(self) -> tuple[Value, ...]:
+        """A design amid all: of each key the value in the middle."""
+        return tuple(_at(a, 0.5) for a in self.axes)
+
+    def some(self, most: int) -> Iterator[tuple[Value, ...]]:
+        """At most so many designs from all over, the first among them."""
+        if self.random:
+            yield from self.rows(0, min(most, len(self)))
+            return
+        count = min(most, len(self))
+        for i in range(count):
+            at = i * len(self) // count
+            yield from self.rows(at, at + 1)
+
     def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
         """The values of the keys of the designs from ``start`` up to ``stop``, left out."""
         return list(self._drawn(start, stop) if self.random else self._grid(start, stop))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
-from geneva_cli.study.sweep.front import Objective, objective
+from geneva_cli.study.sweep.front import Objective, objective, refuse_opposites
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
@@ -75,7 +75,7 @@ def request(
     *,
     pick: str = "",
     random: int | None = None,
-    seed: int = 0,
+    seed: int | None = None,
     check: bool = False,
     subject_to: Sequence[str] = (),
     pareto: str = "",
@@ -95,6 +95,8 @@ def request(
     axes = [axis(words, many) for words in vary]
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
+    if seed is not None and random is None:
+        raise GenevaError(f"--seed {cut(seed)}: it goes with --random N; a grid is not drawn")
     bounds = [constraint(text) for text in subject_to]
     wanted = _objectives(pareto, best)
     part = share(shard) if shard else WHOLE
@@ -106,12 +108,20 @@ def request(
     asked = [o.name for o in wanted] + [c.name for c in bounds]
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
     by |= dict.fromkeys([o.name for o in wanted], "--best" if best else "--pareto")
-    found = sweep(text, plan(axes, random, seed), [*asked, *names], check, part, by)
+    found = sweep(text, plan(axes, random, seed or 0), [*asked, *names], check, part, by)
     whole = dict(zip([*asked, *names], found.asked, strict=False))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
+    refuse_opposites(objectives)
+    _refuse_words(found, {whole[a]: option for a, option in by.items()})
     return Request(found, constraints, objectives, jobs, files)
+
+
+def _refuse_words(found: Sweep, options: Mapping[str, str]) -> None:
+    for name, option in options.items():
+        if name in found.pick.words:
+            raise GenevaError(f"{option} {name}: a word has no order; --vary or --set picks it")
 
 
 def _files(text: Text, vary: Sequence[str], many: bool, error: GenevaError) -> tuple[str, ...]:

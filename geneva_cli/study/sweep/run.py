@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
@@ -98,24 +99,29 @@ def sweep(
     """The sweep of a spec. ``check`` adds whether each design passes every check; ``options`` says
     which option asked for a quantity, where it was not --pick.
 
-    Raises GenevaError for a quantity that does not exist, and where none of the first designs can
-    be built.
+    Raises GenevaError for a quantity that does not exist, and where none of some designs can be
+    built.
     """
     asked = [*picks, *(CHECKED if check else ())]
     return Sweep(text, plan, pick(asked, _first(text, plan), options=options), shard)
 
 
 def _first(text: Text, plan: SweepPlan) -> Mechanism:
-    """The first design that can be built."""
-    said = ""
-    for some in plan.rows(0, min(TRIED, len(plan))):
+    """A design that can be built: the one in the middle, or the first of some of the others.
+
+    The middle one needs no drawing, for which SciPy would be loaded.
+    """
+    with suppress(GenevaError):
+        return _machine(text, plan, plan.middle())
+    said = []
+    for some in plan.some(TRIED):
         try:
             return _machine(text, plan, some)
         except GenevaError as error:
-            said = said or str(error)
-    first = "first " if len(plan) > TRIED else ""
-    count = f"none of the {first}{min(TRIED, len(plan))} designs" if len(plan) > 1 else "no design"
-    raise GenevaError(f"{count} can be built: {said}")
+            said.append(str(error))
+    those = f"{len(said)} designs all over" if len(plan) > TRIED else f"the {len(said)} designs"
+    count = f"none of {those}" if len(plan) > 1 else "no design"
+    raise GenevaError(f"{count} can be built: {said[0]}")
 
 
 def with_values(text: Text, axes: Sequence[VariedKey], some: Sequence[Value]) -> Text:

@@ -94,6 +94,16 @@ TURNING: Checks = {
 }
 
 
+# Whether there are parts, and whether their turn can be proved: made where the parts are.
+THERE = ("parts", "full_turn")
+
+
+def every_check() -> tuple[str, ...]:
+    """The names of all checks."""
+    lists = (MOTION, LIMITS, THERE, STATIC, SPHERE, TURNING)
+    return tuple(dict.fromkeys(name for names in lists for name in names))
+
+
 def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
     """The checks of MOTION or LIMITS that apply to a machine."""
     yield from _made(among, mechanism)

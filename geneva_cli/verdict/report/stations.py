@@ -26,7 +26,7 @@ def stations(proof: Proof) -> Values:
     shared: Numbers = {}
     for name in each[0]:
         low, high = min(found := [e[name] or 0.0 for e in each]), max(found)
-        same = all(e[name] is not None for e in each) and high - low <= 1e-12 * abs(high)
+        same = all(e[name] is not None for e in each) and math.isclose(low, high, rel_tol=1e-12)
         shared[name] = each[0][name] if same else None
     rows = rows_table(tuple(each[0]), [tuple(e.values()) for e in each])
     return {**shared, **_peaks(mechanism, worst(mechanism)), "stations": rows}

@@ -1,0 +1,55 @@
+"""What became of the designs of a sweep: how many there were, and why none is left."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TypeAlias
+
+from geneva_cli.study.fields import Cell
+from geneva_cli.study.sweep.constraints import Nearness, is_number
+from geneva_cli.study.sweep.request import Request
+
+Rows: TypeAlias = list[list[Cell]]
+
+
+class Outcome:
+    """Counts of the rows that go by: all, those that cannot be built, those that are kept."""
+
+    def __init__(self, asked: Request) -> None:
+        self.asked = asked
+        self.all = self.failed = self.left = 0
+        names = asked.sweep.names
+        self._nearness = Nearness([(names.index(c.name), c) for c in asked.constraints])
+        self._unknown = {names.index(o.name): o.name for o in asked.objectives}
+
+    def rows(self, every: Iterable[Rows]) -> Iterator[Rows]:
+        """The rows, or the choice of them, counted."""
+        counted = self._counted(every)
+        for block in self.asked.chosen(counted) if self.asked.chooses else counted:
+            self.left += len(block)
+            yield block
+
+    def _counted(self, every: Iterable[Rows]) -> Iterator[Rows]:
+        for block in every:
+            self.all += len(block)
+            self.failed += sum(row[-1] is not None for row in block)
+            self._nearness.add(block)
+            for i in list(self._unknown):
+                if any(is_number(row[i]) for row in block):
+                    del self._unknown[i]
+            yield block
+
+    def notes(self) -> Sequence[str]:
+        """What a person should know besides the rows."""
+        said = []
+        if self.failed:
+            where = "without bounds and --pareto " if self.asked.chooses else ""
+            said.append(
+                f"{self.failed:,} of {self.all:,} designs cannot be built: {where}column error "
+                "says why"
+            )
+        if self.all and not self.left:
+            unknown = [f"{name} is known of none" for name in self._unknown.values()]
+            why = dict.fromkeys([*unknown, *self._nearness.said()])
+            said.append(f"no row of {self.all:,} is left: {'; '.join(why)}")
+        return said
