@@ -20,21 +20,26 @@ def search_deg(parts: Turned) -> float:
     return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.rollers))
 
 
-def free_angles(parts: Turned, at: Array) -> tuple[Array, Array]:
+def free_angles(parts: Turned, at: Array, fits: bool = False) -> tuple[Array, Array]:
     """How far the wheel can be turned back and on at input angles (n,), radians, (n,) each."""
-    back, on = stopped(parts, at)
+    back, on = stopped(parts, at, fits)
     return back.lead, on.lead
 
 
-def stopped(parts: Turned, at: Array) -> tuple[Stopped, Stopped]:
-    """What stops the wheel on its way back and on at input angles (n,), and where."""
+def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stopped]:
+    """What stops the wheel on its way back and on at input angles (n,), and where.
+
+    ``fits`` says that nothing overlaps there; else it is looked for.
+    """
     gaps, close, count = parts.gaps, parts.close, len(at)
     pose, most = gaps.pose(at), math.radians(search_deg(parts))
     both = np.concatenate((np.arange(count), np.arange(count)))
     found = gaps.first_stop(pose.at(both), np.repeat((-1.0, 1.0), count), most, close)
-    # where parts overlap as it stands there is no play
-    apart = gaps.gap(pose, np.zeros(count), close) >= -close
-    back, on = ([np.where(apart, x[i:][:count], 0.0) for x in found] for i in (0, count))
+    if not fits:  # where parts overlap as it stands there is no play
+        overlap = np.flatnonzero(gaps.gap(pose, np.zeros(count), close) < -close)
+        for each in found:
+            each[overlap] = each[count + overlap] = 0.0
+    back, on = ([x[i : i + count] for x in found] for i in (0, count))
     return Stopped(*back), Stopped(*on)
 
 

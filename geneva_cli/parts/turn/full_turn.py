@@ -98,10 +98,13 @@ def full_turn(parts: Turned) -> FullTurn:
     parts.gaps.begin()
     earlier = _earlier(parts)
     driving, idle, lock = _smallest(parts, positions(parts), earlier)
-    play = play_of(parts)
+    fits = all(found.mm >= -parts.close for found in (driving, idle, lock) if found)
+    play = play_of(parts, fits)
     most = search_deg(parts)
     middles = np.array([0.5 * (w.start + w.end) for w in windows(parts) if w.rests])
-    dwell = np.degrees(np.maximum(*free_angles(parts, middles))) if len(middles) else np.zeros(0)
+    dwell = (
+        np.degrees(np.maximum(*free_angles(parts, middles, fits))) if len(middles) else np.zeros(0)
+    )
     push = push_deg(parts, play)
 
     def shown(found: Place) -> Place:

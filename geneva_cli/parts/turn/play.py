@@ -87,14 +87,17 @@ def windows(parts: Turned) -> Iterator[Window]:
             yield Window(exit_, following, i, True)
 
 
-def play_of(parts: Turned) -> Play:
-    """The play over a turn, ever closer where it is greatest and where it closes fastest."""
-    found = _measured(parts, _places(parts))
+def play_of(parts: Turned, fits: bool) -> Play:
+    """The play over a turn, ever closer where it is greatest and where it closes fastest.
+
+    ``fits`` says that no parts overlap in the wheel's own positions.
+    """
+    found = _measured(parts, _places(parts), fits)
     for _ in range(CLOSER):
         more = np.unique(np.concatenate([*_peaks(parts, found), *_closing(parts, found)]))
         if not len(more):
             break
-        found = _merged(found, _measured(parts, more))
+        found = _merged(found, _measured(parts, more, fits))
     return found
 
 
@@ -127,9 +130,9 @@ def _places(parts: Turned) -> Array:
     return np.unique(np.concatenate(found))
 
 
-def _measured(parts: Turned, at: Array) -> Play:
+def _measured(parts: Turned, at: Array, fits: bool) -> Play:
     assembly = parts.assembly
-    back, on = stopped(parts, at)
+    back, on = stopped(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
     last = assembly.start_deg + assembly.turn_deg

@@ -118,6 +118,7 @@ class Stops:
         self.rounds, self.lines = rounds(wheel), lines(wheel)
         self.far = np.hypot(self.rounds.x, self.rounds.y)
         self.ahead = np.arctan2(self.rounds.y, self.rounds.x)
+        self.low, self.high = _reach(self.rounds, self.far, self.ahead)
         one, no = np.ones(1), np.zeros(1)
         self.roller = Rounds(no, no, roller * one, one, one, no, -2.0 * one)
         self.crank = rounds(crank) if crank else None
@@ -159,28 +160,31 @@ class Stops:
         away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
         step = max(1, BLOCK // max(1, len(ps)))
         for block in range(0, len(way), step):
-            sigma, rho = away[block : block + step, qs], self.far[ps]
+            # how far from the wheel's axis they touch
+            sigma = away[block : block + step]
+            low, high = sigma - other.radius, sigma + other.radius
+            near = (low[:, qs] <= self.high[ps]) & (high[:, qs] >= self.low[ps])
+            row, pair = np.nonzero(near)
+            s, r, d = sigma[row, qs[pair]], self.far[ps[pair]], ds[pair]
             with np.errstate(divide="ignore", invalid="ignore"):
                 # of the angle between the centres, seen from the axis: the squares of sine and
                 # cosine of half of it
-                size = 4.0 * rho * sigma
-                sine = (ds - rho + sigma) * (ds + rho - sigma) / size
-                cosine = (rho + sigma - ds) * (rho + sigma + ds) / size
-            row, pair = np.nonzero((sine >= 0.0) & (cosine >= 0.0))
-            n, p, q = row + block, ps[pair], qs[pair]
-            h, g = np.sqrt(sine[row, pair]), np.sqrt(cosine[row, pair])
-            sign = np.where(hollow[pair], way[n], -way[n])
+                sine = (d - r + s) * (d + r - s) / (4.0 * r * s)
+                cosine = (r + s - d) * (r + s + d) / (4.0 * r * s)
+            meet = np.flatnonzero((sine >= 0.0) & (cosine >= 0.0))
+            n, pair, s, r, d = row[meet] + block, pair[meet], s[meet], r[meet], d[meet]
+            h, g = np.sqrt(sine[meet]), np.sqrt(cosine[meet])
+            p, q, sign = ps[pair], qs[pair], np.where(hollow[pair], way[n], -way[n])
             angle = sign * (2.0 * np.arctan2(h, g))
             lead = ahead_by(
                 way[n] * (towards[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
             )
-            near = np.flatnonzero(lead < most)
-            n, p, q, h, g = n[near], p[near], q[near], h[near], g[near]
-            sign, angle, lead = sign[near], angle[near], lead[near]
             # the direction from the wheel's centre to the other, seen with the other ahead
-            d, r, s = ds[pair[near]], self.far[p], away[n, q]
             x = ((s - r) + 2.0 * r * h * h) / d
             y = -2.0 * sign * r * h * g / d
+            near = np.flatnonzero(lead < most)
+            n, p, q, s, x, y = n[near], p[near], q[near], s[near], x[near], y[near]
+            angle, lead = angle[near], lead[near]
             good = own.face(p, x, y, self.ahead[p] - angle, other.sense[q])
             good &= other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
             lever = own.sense[p] * other.radius[q]
@@ -232,6 +236,23 @@ class Stops:
             good = (lead < most) & (along >= start[n, q]) & (along <= end[n, q])
             good &= own.face(p, -1.0 + 0.0 * r, 0.0 * r, self.ahead[p] - angle)
             yield Touch(n[good], lead[good], np.zeros(len(n))[good])
+
+
+def _reach(arcs: Rounds, far: Array, ahead: Array) -> tuple[Array, Array]:
+    """The least and the greatest distance of arcs from the origin, or a little more."""
+    every, zero = np.arange(len(far)), np.zeros(len(far))
+    half = np.arccos(np.clip(arcs.least, -1.0, 1.0))
+    middle = np.arctan2(arcs.my, arcs.mx)
+    ends = [
+        np.hypot(arcs.x + arcs.radius * np.cos(end), arcs.y + arcs.radius * np.sin(end))
+        for end in (middle - half, middle + half)
+    ]
+    inner = arcs.face(every, zero - 1.0, zero, ahead)
+    outer = arcs.face(every, zero + 1.0, zero, ahead)
+    low = np.where(inner, np.abs(far - arcs.radius), np.minimum(*ends))
+    high = np.where(outer, far + arcs.radius, np.maximum(*ends))
+    spare = SLACK * (far + arcs.radius)
+    return low - spare, high + spare
 
 
 def ahead_by(lead: Array, pitch: float) -> Array:
