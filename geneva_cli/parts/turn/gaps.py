@@ -46,14 +46,6 @@ class Gaps:
         self._sector()
         self.crank = Polyarc(crank) if crank else None
 
-    @cached_property
-    def wheel_points(self) -> Array:
-        """Points along the wheel's outline that come near to the locking disc, (n, 2)."""
-        L = self.assembly.L
-        points = self.wheel.samples(SAGITTA * L, LONGEST * L)
-        near: Array = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        return near
-
     def begin(self) -> None:
         """Count work from here on; more than WORK raises NotProved."""
         self.left = WORK
@@ -191,18 +183,32 @@ class Gaps:
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
         at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
-        _, seen = self._on_crank(turn, pose, self.sizes.lock * (1.0 - TOUCH))
-        return np.hypot(*seen.T), np.arctan2(seen[:, 1], seen[:, 0])
+        reach = self.sizes.lock * (1.0 - TOUCH)
+        # Only in directions near to that of the crank's axis is anything within reach of it.
+        near = math.asin(reach / self.assembly.L) if reach < self.assembly.L else math.pi
+        points, direction = self._wheel_points
+        ahead = -np.remainder(turn, math.tau)
+        first = np.searchsorted(direction, ahead - near)
+        count = np.searchsorted(direction, ahead + near) - first
+        owner = np.repeat(np.arange(len(turn)), count)
+        which = np.arange(len(owner)) + np.repeat(first - np.cumsum(count) + count, count)
+        away = points[which] - self._axis(turn)[owner]
+        inside = np.flatnonzero((away * away).sum(axis=1) < reach * reach)
+        away, owner = away[inside], owner[inside]
+        x, y = turned_points(away, (turn - pose)[owner]).T
+        return np.hypot(x, y), np.arctan2(y, x)
 
-    def _on_crank(self, turn: Array, pose: Array, reach: float) -> tuple[NDArray[np.intp], Array]:
-        """The wheel's points within reach of the crank's axis, in the crank's frame.
-
-        With the wheel and the crank at n angles; which of the n each point is for comes first.
-        """
-        axis, (px, py) = self._axis(turn), self.wheel_points.T
-        inside = (px - axis[:, :1]) ** 2 + (py - axis[:, 1:]) ** 2 < reach * reach
-        owner, which = np.nonzero(inside)
-        return owner, turned_points(self.wheel_points[which] - axis[owner], (turn - pose)[owner])
+    @cached_property
+    def _wheel_points(self) -> tuple[Array, Array]:
+        """Points along the wheel's outline that come near to the locking disc, (n, 2), three times
+        round in the order of their directions, (n,), of which those amid are from -pi to pi."""
+        L = self.assembly.L
+        points = self.wheel.samples(SAGITTA * L, LONGEST * L)
+        points = points[np.hypot(*points.T) >= L - self.sizes.lock]
+        direction = np.arctan2(points[:, 1], points[:, 0])
+        order = np.argsort(direction)
+        turns = np.repeat((-math.tau, 0.0, math.tau), len(order))
+        return np.tile(points[order], (3, 1)), np.tile(direction[order], 3) + turns
 
     def _axis(self, turn: Array) -> Array:
         """The crank's axis in the wheel's frame, (n, 2)."""
