@@ -192,10 +192,13 @@ class Gaps:
         count = np.searchsorted(direction, ahead + near) - first
         owner = np.repeat(np.arange(len(turn)), count)
         which = np.arange(len(owner)) + np.repeat(first - np.cumsum(count) + count, count)
-        away = points[which] - self._axis(turn)[owner]
-        inside = np.flatnonzero((away * away).sum(axis=1) < reach * reach)
-        away, owner = away[inside], owner[inside]
-        x, y = turned_points(away, (turn - pose)[owner]).T
+        px, py = points.T
+        ax, ay = self._axis(turn).T
+        x, y = px[which] - ax[owner], py[which] - ay[owner]
+        inside = np.flatnonzero(x * x + y * y < reach * reach)
+        x, y, owner = x[inside], y[inside], owner[inside]
+        c, s = np.cos(turn - pose)[owner], np.sin(turn - pose)[owner]
+        x, y = x * c - y * s, x * s + y * c
         return np.hypot(x, y), np.arctan2(y, x)
 
     @cached_property
