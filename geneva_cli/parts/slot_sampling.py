@@ -31,13 +31,14 @@ INSIDE = np.arange(1, 16) / 16.0  # where a chord's distance from the curve is m
 MIDDLE = np.array([0.25, 0.5, 0.75])  # the same for many short chords, which are parabolas
 
 
-def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
+def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
     """Input angles at which to sample the slot, so that no chord misses a curve by more.
 
     A chord of length h on a curve of curvature k misses it by k h²/8, so nodes are spread evenly
     in the integral of sqrt(k) ds, taken on the flank where it is largest; then the misses are
     measured and nodes moved, added or taken away. Cusps are nodes: mid-motion, where the pitch
-    curve can have one, and the places where an undercut flank turns back.
+    curve can have one, and the places where an undercut flank turns back. Without ``fewest`` the
+    first number that serves is taken, some per cent more.
 
     Raises GenevaError where that takes more rows than are written.
     """
@@ -48,7 +49,7 @@ def nodes(mechanism: Mechanism, tolerance_mm: float) -> Array:
     ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
     if not engagement.motion.symmetric:
         ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
-    parts = [_smooth(mechanism, a, b, tolerance_mm)[:-1] for a, b in pairwise(ends)]
+    parts = [_smooth(mechanism, a, b, tolerance_mm, fewest)[:-1] for a, b in pairwise(ends)]
     found = np.concatenate((*parts, [ends[-1]]))
     return np.concatenate((found[:-1], -found[::-1])) if engagement.motion.symmetric else found
 
@@ -83,11 +84,11 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
     return sorted(found)
 
 
-def _smooth(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Array:
+def _smooth(mechanism: Mechanism, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
     grid = np.linspace(a, b, SURVEY + 1)
     share, total = _integrated_density(mechanism, grid)
     count = max(1, int(np.ceil(total / np.sqrt(8.0 * tolerance_mm) if total else 1.0)))
-    count += count // 50 if count > MANY else 0  # to serve at the first attempt
+    count += count // 50 if count > MANY or not fewest else 0  # to serve at the first attempt
     best, too_few = None, 0
     for _ in range(ATTEMPTS):
         if not count < ROWS_MAX:
@@ -109,8 +110,11 @@ def _smooth(mechanism: Mechanism, a: float, b: float, tolerance_mm: float) -> Ar
             count = max(enough, (too_few + good) // 2, 1)
         else:
             too_few = count
-            count = max(enough, count + 1) if best is None else (too_few + good + 1) // 2
-        if best is not None and (count >= good or good - too_few <= SPARE * good or good > MANY):
+            more = count + max(1, 0 if fewest else count // 50)
+            count = max(enough, more) if best is None else (too_few + good + 1) // 2
+        if best is not None and (
+            not fewest or count >= good or good - too_few <= SPARE * good or good > MANY
+        ):
             return best
     if best is not None:
         return best

@@ -189,9 +189,9 @@ class Gaps:
         points, direction = self._wheel_points
         ahead = -np.remainder(turn, math.tau)
         first = np.searchsorted(direction, ahead - near)
-        count = np.searchsorted(direction, ahead + near) - first
-        owner = np.repeat(np.arange(len(turn)), count)
-        which = np.arange(len(owner)) + np.repeat(first - np.cumsum(count) + count, count)
+        many = np.searchsorted(direction, ahead + near) - first
+        owner = np.repeat(np.arange(len(turn)), many)
+        which = np.arange(len(owner)) + np.repeat(first - np.cumsum(many) + many, many)
         px, py = points.T
         ax, ay = self._axis(turn).T
         x, y = px[which] - ax[owner], py[which] - ay[owner]

@@ -163,8 +163,7 @@ class Stops:
             # how far from the wheel's axis they touch
             sigma = away[block : block + step]
             low, high = sigma - other.radius, sigma + other.radius
-            near = (low[:, qs] <= self.high[ps]) & (high[:, qs] >= self.low[ps])
-            row, pair = np.nonzero(near)
+            row, pair = np.nonzero((low[:, qs] <= self.high[ps]) & (high[:, qs] >= self.low[ps]))
             s, r, d = sigma[row, qs[pair]], self.far[ps[pair]], ds[pair]
             with np.errstate(divide="ignore", invalid="ignore"):
                 # of the angle between the centres, seen from the axis: the squares of sine and

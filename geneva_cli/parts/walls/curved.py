@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.shapes import Contour, Segment, about, joined
+from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, joined
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.walls.chain import Piece, chain
+from geneva_cli.parts.walls.joint import point
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 LAYER = "WHEEL"
+SAME = 1e-10  # of the centre distance: walls that are so nearly mirror images are
 
 
 def curved_walls(
@@ -27,11 +31,39 @@ def curved_walls(
     material in the roller's way. ``curves`` is "arcs" or "cubics", what the walls become where
     they are no arcs. Raises GenevaError where the walls do not close.
     """
-    pieces: list[Segment] = []
     half = 0.5 * tolerance
-    for piece in chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement):
-        pieces += _segments(piece, half, curves)
-    return Contour(LAYER, joined(pieces), closed=False)
+    found: list[list[Segment]] = []
+    pieces = chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement)
+    for i, piece in enumerate(pieces):
+        other = len(pieces) - 1 - i
+        if other < i and _mirrors(pieces[other], piece, SAME * assembly.L):
+            found.append([_mirrored(segment) for segment in reversed(found[other])])
+        else:
+            found.append(_segments(piece, half, curves))
+    return Contour(LAYER, joined(itertools.chain(*found)), closed=False)
+
+
+def _mirrors(one: Piece, other: Piece, near: float) -> bool:
+    """Whether a piece is another's mirror image in the slot's axis, run through backwards."""
+    ends = ((one.start, other.end), (one.end, other.start))
+    middles = (0.5 * (one.start + one.end), 0.5 * (other.start + other.end))
+    for t, u in (*ends, middles):
+        (x, y), (v, w) = point(one.wall, t), point(other.wall, u)
+        if math.hypot(v - x, w + y) > near:
+            return False
+    return True
+
+
+def _mirrored(segment: Segment) -> Segment:
+    """A segment's mirror image in the slot's axis, run through backwards."""
+    start, end = _over(segment.end), _over(segment.start)
+    if isinstance(segment, Cubic):
+        return Cubic(start, _over(segment.second), _over(segment.first), end)
+    return segment._replace(start=start, end=end)  # an arc's bulge changes its sign twice
+
+
+def _over(p: Point) -> Point:
+    return p[0], -p[1]
 
 
 def _segments(piece: Piece, tolerance: float, curves: str) -> list[Segment]:

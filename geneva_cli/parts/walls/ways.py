@@ -50,7 +50,7 @@ class Wall(NamedTuple):
 def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall]:
     """Every wall of the roller's way, with what of it is free."""
     w, back = sizes.half_width, retraces(engagement)
-    t = nodes(assembly.mechanism, FINE * assembly.L)
+    t = nodes(assembly.mechanism, FINE * assembly.L, fewest=False)
     near = w - COVERED * assembly.L
     middle = int(np.searchsorted(t, 0.0))
     circles = [_circle(assembly, sizes, engagement, end) for end in (-1.0, 1.0)]
