@@ -15,6 +15,7 @@ from geneva_cli.parts import proof
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.parts.walls import chain as walls_chain
 from geneva_cli.parts.walls import curved as curved_walls
+from geneva_cli.study.synthesis.families import four_bar_search
 from geneva_cli.verdict import cautions
 
 
@@ -96,6 +97,18 @@ def made_once():
             patch.setattr(module, "full_turn", TURNED)
         patch.setattr(curved_walls, "chain", CHAIN)
         patch.setattr(cautions, "cautions", CAUTIONS)
+        yield
+
+
+@pytest.fixture(scope="module")
+def few_four_bars():
+    """Four-bars looked for at an eighth of the places, for tests that are of no one drive.
+
+    What they find are four-bars all the same, if not the best; those are test_synth_four_bar's.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        for name, places in (("FEWEST", 128), ("MOST", 256), ("FEW", 7), ("MANY", 8)):
+            patch.setattr(four_bar_search, name, places)
         yield
 
 

@@ -91,9 +91,10 @@ def test_specs_of_known_keys(seed):
     assert table.columns[3][0] == pytest.approx(0.0, abs=1e-9 * worst(found).velocity.max)
 
 
-@pytest.mark.parametrize("case", [*range(2, 8), *range(9, 13)])  # 0, 1 and 8 are slow
+# of the first some that take a second or less: with parts, without them, and refused
+@pytest.mark.parametrize("case", [2, 5, 6, 9, 10, 11, 12, 13, 16, 21])
 def test_machines_with_parts(case):
-    """The first cases of `fuzz_parts.py`: all that is made of them is finite, without a warning."""
+    """Cases of `fuzz_parts.py`: all that is made of them is finite, without a warning."""
     fuzz_parts.one(machine_text(numbers("make test", case)))
 
 

@@ -29,6 +29,7 @@ from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.study.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
 
+pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 

@@ -21,6 +21,7 @@ from geneva_cli.study.synthesis.shown import for_people
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.table import synthesis_table
 
+pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
 # A minimum found to a share d of its place is d² off in its value, and no dense sweep is nearer.
 NEAR = 1e-8
