@@ -114,8 +114,8 @@ def run(
     hold its wheel at rest: "detent".
 
     Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
-    they do; no, with the reason; maybe for those below the first twenty (--checked); nothing for
-    wheels that are not flat. --write turns the parts of its row.
+    they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
+    the parts of its row.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 

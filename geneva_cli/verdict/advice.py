@@ -188,7 +188,7 @@ class Adviser:
 def _clears(mechanism: Mechanism, at_deg: float) -> float:
     """Plus infinity where no parts overlap about one input angle, minus infinity where they do."""
     from geneva_cli.parts.proof import Proof
-    from geneva_cli.parts.turn.full_turn import gap_about
+    from geneva_cli.parts.turn.glance import gap_about
 
     found = Proof(mechanism).turned
     return math.inf if gap_about(found, at_deg) >= -found.contact else -math.inf

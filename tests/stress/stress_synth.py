@@ -46,7 +46,7 @@ def row(some, folder):
     number = some.randint(1, min(len(found), 40))
     said = found[number - 1].candidate.parts
     if said is None:
-        return "not flat", ""
+        return "not drawn", ""
     made, text = chosen(wish, found, number)
     file, wheel = folder / "spec.toml", folder / "wheel.dxf"
     file.write_text(text, encoding="utf-8")

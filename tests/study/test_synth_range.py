@@ -216,11 +216,12 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
 
 
-def test_limits_do_not_turn_the_parts_of_a_sphere():
-    """A frame's limits are checked on a spherical wheel; of parts nothing is known."""
-    frame = Spec(Wheel(6), limits=Limits(velocity_max=0.9))
+@pytest.mark.parametrize(("limit", "said"), [(0.9, "maybe"), (0.5, "no: velocity_max")])
+def test_limits_are_kept_on_a_sphere(limit, said):
+    """The plain crank's greatest velocity, tan(180/z), is 0.577."""
+    frame = Spec(Wheel(6), limits=Limits(velocity_max=limit))
     found = rows(frame=frame, motion_deg="180", spherical=True)
-    assert {row.candidate.parts for row in found} == {None}
+    assert {row.candidate.parts for row in found} == {said}
 
 
 def test_what_no_array_has_is_asked_of_each_machine():

@@ -126,7 +126,10 @@ def swept(found: Ball) -> tuple[Array, Array]:
     """
     frame = np.column_stack(at_mid_motion(found))
     wheel = edge_points(found, EACH)
-    wheel = wheel[np.abs(np.arccos(wheel[:, 2]) - found.axes) < found.lock]
+    # the wheel turns by half a step either way: what is nearer to the crank's axis then
+    off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - found.half_step, 0.0)
+    flat = math.sin(found.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
+    wheel = wheel[math.cos(found.axes) * wheel[:, 2] + flat > math.cos(found.lock) - SAME]
     rows = []
     for turn in np.linspace(-found.half_motion, found.half_motion, STEPS):
         polar, azimuth = _seen(wheel @ _index(found, frame, turn), frame)

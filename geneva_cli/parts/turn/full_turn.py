@@ -33,7 +33,6 @@ DIPS = 12  # smallest gaps that are looked at more closely
 FINER = 9  # positions put around each of them, each time
 ROUNDS = 6
 CHANGE_DEG = 15.0  # of the input, on either side of entry and exit,
-BESIDE = np.geomspace(0.01, 3.0, 12)  # degrees of the input, beside a place that is looked at
 ENDS = 24  # there are that many positions
 
 
@@ -127,19 +126,6 @@ def full_turn(parts: Turned) -> FullTurn:
         most,
         play,
     )
-
-
-def gap_about(parts: Turned, shown_deg: float) -> float:
-    """The smallest gap of any two parts, mm, at positions about one input angle.
-
-    A few positions instead of a whole turn: to look for a size that frees a machine there.
-    """
-    start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
-    place = parts.assembly.place_deg(shown_deg)
-    at = start + (place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start) % turn
-    pose = parts.gaps.pose(at)
-    gap = float(parts.gaps.rollers(pose).min())
-    return min(gap, float(parts.gaps.locking(pose).min())) if parts.crank else gap
 
 
 def _earlier(parts: Turned) -> Earlier:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.proof import Proof
-from geneva_cli.study.synthesis.parts import USUAL, exact, with_roller
+from geneva_cli.study.synthesis.looks import look
+from geneva_cli.study.synthesis.parts import SPARE, USUAL, exact, with_roller
+from geneva_cli.study.synthesis.turns import Failing, Turns
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
 UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # what no other roller helps
-SMALLER = 3  # usual rollers below the first that are tried
 
 
 class Built(NamedTuple):
@@ -28,16 +27,30 @@ class Built(NamedTuple):
 def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
     """The spec turned through a whole turn, with the first of some sizes that pass every check.
 
-    ``fixed`` are keys of its [size] that must stay as they are. Takes some seconds. Where nothing
-    passes, the spec as it was.
+    ``fixed`` are keys of its [size] that must stay as they are. Where nothing passes, the spec as
+    it was.
     """
-    trouble = _failing(spec)
+    return built_together([spec], fixed)[0]
+
+
+def built_together(specs: Sequence[Spec], fixed: frozenset[str] = frozenset()) -> list[Built]:
+    """The same of machines that turn through the same positions, which are turned once."""
+    turns = Turns()
+    return [_built(turns, spec, fixed) for spec in specs]
+
+
+def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
+    trouble = _failing(turns, spec)
     if not trouble:
         return Built(spec, "")
-    for other in _others(spec, set(trouble), fixed):
-        if not _failing(other):
+    names = [one.name for one in trouble]
+    seen = trouble
+    for other in _others(spec, set(names), fixed):
+        failing = _failing(turns, other, seen)
+        if not failing:
             return Built(other, "")
-    return Built(spec, ", ".join(trouble))
+        seen = failing
+    return Built(spec, ", ".join(names))
 
 
 def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
@@ -49,22 +62,17 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
     if trouble <= SHAFT or trouble & UNSIZED or "roller_radius_mm" in fixed:
         return
     L = build(spec).center_distance_mm
-    r = 100.0 * spec.roller_radius_mm(L) / L
-    for percent in [p for p in USUAL if p < r * (1.0 - 1e-9)][:SMALLER]:
-        yield with_roller(spec, exact(0.01 * percent * L))
+    r = spec.roller_radius_mm(L)
+    least = SPARE * look(spec).least if spec.is_flat else 0.0
+    for other in [exact(0.01 * percent * L) for percent in USUAL]:
+        if least <= other < r * (1.0 - 1e-9):
+            yield with_roller(spec, other)
 
 
-def _failing(spec: Spec) -> list[str]:
-    """The names of the checks that fail; for parts that cannot be made the key in the way."""
+def _failing(turns: Turns, spec: Spec, seen: Sequence[Failing] = ()) -> list[Failing]:
+    """The checks that fail; with what has been ``seen`` to fail with other sizes, one of them."""
     machine = build(spec)
-    before = [check.name for check in checks(machine, parts=False) if check.passes is False]
-    if set(before) & UNSIZED:  # no need to turn them
+    before = [Failing(c.name) for c in checks(machine, parts=False) if c.passes is False]
+    if before and (seen or {one.name for one in before} & UNSIZED):  # no need to turn them
         return before
-    proof = Proof(machine)
-    rows = [check.name for check in checks(machine, proof) if check.passes is False]
-    try:
-        _ = proof.found
-    except GenevaError as error:
-        key = str(error.key[-1]) if error.key else "outline"
-        rows = [key if name == "parts" else name for name in rows]
-    return rows
+    return [*before, *turns.failing(machine, seen)]

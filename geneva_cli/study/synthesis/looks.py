@@ -40,6 +40,23 @@ class PartsLook(NamedTuple):
     least: float  # the radius of the least roller that leaves no island of the wheel in its slot
     pressure_deg: float  # the greatest in a cam's groove
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
+    back: tuple[Array, Array] | None  # of a wheel without a lock, the roller's places at rest:
+    # along the nearest slot, and beside its middle
+
+
+def gap_at_rest(back: tuple[Array, Array], rim: float, half_width: float, r: float) -> float:
+    """The smallest gap, mm, of a roller and a wheel at rest, at the places that were looked at.
+
+    A rim with straight slots: beside a slot the rim is nearest, before it a corner of its mouth.
+    """
+    along, aside = back
+    level = math.sqrt(max(rim * rim - half_width * half_width, 0.0))
+    corner = np.where(
+        along >= level, np.hypot(along - level, half_width - aside), half_width - aside
+    )
+    before = aside * level < half_width * along
+    gap = np.where(before, corner, np.hypot(along, aside) - rim)
+    return float(gap.min()) - r
 
 
 _kept: dict[Spec, PartsLook] = {}
@@ -101,13 +118,27 @@ def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
     between = [_between(*points) for points in zip(fx[:, ::2], fy[:, ::2], z, strict=True)]
     pressure = groove.pressure_deg if groove else np.zeros(len(specs))
     walls = outer_walls(machine, LOOKS)
+    back = None if machine.spec.drive.LOCKS else _back(machine)
     columns = np.broadcast_arrays(ends, arm, between, least, pressure)
     out = []
     for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True)):
         end, near, apart, radius, steep = row
         own = (walls[0].of(i), walls[1].of(i)) if walls else None
-        out.append(PartsLook(spec, RollerPaths((end,), near), apart, radius, steep, own))
+        away = (back[0][i], back[1][i]) if back else None
+        out.append(PartsLook(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
     return out
+
+
+def _back(machine: Mechanism) -> tuple[Array, Array]:
+    """The roller's places at rest of the wheel, mm along the nearest slot and beside it, (n, m)."""
+    (engagement,) = machine.engagements
+    entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
+    rest = 360.0 * machine.spec.drive.turns - wide
+    x, y = (c.c[0] for c in engagement.path(entry + wide + rest * (np.arange(PLACES) / PLACES), 0))
+    away, b = machine.center_distance_mm * np.hypot(x, y), np.atleast_2d(engagement.half_step)
+    angle = np.arctan2(y, x)
+    angle = np.abs((angle - angle[:, :1] + b) % (2.0 * b) - b)  # it leaves along its slot
+    return away * np.cos(angle), away * np.sin(angle)
 
 
 def _arm(machine: Mechanism) -> Array:

@@ -19,9 +19,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.sizes import sizes
+from geneva_cli.parts.outlines import CONTACT
+from geneva_cli.parts.sizes import sizes, wall_min
+from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.spec.tables import Size
-from geneva_cli.study.synthesis.looks import PartsLook, look
+from geneva_cli.study.synthesis.looks import PartsLook, gap_at_rest, look
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
@@ -34,6 +36,7 @@ UNDERCUT = "undercut"
 WALLS = "walls"
 ROLLERS = "rollers"
 LOCK = "lock"
+GAP = "gap"
 SIZES = "sizes"
 
 # What the table says of parts that were turned and pass, and of those that were not turned.
@@ -44,8 +47,7 @@ MAYBE = "maybe"
 class Parts(NamedTuple):
     """A machine's spec with the roller that suits it, and what stands in the way of its parts.
 
-    ``why`` is empty where nothing does, and None for parts that are no flat outlines and were not
-    looked at.
+    ``why`` is empty where nothing does, and None for a wheel whose parts are not drawn.
     """
 
     spec: Spec
@@ -74,8 +76,11 @@ def parts(mechanism: Mechanism) -> Parts:
     Of a spec that gives its roller, whether that one does.
     """
     spec = mechanism.spec
-    if not spec.is_flat:
+    if not spec.has_parts:
         return Parts(spec, None)
+    if not spec.is_flat:
+        r, why = _of_shells(mechanism)
+        return Parts(spec if r is None else with_roller(spec, r), why)
     at, m = look(spec), spec.drive.rollers
     if spec.drive.CRANKED and not mechanism.law:  # the same whatever turns the crank
         r, why = _of_crank(at.spec, m)
@@ -110,6 +115,24 @@ def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
         percent, _ = _largest(_radii(0.0), of_share)  # the island apart, nothing is in the way
         why = ISLAND
+    return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
+
+
+def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
+    """The same of a machine on a sphere."""
+    L, given = mechanism.center_distance_mm, mechanism.spec.size
+    least = wall_min(given, L) / L
+
+    def obstacle(percent: float) -> str:
+        try:
+            found = ball(mechanism, 0.01 * percent * L)
+        except GenevaError as error:
+            return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
+        return LOCK if found.lock and found.arm - found.half_width - found.recess < least else ""
+
+    if given.roller_radius_mm is not None:
+        return None, obstacle(100.0 * given.roller_radius_mm / L)
+    percent, why = _largest(_radii(0.0), obstacle)
     return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
 
 
@@ -161,6 +184,8 @@ def _obstacle(where: Assembly, at: PartsLook, r: float) -> str:
     if found.lock and found.horn < found.wall_min:
         return LOCK
     w, L = found.half_width, where.L
+    if at.back and gap_at_rest(at.back, found.rim, w, found.roller) < -CONTACT * L:
+        return GAP
     bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
     cuts = [depths_mm(wall, w, L)[0] for wall in bent]
     return UNDERCUT if any(cut > NEARLY * SHOWN_UNDERCUT for cut in cuts) else ""

@@ -55,7 +55,7 @@ class Candidate(NamedTuple):
     power_max: float
     n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
     acceleration_max_rad_s2: float | None
-    parts: str | None  # whether they can be built; None: not flat, and not looked at
+    parts: str | None  # whether they can be built; None: they are not drawn
     offset_mm: float | None
     planet_ratio: float | str | None
     fixed: str | None

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
+from geneva_cli.machine.spec import Spec
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.synthesis.built import Built, built
+from geneva_cli.study.synthesis.built import Built, built_together
 from geneva_cli.study.synthesis.parts import MAYBE, YES
 from geneva_cli.study.synthesis.rows import Candidate, Row
 from geneva_cli.study.synthesis.search import FoundRows, search
+from geneva_cli.study.synthesis.turns import same_turn
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
 
@@ -56,9 +58,8 @@ def turned(
     """
     every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
     among = every if buildable else every[:count]
-    some = [one.row for one in among if one.row.candidate.parts == MAYBE]
-    work = partial(built, fixed=fixed(wish))
-    shown = mapped(work, [row.spec for row in some], min(len(some), cores()), "machines")
+    some = [one.row.spec for one in among if one.row.candidate.parts == MAYBE]
+    shown = _built(some, fixed(wish))
     passed = 0
     for one in every:
         maybe = one.row.candidate.parts == MAYBE
@@ -70,6 +71,22 @@ def turned(
         passed += row.candidate.parts == YES
         if not buildable or row.candidate.parts == YES:
             yield Numbered(one.no, row)
+
+
+def _built(specs: Sequence[Spec], fixed: frozenset[str]) -> Iterator[Built]:
+    """The specs turned, in order, by all cores; those with the same turn at once."""
+    together: dict[Spec, list[int]] = {}
+    for i, spec in enumerate(specs):
+        together.setdefault(same_turn(spec), []).append(i)
+    tasks = [[specs[i] for i in members] for members in together.values()]
+    work = partial(built_together, fixed=fixed)
+    done = mapped(work, tasks, min(len(tasks), cores()), "machines")
+    results: dict[int, Built] = {}
+    groups = iter(together.values())  # the first of each in order
+    for i in range(len(specs)):
+        while i not in results:
+            results |= zip(next(groups), next(done), strict=True)
+        yield results.pop(i)
 
 
 def with_result(row: Row, result: Built) -> Row:

@@ -22,12 +22,12 @@ def dwell_hold(name: str, found: Turned, turn: FullTurn) -> Check:
 
 def dwell(name: str, found: Turned, turn: FullTurn) -> Check | None:
     """The play in the dwell: the next roller must still find its slot."""
-    return _at_most(name, turn.dwell, _finds_slot(found)) if found.crank else None
+    return _at_most(name, turn.dwell, finds_slot(found)) if found.crank else None
 
 
 def hand_over(name: str, found: Turned, turn: FullTurn) -> Check | None:
     """The play between lock and slot."""
-    return _at_most(name, turn.hand_over, _finds_slot(found)) if found.crank else None
+    return _at_most(name, turn.hand_over, finds_slot(found)) if found.crank else None
 
 
 def hand_over_pressure(name: str, found: Turned, turn: FullTurn) -> Check | None:
@@ -50,6 +50,6 @@ def _at_most(name: str, found: Most, limit: float) -> Check:
     return compared(name, found.deg, "at most", limit, found.at_deg if found.deg else None)
 
 
-def _finds_slot(found: Turned) -> float:
+def finds_slot(found: Turned) -> float:
     """The play, degrees, at which the roller would still meet the mouth of its slot."""
     return math.degrees(math.asin(min(1.0, found.sizes.half_width / found.sizes.rim)))

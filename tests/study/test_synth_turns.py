@@ -1,0 +1,115 @@
+"""Rows of synth turned: those with the same turn at once, and what fails seen early."""
+
+import numpy as np
+import pytest
+
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.spherical import Spherical
+from geneva_cli.parts import proof
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.turn.glance import gap_about, loose_about
+from geneva_cli.study.synthesis.built import built, built_together
+from geneva_cli.study.synthesis.looks import gap_at_rest, look
+from geneva_cli.study.synthesis.parts import exact, with_roller
+from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.search import search
+from geneva_cli.study.synthesis.turns import Failing, Turns, same_turn
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.play import finds_slot
+
+
+@pytest.fixture(scope="module")
+def four_bar():
+    """A four-bar, whose roller comes past the wheel at rest."""
+    rows = search(read_wish(motion_deg="180", z="6", external=True, rollers=1)).rows
+    (spec,) = [row.spec for row in rows if row.candidate.drive == "four-bar"]
+    return spec
+
+
+@pytest.mark.parametrize("wheel", [External(5), Spherical(5)], ids=["plates", "shells"])
+def test_what_turns_alike_is_turned_once(wheel, monkeypatch):
+    """A drive in front of a crank, and the speed, change when and not where."""
+    drives = (Crank(n_rpm=30.0), SideCrank(A=0.3), EllipticalGears(eccentricity=0.2), Crank())
+    specs = [Spec(wheel, drive) for drive in drives]
+    assert len({same_turn(spec) for spec in specs}) == 1
+    turned = []
+    whole = proof.full_turn
+    monkeypatch.setattr(proof, "full_turn", lambda parts: turned.append(1) or whole(parts))
+    found = built_together(specs)
+    assert len(turned) == 1
+    assert [(one.spec, one.trouble) for one in found] == [(spec, "") for spec in specs]
+    assert not [c for spec in specs[:2] for c in checks(build(spec)) if c.passes is False]
+
+
+def test_other_rollers_and_laws_turn_otherwise():
+    motion = Motion(ModifiedSine(), ratio="matched")
+    specs = [
+        Spec(External(6)),
+        Spec(External(6), Crank(rollers=2)),
+        Spec(External(6), motion=motion),
+        with_roller(Spec(External(6)), 4.0),
+    ]
+    assert len({same_turn(spec) for spec in specs}) == len(specs)
+
+
+def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
+    """With the next roller, at the place where a larger one touched: the whole turn agrees."""
+    L = build(four_bar).center_distance_mm
+    turns = Turns()
+    large, next_, fits = (with_roller(four_bar, exact(x * L)) for x in (0.05, 0.04, 0.025))
+    seen = turns.failing(build(large))
+    assert [one.name for one in seen] == ["gap_mm"]
+    parts = Proof(build(same_turn(next_))).turned
+    assert gap_about(parts, seen[0].at_deg) < -parts.contact
+    assert turns.failing(build(next_), seen) == seen
+    assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
+    assert turns.failing(build(fits), seen) == []
+
+
+def test_a_play_that_fails_is_found_where_it_failed_before():
+    """A cam's hand-over: about the place of its largest play the next roller's is too large, too.
+
+    The play about a place is at most the whole turn's, but for what both searches leave: 1e-6.
+    """
+    rows = search(read_wish(motion_deg="180", z="6", external=True, rollers=1)).rows
+    (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
+    whole = Proof(build(same_turn(spec)))
+    largest = whole.turn.hand_over
+    assert largest.deg > finds_slot(whole.turned)
+    assert 0.9 < loose_about(whole.turned, largest.at_deg) / largest.deg <= 1.0 + 1e-6
+    seen = [Failing("hand_over_play_deg", largest.at_deg)]
+    assert Turns().failing(build(with_roller(spec, 4.0)), seen) == seen
+
+
+@pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
+def test_the_gap_of_a_wheel_at_rest(four_bar, share):
+    """Against the drawn wheel, at the same places of the roller."""
+    L = build(four_bar).center_distance_mm
+    parts = Proof(build(with_roller(four_bar, share * L))).turned
+    (engagement,) = parts.assembly.kinds
+    rest = engagement.exit_deg + (360.0 - engagement.motion_deg) * np.arange(720) / 720
+    at = parts.assembly.start_deg + (rest - parts.assembly.start_deg) % 360.0
+    drawn = parts.gaps.rollers(parts.gaps.pose(at)).min()
+    sizes = parts.sizes
+    seen = gap_at_rest(look(four_bar).back, sizes.rim, sizes.half_width, sizes.roller)
+    assert seen == pytest.approx(drawn, abs=1e-9 * L)
+
+
+def test_a_sphere_too_small_for_the_usual_roller_gets_one_that_fits():
+    """Of shafts that nearly fall together; once it was never turned."""
+    (row,) = [
+        row
+        for row in search(read_wish(motion_deg="120.7", z="6", spherical=True, rollers=1)).rows
+        if row.candidate.axes_deg not in (None, 90.0)
+    ]
+    assert row.candidate.parts == "maybe"
+    assert row.spec.size.roller_radius_mm < 5.0
+    made = built(row.spec)
+    assert made.trouble == ""
+    assert not [c for c in checks(build(made.spec)) if c.passes is False]
