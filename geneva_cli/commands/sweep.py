@@ -121,10 +121,11 @@ def run(
 def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
     """All rows as they come, or the choice of them."""
     from geneva_cli.output.rows import Growth
+    from geneva_cli.study.sweep.run import TEXTS
 
     found = asked.sweep
     first = found.shard.number == 1
-    with Growth(found.names, asked.key, first, output, resume, asked.files) as rows:
+    with Growth(found.names, asked.key, first, output, resume, asked.files, TEXTS) as rows:
         for block in outcome.rows(_shown(asked, rows.done)):
             rows.append(block)
         rows.finish()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Collection
 from importlib.util import find_spec
 
 from geneva_cli.errors import GenevaError
@@ -18,15 +19,21 @@ def refuse_without() -> None:
         )
 
 
-def convert(source: str, target: str) -> None:
-    """Write the rows of a csv file as parquet, block by block: numbers, truth values or texts."""
+def convert(source: str, target: str, texts: Collection[str] = ()) -> None:
+    """Write the rows of a csv file as parquet, block by block: numbers, truth values or texts.
+
+    Columns named in ``texts`` are texts even where all their rows are empty, so that files of
+    several shares have one schema.
+    """
     import pyarrow as pa
     from pyarrow import csv as arrow
     from pyarrow import parquet
 
     types = {"number": pa.float64(), "truth": pa.bool_(), "text": pa.string()}
     options = arrow.ConvertOptions(
-        column_types={name: types[kind] for name, kind in _kinds(source).items()},
+        column_types={
+            name: types["text" if name in texts else kind] for name, kind in _kinds(source).items()
+        },
         strings_can_be_null=True,
         quoted_strings_can_be_null=False,
     )

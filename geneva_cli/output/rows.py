@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
@@ -17,7 +17,8 @@ ENDINGS = (".csv", ".parquet")
 class Growth(Closing):
     """Where the rows of ``names`` go; ``done`` of them are there already.
 
-    ``key`` is all that they depend on, for ``resume``; a later share of a table has no ``header``.
+    ``key`` is all that they depend on, for ``resume``; a later share of a table has no ``header``;
+    ``texts`` are columns that hold no numbers.
     """
 
     def __init__(
@@ -28,8 +29,9 @@ class Growth(Closing):
         output: str,
         resume: bool = False,
         inputs: Iterable[str] = (),
+        texts: Collection[str] = (),
     ) -> None:
-        self.names, self.output, self.done = names, output, 0
+        self.names, self.texts, self.output, self.done = names, texts, output, 0
         self.file: Growing | None = None
         self.parquet = output.endswith(".parquet")
         if output != "-" and not output.endswith(ENDINGS):
@@ -65,7 +67,7 @@ class Growth(Closing):
             from geneva_cli.output.parquet import convert
 
             made = f"{self.file.partial}.parquet"
-            convert(self.file.partial, made)
+            convert(self.file.partial, made, self.texts)
             self.file.finish(made)
             return
         self.file.finish()

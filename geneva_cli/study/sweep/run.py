@@ -23,6 +23,7 @@ from geneva_cli.study.sweep.values import Value, VariedKey
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 CHECKED = ("checks.passes", "checks.failed")
 ERROR = "error"  # the column that says why a design cannot be built
+TEXTS = (ERROR, CHECKED[1])  # columns that hold no numbers, even where all is well
 TASK = 64  # designs that a process is given at a time
 TRIED = 1000  # designs among which one must be built, to know the quantities
 
@@ -71,7 +72,7 @@ class Sweep(NamedTuple):
     @property
     def together(self) -> bool:
         """Whether the quantities are known for arrays of designs."""
-        return columns.in_arrays(self.pick.names)
+        return bool(self.pick.names) and columns.in_arrays(self.pick.names)
 
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()
@@ -103,7 +104,10 @@ def sweep(
     built.
     """
     asked = [*picks, *(CHECKED if check else ())]
-    return Sweep(text, plan, pick(asked, _first(text, plan), options=options), shard)
+    found = pick(asked, _first(text, plan), options=options)
+    varied = [a.key for a in plan.axes]  # these have their columns: no name may stand twice
+    names = tuple(name for name in found.names if name not in varied)
+    return Sweep(text, plan, found._replace(names=names), shard)
 
 
 def _first(text: Text, plan: SweepPlan) -> Mechanism:
