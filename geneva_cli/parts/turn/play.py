@@ -138,10 +138,13 @@ def _measured(parts: Turned, at: Array, fits: bool) -> Play:
     last = assembly.start_deg + assembly.turn_deg
     for a, b, roller, rests in windows(parts):
         here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
+        if not len(here):
+            continue
         x = at[here]
         low, high = np.maximum(x - SMALL, assembly.start_deg), np.minimum(x + SMALL, last)
-        moved = parts.in_wheel(roller, high) - parts.in_wheel(roller, low)
-        speed[here] = np.maximum(speed[here], np.linalg.norm(moved, axis=1) / (high - low))
+        before, after = np.split(parts.in_wheel(roller, np.concatenate((low, high))), 2)
+        moved = np.linalg.norm(after - before, axis=1) / (high - low)
+        speed[here] = np.maximum(speed[here], moved)
         if rests:
             resting[here] = True
         else:

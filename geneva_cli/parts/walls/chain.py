@@ -129,22 +129,27 @@ def _next(around: list[Wall], last: WallPlace) -> WallPlace:
     """The wall that continues where one ends: the nearest free one other than itself."""
     here = last.wall.points[last.i]
     travel = last.way * last.wall.curve(last.wall.t[last.i : last.i + 1])[1][0]
-    best: tuple[float, int] | None = None
-    found = None
+    ahead = []
     for wall in around:
         for start, end in runs(wall):
             if wall is last.wall and start <= last.i <= end:
                 continue
             away = np.hypot(*(wall.points[start : end + 1] - here).T)
-            i = start + int(np.argmin(away))
-            along = float((wall.curve(wall.t[i : i + 1])[1][0] * travel).sum())
-            way = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
-            rest_of_run = end - i if way > 0 else i - start
-            score = (float(away[i - start]), -rest_of_run)
-            # Not back where it came from: walls that run into each other end in one point.
-            back = way * along < BACK
-            if rest_of_run and not back and (best is None or score < best):
-                best, found = score, WallPlace(wall, i, way)
+            i = int(np.argmin(away))
+            ahead.append((float(away[i]), wall, start, start + i, end))
+    best: tuple[float, int] | None = None
+    found = None
+    for far, wall, start, i, end in sorted(ahead, key=lambda one: one[0]):
+        if best is not None and far > best[0]:
+            break
+        along = float((wall.curve(wall.t[i : i + 1])[1][0] * travel).sum())
+        way = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
+        rest_of_run = end - i if way > 0 else i - start
+        score = (far, -rest_of_run)
+        # Not back where it came from: walls that run into each other end in one point.
+        back = way * along < BACK
+        if rest_of_run and not back and (best is None or score < best):
+            best, found = score, WallPlace(wall, i, way)
     if found is None:
         raise _lost()
     return found
