@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.parts.turn.pieces import Lines, Rounds, lines, reach, rounds
 from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
@@ -23,41 +24,8 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-SLACK = 1e-9  # radians, and of a length: pieces that meet smoothly leave nothing between them
 ZERO = 1e-13  # radians: a stop that lies behind by less is here
 BLOCK = 1 << 15  # pairs of pieces that are looked at together: in the cache
-
-
-class Rounds(NamedTuple):
-    """Arcs and corners, (k,) each."""
-
-    x: Array  # centres
-    y: Array
-    radius: Array
-    sense: Array  # 1 where the material is inside, -1 in a hollow
-    mx: Array  # directions of the middles
-    my: Array
-    least: Array  # cosines of the angles from there to the ends
-
-    def face(
-        self, which: NDArray[np.intp], x: Array, y: Array, turn: Array, sense: Array | float = 1.0
-    ) -> NDArray[np.bool_]:
-        """Whether some arcs go through the directions (x, y), turned and ``sense`` times."""
-        c, s = np.cos(turn), np.sin(turn)
-        along = self.mx[which] * (x * c - y * s) + self.my[which] * (x * s + y * c)
-        out: NDArray[np.bool_] = sense * along >= self.least[which]
-        return out
-
-
-class Lines(NamedTuple):
-    """Lines, (k,) each: directions of the normals out of the material, how far off the origin the
-    lines are along these, and where they start and end along themselves.
-    """
-
-    normal: Array
-    off: Array
-    start: Array
-    end: Array
 
 
 class Others(NamedTuple):
@@ -77,54 +45,27 @@ class Touch(NamedTuple):
     cosine: Array
 
 
-def rounds(outline: Polyarc) -> Rounds:
-    """The arcs of an outline, and its corners where material comes to a point."""
-    arc, corner = np.flatnonzero(outline.arc), np.flatnonzero(outline.turn_start > 0.0)
-    zero, cos = np.zeros(len(corner)), outline.cos_half[arc]
-    least = cos - SLACK * np.sqrt(np.maximum(1.0 - cos * cos, 0.0)) - SLACK * SLACK
-    columns = (
-        (outline.cx[arc], outline.x0[corner]),
-        (outline.cy[arc], outline.y0[corner]),
-        (outline.radius[arc], zero),
-        (outline.sense[arc], zero + 1.0),
-        (outline.mx[arc], zero + 1.0),
-        (outline.my[arc], zero),
-        (least, zero - 2.0),
-    )
-    return Rounds(*[np.concatenate(both) for both in columns])
-
-
-def lines(outline: Polyarc) -> Lines:
-    """The lines of an outline."""
-    at = np.flatnonzero(~outline.arc)
-    tx, ty = outline.dx[at] / outline.length[at], outline.dy[at] / outline.length[at]
-    x, y = outline.x0[at], outline.y0[at]
-    start = x * tx + y * ty
-    end, spare = start + outline.length[at], SLACK * (np.abs(start) + outline.length[at])
-    return Lines(np.arctan2(-tx, ty), x * ty - y * tx, start - spare, end + spare)
-
-
 class Stops:
     """Where rollers and crank stop the wheel of one machine, as it turns.
 
     ``wheel`` is its outline, or as much of it as repeats itself after ``pitch`` radians; the crank
-    is in its own frame, and its axis at (L, 0).
+    is in its own frame, and its axis at (L, 0). ``pairs`` is how many pieces may meet, for one
+    roller.
     """
 
     def __init__(
         self, wheel: Polyarc, pitch: float, crank: Polyarc | None, L: float, roller: float
     ) -> None:
-        self.pitch, self.L, self.radius = pitch, L, roller
+        self.pitch, self.L = pitch, L
         self.rounds, self.lines = rounds(wheel), lines(wheel)
         self.far = np.hypot(self.rounds.x, self.rounds.y)
         self.ahead = np.arctan2(self.rounds.y, self.rounds.x)
-        self.low, self.high = _reach(self.rounds, self.far, self.ahead)
+        self.low, self.high = reach(self.rounds, self.far, self.ahead)
         one, no = np.ones(1), np.zeros(1)
         self.roller = Rounds(no, no, roller * one, one, one, no, -2.0 * one)
         self.crank = rounds(crank) if crank else None
         self.edges = lines(crank) if crank else None
-        other = len(self.crank.x) + len(self.edges.off) if self.crank and self.edges else 0
-        self.pairs = (len(self.far) + len(self.lines.off)) * (1 + other)  # for one roller
+        self.pairs = (len(self.far) + len(self.lines.off)) * (1 + len(crank or ()))
 
     def first(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
         """How far the wheel can be turned in n poses, ``way`` 1 on or -1 back, and what stops it.
@@ -235,23 +176,6 @@ class Stops:
             good = (lead < most) & (along >= start[n, q]) & (along <= end[n, q])
             good &= own.face(p, -1.0 + 0.0 * r, 0.0 * r, self.ahead[p] - angle)
             yield Touch(n[good], lead[good], np.zeros(len(n))[good])
-
-
-def _reach(arcs: Rounds, far: Array, ahead: Array) -> tuple[Array, Array]:
-    """The least and the greatest distance of arcs from the origin, or a little more."""
-    every, zero = np.arange(len(far)), np.zeros(len(far))
-    half = np.arccos(np.clip(arcs.least, -1.0, 1.0))
-    middle = np.arctan2(arcs.my, arcs.mx)
-    ends = [
-        np.hypot(arcs.x + arcs.radius * np.cos(end), arcs.y + arcs.radius * np.sin(end))
-        for end in (middle - half, middle + half)
-    ]
-    inner = arcs.face(every, zero - 1.0, zero, ahead)
-    outer = arcs.face(every, zero + 1.0, zero, ahead)
-    low = np.where(inner, np.abs(far - arcs.radius), np.minimum(*ends))
-    high = np.where(outer, far + arcs.radius, np.maximum(*ends))
-    spare = SLACK * (far + arcs.radius)
-    return low - spare, high + spare
 
 
 def ahead_by(lead: Array, pitch: float) -> Array:
