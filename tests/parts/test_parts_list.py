@@ -8,18 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.interpolate import make_interp_spline
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.curves.moments import moments
 from geneva_cli.design import load
+from geneva_cli.machine import registry
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
 
 
-# Laws that are curves of their own (points, or solved for): the list names them, and no formula
-# stands for them here; straight slots of the cam's motion need none but the law's either.
 def modified_sine(u):
     """Of Neklutin: a cycloid's sine for an eighth at both ends, three times slower between."""
     if u > 0.5:
@@ -36,6 +36,61 @@ CLOSED = {
     "3-4-5": lambda u: u**3 * (10.0 - 15.0 * u + 6.0 * u * u),
     "4-5-6-7": lambda u: u**4 * (35.0 - 84.0 * u + 70.0 * u * u - 20.0 * u**3),
 }
+
+
+def modified_trapezoid(u):
+    """s'' a quarter sine up to 1/8, constant, and back from 3/8: its double integral by Cauchy."""
+
+    def pull(t):
+        if t > 0.5:
+            return -pull(1.0 - t)
+        return 1.0 if 0.125 < t < 0.375 else math.sin(4.0 * math.pi * min(t, 0.5 - t))
+
+    corners = (0.125, 0.375, 0.5, 0.625, 0.875)
+
+    def rise(end):
+        ends = (0.0, *(c for c in corners if c < end), end)
+        parts = zip(ends, ends[1:], strict=False)
+        return sum(quad(lambda t: (end - t) * pull(t), a, b, epsabs=1e-14)[0] for a, b in parts)
+
+    return rise(u) / rise(1.0)
+
+
+def sine_group(u, tilt):
+    """s' = (8/3) sin^4 x (1 - 8 lambda cos x), x = pi u."""
+
+    def speed(t):
+        x = math.pi * t
+        return 8.0 / 3.0 * math.sin(x) ** 4 * (1.0 - 8.0 * tilt * math.cos(x))
+
+    return quad(speed, 0.0, u, epsabs=1e-14)[0]
+
+
+def tuned(u, d):
+    """y + 2 zeta y'/w + y''/w², y the polynomial 4-5-6-7 and w its turns in a motion."""
+    assert d["law's of"] == "4-5-6-7"
+    y = np.polynomial.Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
+    w = math.tau * d["law's period_ratio"]
+    zeta = d["law's damping_ratio"]
+    return float(y(u) + 2.0 * zeta / w * y.deriv()(u) + y.deriv(2)(u) / w**2)
+
+
+def through_points(d, folder):
+    """SciPy's quintic spline through the points of the file that the list names, at rest."""
+    rows = np.loadtxt(folder / d["law's file"], delimiter=",", skiprows=1)
+    ends = 2 * ([(1, 0.0), (2, 0.0)],)
+    return make_interp_spline(*rows.T, k=5, bc_type=ends)
+
+
+def law_of(d, folder):
+    """A law by its printed name and numbers."""
+    given = {
+        "modified-trapezoid": lambda: modified_trapezoid,
+        "sine-group": lambda: lambda u: sine_group(u, d["law's lambda"]),
+        "tuned": lambda: lambda u: tuned(u, d),
+        "table": lambda: through_points(d, folder),
+    }
+    return CLOSED[d["law"]] if d["law"] in CLOSED else given[d["law"]]()
 
 
 def printed(path):
@@ -141,12 +196,12 @@ def linkage(p, d):
     return place
 
 
-def angle(p, d, i, one):
-    """The wheel's angle, radians, from any zero, in the i-th engagement; None for a free curve."""
+def angle(p, d, i, one, folder):
+    """The wheel's angle, radians, from any zero, in the i-th engagement."""
     if "law" in d:
-        law = CLOSED.get(d["law"])
+        law = law_of(d, folder)
         entry, exit_ = one["entry"], one["exit"]
-        return law and (lambda x: math.radians(one["step"]) * law((x - entry) / (exit_ - entry)))
+        return lambda x: math.radians(one["step"]) * law((x - entry) / (exit_ - entry))
     if "sphere's radius" in d:
         S, th = (
             math.radians(d["angle of the shafts"]),
@@ -199,10 +254,7 @@ def test_a_machine_is_rebuilt_from_what_is_printed(path):
             "entry": d[f"{name}entry, from mid-motion"],
             "exit": d[f"{name}exit, from mid-motion"],
         }
-        rebuilt = angle(pivots, d, i, one)
-        if rebuilt is None:
-            assert d["law"] == machine.law.NAME
-            continue
+        rebuilt = angle(pivots, d, i, one, path.parent)
         ends = [rebuilt(one[end]) for end in ("entry", "exit")]
         assert math.remainder(ends[1] - ends[0] - math.radians(one["step"]), math.tau) == (
             pytest.approx(0.0, abs=SAME)
@@ -229,6 +281,13 @@ def test_kinds_in_other_sizes(name, tmp_path):
     path = tmp_path / "spec.toml"
     path.write_text(f"[wheel]\n{SPECS[name]}\n[size]\nroller_radius_mm = 2\n")
     test_a_machine_is_rebuilt_from_what_is_printed(path)
+
+
+def test_every_kind_is_rebuilt():
+    """No drive, and no gearing, is left out of the designs."""
+    specs = [load(str(path)).spec for path in DESIGNS]
+    assert {spec.drive.NAME for spec in specs} == set(registry.DRIVES)
+    assert {spec.wheel.NAME for spec in specs} == set(registry.GEARINGS)
 
 
 def test_masses_are_those_of_the_drawings():

@@ -172,4 +172,4 @@ def _circle(file: Entities, centre: Point, radius: float, z: float) -> str:
 
 
 def _cylinder(file: Entities, centre: Point, radius: float, z: float) -> str:
-    return file.add(f"CYLINDRICAL_SURFACE('',{file.placement(centre, z)},{real(radius)})")
+    return file.shared(f"CYLINDRICAL_SURFACE('',{file.placement(centre, z)},{real(radius)})")

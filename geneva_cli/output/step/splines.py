@@ -2,7 +2,8 @@
 
 Where two meet with a common tangent, a parameter that runs over each in proportion to its handles
 makes the whole once differentiable. Then no pole is needed where they meet: of n cubics there are
-2 n + 2, and the curve is the same.
+2 n + 2, and the curve is the same. A short arc beside a cubic, as where a wall runs out of a mouth,
+is a cubic too, to rounding: no sliver of a face is left for it.
 """
 
 from __future__ import annotations
@@ -11,10 +12,13 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
+from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
+from geneva_cli.curves.sheet import polar
 
 # mm: by which the place where two meet may be moved, as the poles beside it give it again: rounding
 SAME = 1e-11
+SHORT = 0.0137  # tan(sweep/4) of an arc that is off its cubic by 4/27 of the sixth power: 1e-12 R
 UNEVEN = 1e3  # between neighbours' shares of the parameter; more than that is two splines
 
 
@@ -49,7 +53,7 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
     found: list[Piece] = []
     run: list[Cubic] = []
     shares: list[float] = []
-    for segment in segments:
+    for segment in _softened(list(segments)):
         share = _share(run[-1], segment, shares[-1]) if run else 0.0
         if run and not share:
             found.append(_spline(run, shares))
@@ -60,6 +64,28 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
         else:
             found.append(segment)
     return [*found, _spline(run, shares)] if run else found
+
+
+def _softened(segments: list[Segment]) -> list[Segment]:
+    """The segments with short arcs as cubics, where they join one."""
+    found = list(segments)
+    for i, arc in enumerate(segments):
+        if not isinstance(arc, Arc) or abs(arc.bulge) > SHORT:
+            continue
+        cubic = _cubic(arc)
+        before, after = found[i - 1] if i else None, segments[i + 1] if i + 1 < len(found) else None
+        if (isinstance(before, Cubic) and _share(before, cubic, 1.0)) or (
+            after is not None and _share(cubic, after, 1.0)
+        ):
+            found[i] = cubic
+    return found
+
+
+def _cubic(arc: Arc) -> Cubic:
+    """The cubic with an arc's ends and tangents, and its middle."""
+    first, last = directions(arc)
+    handle = 4.0 / 3.0 * abs(arc.bulge) * arc.radius
+    return Cubic(arc.start, polar(arc.start, handle, first), polar(arc.end, -handle, last), arc.end)
 
 
 def _share(before: Cubic, after: Segment, share: float) -> float:
