@@ -69,3 +69,25 @@ def test_no_two_parts_are_in_one_place(name, given):
             assert a.intersection(b).area < OVERLAP * L, (one.name, other.name)
     rows = parts_list(proof).to_rows()
     assert names == {row["name"] for row in rows if row["row"] == "part"}
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("four-bar-z4", "counterclockwise"), ("slider-crank", "clockwise")]
+)
+def test_the_arrow_of_a_link_crank_runs_as_the_list_says(name, said):
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    rows = design.part_table("parts").to_rows()
+    assert said in [row["value"] for row in rows if row["name"] == "crank turns"]
+    wheel, crank = design.drawing("assembly", 0.01).look.turns
+    assert wheel.bulge > 0.0  # the wheel's own sense
+    assert (crank.bulge > 0.0) == (said == "counterclockwise")
+    assert crank.centre == pytest.approx((design.mechanism.center_distance_mm, 0.0))
+
+
+def test_the_frames_holes_are_the_frames():
+    """But for those that a bore above them covers, which is drawn once."""
+    shapes = load(str(repo.DESIGNS / "press-straight.toml")).drawing("assembly", 0.01).shapes
+    circles = [s for s in shapes if isinstance(s, Circle) and s.layer in ("FRAME", "BORE")]
+    assert sum(s.layer == "FRAME" for s in circles) == 4  # those that mount it
+    places = {(*s.centre, s.radius) for s in circles}
+    assert len(places) == len(circles)
