@@ -49,6 +49,21 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     assert design.peaks.velocity.max <= 0.8 * (1 + 1e-9)
 
 
+def test_the_number_of_slots_is_not_left_to_luck(tmp_path):
+    """64 designs are three for each number of slots, and nearly none of them within the bounds.
+
+    More slots are gentler and so are a slower input and a longer motion, so that both bounds bind
+    with 24: 40 rpm, and A = sin((140 - 165)/2)/sin(165/2) by the law of sines (theory.md, 1.8).
+    """
+    bounds = ["cycle_s <= 1.5", "motion_deg <= 140"]
+    spans = ["drive.A=-0.9:0.95", "wheel.z=3..24", "drive.n_rpm=10:100"]
+    asked = {"best": "acceleration.max_rad_s2", "subject_to": bounds, "random": 64}
+    _, design = best(tmp_path, *spans, **asked)
+    A = np.sin(np.radians((140 - 165) / 2)) / np.sin(np.radians(165 / 2))
+    assert (design.spec.wheel.z, design.spec.drive.A) == (24, pytest.approx(A, abs=1e-6))
+    assert design.spec.drive.n_rpm == pytest.approx(40.0, rel=1e-8)
+
+
 def test_the_greatest_and_the_words(tmp_path):
     _, design = best(
         tmp_path,

@@ -59,7 +59,10 @@ class Sweep(NamedTuple):
 
     def rows(self, start: int, stop: int) -> list[list[Cell]]:
         """The rows of the designs from ``start`` up to ``stop``, left out."""
-        every = self.plan.rows(start, stop)
+        return self.rows_of(self.plan.rows(start, stop))
+
+    def rows_of(self, every: Sequence[Sequence[Value]]) -> list[list[Cell]]:
+        """The rows of designs by the values of their keys."""
         keys = [a.key for a in self.plan.axes]
         known: Mapping[int, list[Cell]] = {}
         if self.together:
