@@ -37,6 +37,17 @@ def to_degrees(rad):
     return rad * 180 / mp.pi
 
 
+def doubled(exact):
+    """Numbers of many digits as two arrays of doubles whose sum they are to 32 digits.
+
+    What a double lacks of one is then had without its digits, to a share of 1e-16 of the lack:
+    ``(double - high) - low``, whose first difference is exact wherever the two are near.
+    """
+    high = np.array([float(e) for e in exact])
+    low = np.array([float(e - h) for e, h in zip(exact, high.tolist(), strict=True)])
+    return high, low
+
+
 def taylor(f, x, order):
     """f and its derivatives at x by numerical differentiation, with digits to spare."""
     with mp.workdps(100):
