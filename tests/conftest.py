@@ -18,10 +18,17 @@ from geneva_cli.parts.walls import curved as curved_walls
 from geneva_cli.study.synthesis.families import four_bar_search
 from geneva_cli.verdict import cautions
 
+SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
+
 
 def pytest_configure():
     """Tests are collected without looking for garbage, of which there is none."""
     gc.disable()
+
+
+def pytest_collection_modifyitems(items):
+    """Those that share what is made of designs come first, and so to the same worker."""
+    items.sort(key=lambda item: not SHARING.intersection(item.fixturenames))
 
 
 def pytest_collection_finish():
