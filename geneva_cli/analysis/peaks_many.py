@@ -21,7 +21,7 @@ from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.numerics.extrema_many import GROUP, Stationary, extrema_many, peaks_many
+from geneva_cli.numerics.extrema_many import GROUP, Rough, Stationary, extrema_many, peaks_many
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class PeakOfMany(NamedTuple):
 
 
 class _Samples:
-    """A motion's derivatives by the input's angle in radians, at angles in degrees.
+    """A motion's speed and its derivatives, to ten digits, at angles in degrees.
 
     All quantities are scanned at the same places, a block of designs after the other; these
     samples are kept.
@@ -49,22 +49,36 @@ class _Samples:
     def __init__(self, motion: Motion, quantities: Sequence[str]) -> None:
         self.motion = motion
         self.order = 1 + max(ABOVE[name] for name in quantities)
-        self.kept: dict[int, tuple[Array, ...]] = {}
+        self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
 
     def __call__(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
-        # Designs lie side by side in memory: each operation runs along all of them.
-        angles = np.asfortranarray(x)
         if not isinstance(which, slice):
-            some: Motion = taken(self.motion, which)
-            return some(angles, order).arrays()
-        if which.start not in self.kept:
-            motion: Motion = taken(self.motion, which)
-            self.kept[which.start] = motion(angles, self.order).arrays()
-        return self.kept[which.start]
+            return self._rates(x, which, order)
+        key = which.start, float(x[0, 0])
+        if key not in self.kept:
+            self.kept[key] = self._rates(x, which, self.order)
+        return self.kept[key]
+
+    def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
+        motion: Motion = taken(self.motion, which)
+        # Designs lie side by side in memory: each operation runs along all of them.
+        return motion.rough_rates(np.asfortranarray(x), order - 1)
 
 
 class _Curve(NamedTuple):
     """A quantity over the input angle in degrees, as ``extrema_many`` asks for it."""
+
+    motion: Motion
+    quantity: str
+
+    def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
+        motion: Motion = taken(self.motion, which)
+        p = motion(np.asfortranarray(x), ABOVE[self.quantity] + order).arrays()
+        return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
+
+
+class _Sampled(NamedTuple):
+    """The same to ten digits, from samples."""
 
     samples: _Samples
     quantity: str
@@ -75,12 +89,14 @@ class _Curve(NamedTuple):
 
 
 def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
-    """A quantity and its derivatives from those of the wheel's angle."""
+    """A quantity and its derivatives from the wheel's speed and its derivatives."""
     if quantity != "power":
-        return list(p[ABOVE[quantity] :])
-    out = [p[1] * p[2], p[2] ** 2 + p[1] * p[3], 3.0 * p[2] * p[3]]
-    if len(p) > 4:
-        out[2] = out[2] + p[1] * p[4]
+        return list(p[ABOVE[quantity] - 1 :])
+    out = [p[0] * p[1]]
+    if len(p) > 2:
+        out.append(p[1] ** 2 + p[0] * p[2])
+    if len(p) > 3:
+        out.append(3.0 * p[1] * p[2] + p[0] * p[3])
     return out
 
 
@@ -118,9 +134,7 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
     first = np.vstack((breaks[0], np.minimum(np.nextafter(inner, np.inf), last[m:])))
 
     def curve(x: Array, which: Which, order: int) -> list[Array]:
-        part: Motion = taken(motion, np.arange(len(last))[which] % m)
-        p = part(np.asfortranarray(x), ABOVE[quantity] + max(order, 1)).arrays()
-        return _by_degrees(_quantity(quantity, p), x, order)
+        return _Curve(motion, quantity)(x, np.arange(len(last))[which] % m, order)
 
     every = np.arange(len(last))
     ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
@@ -146,18 +160,14 @@ def _sought(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
 def _part(
     motion: Motion, places: Array, which: slice, quantities: Sequence[str]
 ) -> dict[str, PeakOfMany]:
-    """Of some of the designs, between their breaks one after the other."""
-    best: dict[str, PeakOfMany] = {}
-    some = taken(motion, which)
-    for i in range(places.shape[1] - 1):
-        a, b = places[which, i : i + 1], places[which, i + 1 : i + 2]
-        if i:  # a break belongs to the piece before it; the piece after begins one double later
-            a = np.minimum(np.nextafter(a, np.inf), b)
-        samples = _Samples(some, quantities)
-        for name in quantities:
-            here = PeakOfMany(*peaks_many(_Curve(samples, name), a, b))
-            best[name] = _greater(best[name], here) if name in best else here
-    return best
+    """Of some of the designs, between their breaks."""
+    some: Motion = taken(motion, which)
+    samples, edges = _Samples(some, quantities), np.hsplit(places[which], places.shape[1])
+    found = {}
+    for name in quantities:
+        curve, rough = _Curve(some, name), Rough(_Sampled(samples, name), some.ROUGH_TO)
+        found[name] = PeakOfMany(*peaks_many(curve, *edges, rough=rough))
+    return found
 
 
 def _greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, array
@@ -159,6 +159,8 @@ class Motion(ABC):
 
     # the motion law, where the motion is given by one
     law: Law | None = None
+    # share of a greatest rate by which ``rough_rates`` may be wrong; 0 where they are as the rest
+    ROUGH_TO: ClassVar[float] = 0.0
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative
@@ -172,6 +174,13 @@ class Motion(ABC):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """The wheel's speed over the input's, for whoever does not need the angle itself."""
         return self(input_deg, order + 1).derivative()
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """The speed and its derivatives at arrays of angles, for who looks where to look closely.
+
+        To ``ROUGH_TO`` of the greatest of each.
+        """
+        return self(input_deg, order + 1).arrays()[1:]
 
     @property
     def entry(self) -> Anchor | None:

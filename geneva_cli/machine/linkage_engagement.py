@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -17,10 +17,34 @@ from geneva_cli.machine.wheel_for_path import Fit
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
 from geneva_cli.numerics import digits
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library, parameter
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
 
 ANCHORS = 4  # on either side of the middle: near the wheel the path bends much
+
+
+class LinkFollowed(Followed):
+    """The motion of a wheel on a linkage: ``centre`` is the wheel's, in the path's frame."""
+
+    def __init__(
+        self,
+        path: AnchoredPath,
+        half_step: float,
+        body: LinkTurning,
+        centre: tuple[float, float],
+    ) -> None:
+        super().__init__(path, half_step, mirrored=False)
+        self.body, self.centre = body, centre
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """The same, from the path itself and from no anchor."""
+        x, y = self.body.path.at(radians(input_deg) + self.body.middle, order + 1)
+        rate = turning(x - self.centre[0], y - self.centre[1]) * self.body.sense
+        return rate.arrays()
 
 
 def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
@@ -63,8 +87,8 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
             )
         )
     anchored = AnchoredPath(anchors, ahead)
-    motion = Followed(anchored, step.b, mirrored=False)
     body = LinkTurning(path, float(middle), fit.sense)
+    motion = LinkFollowed(anchored, step.b, body, (float(ox), float(oy)))
     ahead_x, ahead_y = float(-ox / L), float(-oy / L)
     reactions = LinkReactions(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
     return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, reactions), float(L)
@@ -109,11 +133,11 @@ def engagement_many(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Enga
     )
     ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
     anchored = AnchoredPath(anchors, ahead)
-    motion = Followed(anchored, b, mirrored=False)
     mid = rounded(middle)
     line = rounded(-centre.real / L), rounded(-centre.imag / L)
     reactions = LinkReactions(path, mid, sense, distance, *line)
     body = LinkTurning(path, mid, sense)
+    motion = LinkFollowed(anchored, b, body, (rounded(centre.real), rounded(centre.imag)))
     return path_and_slot.engagement(0.0, anchored, motion, -sense, body, reactions), distance
 
 

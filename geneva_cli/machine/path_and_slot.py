@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.machine.anchors import anchors_of
 from geneva_cli.machine.engagement import (
@@ -124,6 +124,7 @@ class Followed(Motion):
     """
 
     closed_peaks: ClosedPeaks | None = None
+    ROUGH_TO: ClassVar[float] = 1e-9
 
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
         super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
@@ -155,6 +156,10 @@ class Followed(Motion):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """How fast the pin's direction turns: without an arc tangent."""
         return turning(*self.path.from_nearest(input_deg, order + 1))
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """The same, from the middle anchor alone."""
+        return turning(*self.path.from_middle(input_deg, order + 1)).arrays()
 
 
 class Classic(Followed):

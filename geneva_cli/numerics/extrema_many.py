@@ -11,6 +11,7 @@ A design that is not a number anywhere has no number for an answer, and disturbs
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -41,7 +42,7 @@ class Curves(Protocol):
     """
 
     def __call__(self, x: Array, which: Which, order: int) -> Sequence[Array]:
-        """Value and derivatives up to ``order``, 1 or 2, each of the shape of x."""
+        """Value and derivatives up to ``order``, 0 to 2, each of the shape of x."""
 
 
 class Stationary(NamedTuple):
@@ -64,16 +65,26 @@ def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
     found = []
     with np.errstate(all="ignore"):
         for part in _blocks(0, len(a), GROUP):
-            found.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns))
+            found.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns)[:3])
     which, x, value = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((x, which))
     return Stationary(which[order], x[order], value[order])
 
 
-def peaks_many(f: Curves, a: Array, b: Array) -> Greatest:
-    """The greatest size between a and b, of the shape (n, 1), the ends included: shapes (n,).
+class Rough(NamedTuple):
+    """Functions for a scan, and the share of a greatest size by which they may be wrong."""
 
-    Of places whose sizes differ by less than a share of 1e-13, the first is told.
+    f: Curves
+    wrong: float
+
+
+def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> Greatest:
+    """The greatest size between the first and the last of some places (n, 1): shapes (n,).
+
+    From one place to the next the functions are smooth; a place itself belongs to what is before
+    it. The ends are included. Of places whose sizes differ by less than a share of 1e-13, the first
+    is told. ``rough`` are the same functions to fewer digits, where they are had in less time: by
+    these it is seen where to look.
 
     >>> A = np.array([[1.0], [2.0]])
     >>> def waves(x, which, order):
@@ -82,26 +93,63 @@ def peaks_many(f: Curves, a: Array, b: Array) -> Greatest:
     >>> peaks_many(waves, 0.0 * A, 0.0 * A + 1.0)
     Greatest(size=array([0.84147098, 1.        ]), x=array([1.        , 0.78539816]))
     """
-    size, at = np.empty(len(a)), np.empty(len(a))
     with np.errstate(all="ignore"):
-        for part in _blocks(0, len(a), GROUP):
-            scan = _scanned(f, a[part], b[part], part.start)
-            here, left, right = scan.turns.which - part.start, scan.turns.left, scan.turns.right
-            # A cubic rises above its ends by 4/27 of this at most; and a cubic may miss.
-            rise = (right[0] - left[0]) * np.abs(left[2] - right[2]) * (4.0 / 27.0)
-            reach = np.maximum(np.abs(left[1]), np.abs(right[1])) + rise
-            sampled = np.maximum(np.abs(scan.low), np.abs(scan.high))
-            missed = 4.0 * PREDICTED * (scan.high - scan.low)
-            which, x, value = _tops(f, scan.turns.taken(reach + missed[here] >= sampled[here]))
-            here, value, sizes = which - part.start, np.abs(value), np.abs(scan.ends)
-            most = sizes.max(axis=1)
-            np.maximum.at(most, here, value)
-            bar = most / (1.0 + TIE)
-            first = np.where(sizes[:, 1] >= bar, b[part, 0], np.nan)
-            near = value >= bar[here]
-            np.fmin.at(first, here[near], x[near])
-            size[part], at[part] = most, np.where(sizes[:, 0] >= bar, a[part, 0], first)
-    return Greatest(size, at)
+        found = [
+            _greatest(f, rough, [place[part] for place in places], part.start)
+            for part in _blocks(0, len(places[0]), GROUP)
+        ]
+    return Greatest(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+
+
+def _greatest(f: Curves, rough: Rough | None, places: Sequence[Array], start: int) -> Greatest:
+    """Of a group of designs, the first of which has the number ``start``."""
+    pieces = _pieces(places)
+    scans = [_scanned(rough.f if rough else f, a, b, start) for a, b in pieces]
+    size = np.abs(np.hstack([scan.ends for scan in scans]))
+    at = np.hstack([end for piece in pieces for end in piece])
+    sampled = np.maximum.reduce([np.abs(x) for scan in scans for x in (scan.low, scan.high)])
+    tops = _tops(f, _joined([_high_turns(scan, sampled, start) for scan in scans]))
+    which, x, value = tops.which - start, tops.x, np.abs(tops.value)
+    if rough and rough.wrong:
+        # samples that may be the greatest, as they are
+        bar = (1.0 - rough.wrong) * _most(size, which, value)
+        low = tops.sampled & (value < bar[which])
+        again = np.flatnonzero(tops.sampled & ~low)
+        value[low] = -np.inf
+        value[again] = np.abs(f(x[again, None], tops.which[again], 0)[0][:, 0])
+        size[size < bar[:, None]] = -np.inf
+        column, row = np.nonzero(bar <= size.T)
+        size[row, column] = np.abs(f(at[row, column, None], row + start, 0)[0][:, 0])
+    most = _most(size, which, value)
+    bar = most / (1.0 + TIE)
+    first = np.fmin.reduce(np.where(size >= bar[:, None], at, np.nan), axis=1)
+    near = value >= bar[which]
+    np.fmin.at(first, which[near], x[near])
+    return Greatest(most, first)
+
+
+def _most(size: Array, which: Whole, value: Array) -> Array:
+    """The greatest of sizes (n, k) and of other values of the designs."""
+    most: Array = size.max(axis=1)
+    np.maximum.at(most, which, value)
+    return most
+
+
+def _pieces(places: Sequence[Array]) -> list[tuple[Array, Array]]:
+    """Ends of the pieces between places: one begins a double behind the end of that before it."""
+    pieces = list(pairwise(places))
+    later = [(np.minimum(np.nextafter(a, np.inf), b), b) for a, b in pieces[1:]]
+    return [*pieces[:1], *later]
+
+
+def _high_turns(scan: _Scan, sampled: Array, start: int) -> _Pairs:
+    """Pairs with a turn that may have more than ``sampled`` of their design."""
+    here, left, right = scan.turns.which - start, scan.turns.left, scan.turns.right
+    # A cubic rises above its ends by 4/27 of this at most; and a cubic may miss.
+    rise = (right[0] - left[0]) * np.abs(left[2] - right[2]) * (4.0 / 27.0)
+    reach = np.maximum(np.abs(left[1]), np.abs(right[1])) + rise
+    missed = PREDICTED * (scan.high - scan.low)
+    return scan.turns.taken(reach + missed[here] >= sampled[here])
 
 
 def _blocks(start: int, stop: int, size: int) -> list[slice]:
@@ -120,6 +168,7 @@ class _Pairs(NamedTuple):
 
 
 def _joined(pairs: Sequence[_Pairs]) -> _Pairs:
+    """_Pairs, one after the other."""
     return _Pairs(*(np.concatenate(parts, axis=-1) for parts in zip(*pairs, strict=True)))
 
 
@@ -221,7 +270,16 @@ def _turns(left: Array, right: Array) -> Mask:
     return turns
 
 
-def _tops(f: Curves, pairs: _Pairs) -> Stationary:
+class _Tops(NamedTuple):
+    """Stationary points, and which of them are samples, with the value that they have there."""
+
+    which: Whole
+    x: Array
+    value: Array
+    sampled: Mask
+
+
+def _tops(f: Curves, pairs: _Pairs) -> _Tops:
     """The right neighbour, where it is stationary, and the stationary point between the two.
 
     A stationary neighbour may hide another between the two: the slope beside it has its bend's
@@ -251,7 +309,7 @@ def _tops(f: Curves, pairs: _Pairs) -> Stationary:
     x, rise, (_, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE, slopes)
     found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
-    return Stationary(which, x, value)
+    return _Tops(which, x, value, np.arange(len(which)) >= len(rise))
 
 
 def turn_of_cubic(left: Array, right: Array) -> Array:

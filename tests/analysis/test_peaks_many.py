@@ -15,6 +15,16 @@ from geneva_cli.machine.many import many
 NEAR = 1e-13
 
 
+def rough_is_near(motion, count):
+    """The scan's speed and its derivatives are as near to the motion's own as is promised."""
+    ends = (motion.entry_deg, motion.exit_deg)
+    a, b = (np.broadcast_to(np.reshape(x, (-1, 1)), (count, 1)) for x in ends)
+    x = a + (b - a) * np.linspace(0.0, 1.0, 20)
+    for exact, rough in zip(motion(x, 3).arrays()[1:], motion.rough_rates(x, 2), strict=True):
+        allowed = motion.ROUGH_TO * abs(exact + 0.0 * x).max(axis=1, keepdims=True)
+        assert (abs(rough - exact) <= allowed).all()
+
+
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
     """The search for one shares the motion with that for many, and no step of the search."""
@@ -22,6 +32,8 @@ def test_as_one_by_one(name):
     varied = drawn(rules, 24, 11)
     found = many(spec, varied)
     peaks = worst_of_many(found.machine)
+    for engagement in found.machine.engagements:
+        rough_is_near(engagement.motion, len(found.which))
     for row, i in enumerate(found.which):
         one = worst(alone(spec, varied, i))
         for quantity in QUANTITIES:

@@ -8,7 +8,7 @@ from numpy.polynomial import polynomial
 
 from geneva_cli.numerics import extrema_many as extrema_module
 from geneva_cli.numerics import roots_many as many
-from geneva_cli.numerics.extrema_many import extrema_many, peaks_many
+from geneva_cli.numerics.extrema_many import Rough, extrema_many, peaks_many
 from geneva_cli.numerics.roots import extrema, root
 
 pytestmark = pytest.mark.filterwarnings("error")  # nothing is said of designs that are no numbers
@@ -99,6 +99,19 @@ def test_greatest_size_of_polynomials(random_polynomials):
         # 2e-14: the rounding of terms that add up to 1.5^7 times the peak and cancel
         assert size[i] == pytest.approx(abs(polynomial.polyval(places, c)).max(), rel=2e-14)
         assert abs(polynomial.polyval(x[i], c)) == pytest.approx(size[i], rel=2e-14)
+
+
+def test_greatest_size_by_a_rough_scan(random_polynomials):
+    """Where a scan's functions are wrong by 1e-10, the sizes told are the functions' own."""
+    c = random_polynomials[:500]
+    f, n = polynomials(c), len(c)
+    wrong = polynomials(c * (1.0 + 1e-10 * np.sin(np.arange(c.size)).reshape(c.shape)))
+    pieces = column([-1.5] * n), column([0.1] * n), column([1.5] * n)
+    # the terms of one add up to a hundred times its greatest size at most
+    size, x = peaks_many(f, *pieces, rough=Rough(wrong, 1e-8))
+    assert size == pytest.approx(peaks_many(f, pieces[0], pieces[2]).size, rel=2e-14)
+    own = abs(f(x[:, None], np.arange(n), 0)[0][:, 0])
+    assert size == pytest.approx(own, rel=2e-14)
 
 
 def test_one_by_one(random_polynomials):

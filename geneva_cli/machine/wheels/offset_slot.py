@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from geneva_cli.machine.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import are_designs, chosen, library
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
 
 class OffsetSlot(Slot):
@@ -45,6 +49,10 @@ class OffsetFollowed(Followed):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """How fast the slot's direction turns: without an arc tangent."""
         return self._told(input_deg, order + 1, angle=False)
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """The same, from mid-motion alone."""
+        return self._inside(input_deg, order + 1, angle=False).arrays()
 
     def _told(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
         """The wheel's angle, or its rate, one order lower."""
