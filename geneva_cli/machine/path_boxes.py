@@ -109,7 +109,7 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
 
 
 def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
-    """``may_meet`` of boxes between samples."""
+    """``_may_meet`` of boxes between samples."""
     count = at.phi.shape[1]
     numbers = np.stack([x.ravel() for x in _numbers(at)])
     corners = [
@@ -123,7 +123,7 @@ def _numbers(at: PathPoints) -> tuple[Array, ...]:
     return at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn
 
 
-def may_turn(boxes: Boxes, wanted: Array) -> Mask:
+def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
     """Whether both ends may turn against the wheel, and the tangent by what is wanted."""
     spans = []
     good = np.ones(len(boxes.which), dtype=bool)
@@ -137,7 +137,7 @@ def may_turn(boxes: Boxes, wanted: Array) -> Mask:
     return good & (x_low - e_high <= target) & (x_high - e_low >= target)
 
 
-def may_meet(boxes: Boxes) -> Mask:
+def _may_meet(boxes: Boxes) -> Mask:
     """Whether the chord may be parallel to the tangents' sum."""
     entry, exit_ = boxes.entry, boxes.exit
     corners = [[_numbers(side.first), _numbers(side.last)] for side in (entry, exit_)]
@@ -207,8 +207,8 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     return NewtonSteps(apart <= ALIKE, beside <= BESIDE, phi)
 
 
-def halved(path: RollerPath, boxes: Boxes) -> Boxes:
-    """Four boxes of each."""
+def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
+    """Of four boxes of each those in which there may be a pair."""
     halves = []
     for side in (boxes.entry, boxes.exit):
         phi = 0.5 * (side.first.phi + side.last.phi)
@@ -222,7 +222,9 @@ def halved(path: RollerPath, boxes: Boxes) -> Boxes:
                 turn = turn - halves[0][0].turn
             if j:
                 turn = turn + halves[1][0].turn
-            parts.append(Boxes(boxes.which, boxes.sense, entry, exit_, turn))
+            part = Boxes(boxes.which, boxes.sense, entry, exit_, turn)
+            part = part.taken(np.flatnonzero(_may_turn(part, wanted)))
+            parts.append(part.taken(np.flatnonzero(_may_meet(part))))
     halved: Boxes = joined(parts)
     return halved
 

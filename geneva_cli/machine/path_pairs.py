@@ -30,8 +30,6 @@ from geneva_cli.machine.path_boxes import (
     Boxes,
     boxes_of,
     halved,
-    may_meet,
-    may_turn,
     newton_steps,
 )
 from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
@@ -95,9 +93,7 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPa
         rest = np.concatenate((np.flatnonzero(~steps.alike), tried[~close]))
         if last or not len(rest):
             break
-        boxes = halved(path, boxes.taken(rest))
-        boxes = boxes.taken(may_turn(boxes, wanted))
-        boxes = boxes.taken(may_meet(boxes))
+        boxes = halved(path, boxes.taken(rest), wanted)
     ends = ends.taken(np.flatnonzero(~close))
     near = np.flatnonzero(np.abs(residual(ends, b).excess) < DOUBTFUL)
     return FoundPairs(joined(found), ends.taken(near))

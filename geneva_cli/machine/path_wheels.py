@@ -43,6 +43,14 @@ class Search(NamedTuple):
     wheels: Wheels
     doubtful: Pairs
 
+    def of(self, i: int) -> Search:
+        """What was found of one of the designs, as of a path searched alone."""
+        parts = []
+        for part in self:
+            mine = part.taken(np.flatnonzero(part.which == i))
+            parts.append(mine._replace(which=0 * mine.which))
+        return Search._make(parts)
+
 
 def wheels(path: RollerPath, b: Array) -> Search:
     """All wheels of designs of half an index angle b, (n, 1)."""

@@ -18,7 +18,7 @@ from geneva_cli.machine.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.machine.path_choice import chosen
 from geneva_cli.machine.path_pairs import FLAT
 from geneva_cli.machine.path_samples import joined
-from geneva_cli.machine.path_wheels import Wheels, followed, wheels
+from geneva_cli.machine.path_wheels import Search, Wheels, followed, wheels
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
@@ -59,13 +59,15 @@ class _Place(NamedTuple):
     turn: float
 
 
-def fit(path: RollerPath, step: HalfStep, wanted: float | None = None) -> Fit | None:
+def fit(
+    path: RollerPath, step: HalfStep, wanted: float | None = None, search: Search | None = None
+) -> Fit | None:
     """The wheel of an index angle that the path can drive, if there is one.
 
-    Of several the gentlest, or the one entered nearest to ``wanted`` (radians).
+    Of several the gentlest, or the one entered nearest to ``wanted`` (radians). ``search`` is that
+    of the path, where it was done with those of other designs.
     """
-    half = np.array([[step.b]])
-    found, doubtful = wheels(path, half)
+    found, doubtful = search or wheels(path, np.array([[step.b]]))
     for entry, exit_ in doubtful.at.phi.tolist():
         root = _double(path, step, entry, exit_)
         if root:

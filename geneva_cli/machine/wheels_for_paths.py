@@ -12,7 +12,7 @@ import numpy as np
 
 from geneva_cli.machine.path_choice import chosen
 from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
-from geneva_cli.machine.path_wheels import wheels
+from geneva_cli.machine.path_wheels import Search, wheels
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.jet import Jet
@@ -20,7 +20,7 @@ from geneva_cli.numerics.jet import Jet
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.numerics.arrays import Array, Long, Whole
+    from geneva_cli.numerics.arrays import Array, Long
 
     LongComplex: TypeAlias = NDArray[np.clongdouble]
 
@@ -31,13 +31,14 @@ GROUP = 2048  # designs at a time
 class Fits(NamedTuple):
     """One wheel a design, of n designs: the angles are radians, (n, 1); NaN where none fits.
 
-    ``alone`` are the numbers of designs that are to be solved one by one.
+    ``alone`` are the numbers of designs that are to be solved one by one, with what was found of
+    each.
     """
 
     entry: Array
     exit: Array
     sense: Array  # +1 where the wheel turns counterclockwise on the path's own axes
-    alone: Whole
+    alone: dict[int, Search]
 
 
 def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
@@ -48,18 +49,20 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     numbers = (*path.rough, b, 0.0 if wanted is None else wanted)
     count = np.broadcast_shapes(*(np.shape(x) for x in numbers))[0]
     out = np.full((3, count), np.nan)
-    alone = []
+    alone: dict[int, Search] = {}
     half = np.broadcast_to(np.asarray(b, dtype=float), (count, 1))
     goal = None if wanted is None else np.broadcast_to(np.asarray(wanted, dtype=float), (count, 1))
     for start in range(0, count, GROUP):
         part = np.arange(start, min(start + GROUP, count))
         some = path.of(part)
-        found, doubtful = wheels(some, half[part])
+        search = wheels(some, half[part])
+        found = search.wheels
         best = chosen(some, found, goal if goal is None else goal[part])
         out[:, part[found.which[best]]] = *found.phi[best].T, found.sense[best]
-        alone.append(part[np.unique(doubtful.which)])
+        for i in np.unique(search.doubtful.which).tolist():
+            alone[start + i] = search.of(i)
     entry, exit_, sense = out[:, :, None]
-    return Fits(entry, exit_, sense, np.concatenate(alone))
+    return Fits(entry, exit_, sense, alone)
 
 
 def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:

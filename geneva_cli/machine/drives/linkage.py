@@ -157,11 +157,11 @@ class Linkage(PinPath, kw_only=True):
         """Engagements and centre distances of many designs; those without a wheel are refused."""
         path = self.roller_path.in_long_doubles()
         found = fits_many(path, step.b, self._wanted)
-        for i in found.alone:
+        for i, search in found.alone.items():
             p, q = (int(np.broadcast_to(x, found.entry.shape)[i, 0]) for x in step)
             try:
                 one = self._one(i)
-                fit_i = fit(one.roller_path, HalfStep(p, q), one._wanted)
+                fit_i = fit(one.roller_path, HalfStep(p, q), one._wanted, search)
             except GenevaError:
                 fit_i = None
             values = (
