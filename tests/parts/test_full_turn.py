@@ -100,10 +100,12 @@ DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 
 
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
-    found = outlines(load(str(path)))
-    turn = full_turn(found)
+    """As all commands have its parts and their turn."""
+    parts = proof.Proof(load(str(path)))
+    found, turn = parts.found, parts.turn
     assert passes(found, turn)
     assert not list(overlaps(found, 20))
     mechanism = found.assembly.given

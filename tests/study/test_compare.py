@@ -7,6 +7,7 @@ import pytest
 from geneva_cli import GenevaError, load
 from geneva_cli.study.compare import compare
 
+pytestmark = pytest.mark.usefixtures("made_once")
 HERE = os.path.dirname(__file__)
 DESIGNS = os.path.join(HERE, os.pardir, os.pardir, "designs")
 NAMES = sorted(f for f in os.listdir(DESIGNS) if f.endswith(".toml"))
