@@ -16,7 +16,7 @@ demo: .venv/demo
 # Tests start the program some hundred times: even where Python is told to keep nothing compiled,
 # it is compiled once.
 test: .venv/dev lint
-	PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n auto --dist worksteal
+	PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
 
 lint: .venv/dev
 	$(BIN)/ruff check .

@@ -23,7 +23,7 @@ from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts import proof
-from geneva_cli.parts.outlines import Outlines, outlines
+from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import reliefs
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps, NotProved
