@@ -11,17 +11,20 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
-from geneva_cli.study.synthesis.families.every import families
+from geneva_cli.study.synthesis.families.every import Kind, families, kinds
 from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg
 from geneva_cli.study.synthesis.families.straight import plain
 from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
+
+WHEELS = 6  # times laws: a search of fewer is done before a second process has begun
 
 
 class FoundRows(NamedTuple):
@@ -31,27 +34,63 @@ class FoundRows(NamedTuple):
     names: tuple[str, ...] = ()
 
 
+class _Part(NamedTuple):
+    """What one kind of machine has for a wish.
+
+    ``keeps`` says whether some machine keeps the bounds; ``broken`` are those that do not.
+    """
+
+    rows: list[Row]
+    keeps: bool
+    broken: list[Spec]
+    reached: list[float]
+    errors: list[str]
+
+
 def search(wish: Wish) -> FoundRows:
     """The machines that grant the wish in their order; no part has been turned yet.
 
     Raises GenevaError, saying what is within reach, where there is none.
     """
-    reached: list[float] = []
-    errors: list[str] = []
     wanted = _asked(wish)
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
-    quick = [b for b in wish.limits if in_arrays([b.name])]
-    least = wish.sort if wanted.sort and in_arrays([wanted.sort]) else ""
-    one_each = best([*families(wish, reached)], quick, wish.any_motion, least)
-    specs = [_limited(wish, spec) for spec in _keeping(quick, [*dict.fromkeys(one_each)])]
-    found = [row for row in rows(wish, specs, errors) if _kept(wish, row)]
+    parts = _parts(wish)
+    errors = [error for part in parts for error in part.errors]
+    found = [row for part in parts for row in part.rows]
+    if not any(part.keeps for part in parts):  # a refusal says how near they come
+        found += _rows(wish, [spec for part in parts for spec in part.broken], errors)
     if not found:
+        reached = [peak for part in parts for peak in part.reached]
         raise GenevaError(_out_of_reach(wish, reached, errors))
     if wanted.pick:
         found = bounded(wanted, found)
     found.sort(key=lambda row: _rank(wish, wanted, row))
     return FoundRows(found, wanted.names)
+
+
+def _parts(wish: Wish) -> list[_Part]:
+    """What each kind of machine has, by all cores; the laws, which take longest, begin."""
+    tasks = kinds(wish)[::-1]
+    many = len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
+    workers = min(len(tasks), cores()) if many else 1
+    return [*mapped(_part, tasks, workers, "machines")][::-1]
+
+
+def _part(task: tuple[Kind, Wish]) -> _Part:
+    kind, wish = task
+    reached: list[float] = []
+    errors: list[str] = []
+    bounds = [b for b in wish.limits if in_arrays([b.name])]
+    least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
+    one_each = best([*families(kind, wish, reached)], bounds, wish.any_motion, least)
+    keeps, kept, broken = _apart(bounds, [*dict.fromkeys(one_each)])
+    return _Part(_rows(wish, kept, errors), keeps, broken, reached, errors)
+
+
+def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
+    limited = [_limited(wish, spec) for spec in specs]
+    return [row for row in rows(wish, limited, errors) if _kept(wish, row)]
 
 
 def _asked(wish: Wish) -> Asked:
@@ -71,19 +110,21 @@ def _asked(wish: Wish) -> Asked:
     return asked(wish, wish.frame or BARE)
 
 
-def _keeping(bounds: Sequence[Constraint], specs: list[Spec]) -> list[Spec]:
-    """The specs without those that break a bound, whatever roller they get; if all do, all."""
+def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[Spec], list[Spec]]:
+    """The specs without those that break a bound, whatever roller they get, and these; first,
+    whether there are any of which it is known that they break none.
+    """
     whatever = [b for b in bounds if not b.name.startswith("loads.")]
     if not whatever:
-        return specs
+        return bool(specs), specs, []
     values = numbers(specs, [b.name for b in whatever])
     broken = [
         own is not None and not all(b.kept(x) for b, x in zip(whatever, own, strict=True))
         for own in values
     ]
-    if not any(own and not out for own, out in zip(values, broken, strict=True)):
-        return specs
-    return [spec for spec, out in zip(specs, broken, strict=True) if not out]
+    keeps = any(own and not out for own, out in zip(values, broken, strict=True))
+    kept = [spec for spec, out in zip(specs, broken, strict=True) if not out]
+    return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
 def _limited(wish: Wish, spec: Spec) -> Spec:

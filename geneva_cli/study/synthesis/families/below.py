@@ -19,7 +19,6 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.curved import cam, curved, more_rollers, standard
 from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
-from geneva_cli.study.synthesis.families.four_bars import four_bars
 from geneva_cli.study.synthesis.families.straight import driven, gears, plain, planets, side_crank
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -28,8 +27,8 @@ PARALLEL, QUICK = 0.5, 0.45
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 
 
-def below(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
-    """The families of some wheels; peaks that are as low as a drive brings them go to
+def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+    """The families with straight slots; peaks that are as low as a drive brings them go to
     ``reached``.
     """
     for wheel in wheels:
@@ -38,8 +37,6 @@ def below(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterat
             yield from driven(wish, wheel)
         if wish.rollers in (None, 1):
             yield from planets(wish, wheel, natural_deg(wheel))
-    yield from four_bars(wish, wheels)
-    yield from map(only, _with_laws(wish, wheels, reached))
 
 
 def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
@@ -72,8 +69,12 @@ def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> I
             yield make(x)
 
 
-def _with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Spec]:
+def with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     """Curved slots, and cams, over a motion so long that the law's peak is the limit."""
+    yield from map(only, _with_laws(wish, wheels, reached))
+
+
+def _with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Spec]:
     lines: list[tuple[float, Callable[[int], Spec]]] = []
     for wheel in wheels:
         if wheel.FLAT:

@@ -6,28 +6,51 @@ range, the family's best is taken: what that is, is ``best``'s to say.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias
 
 from geneva_cli.machine import registry
-from geneva_cli.study.synthesis.families.below import below
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.study.synthesis.families import below
 from geneva_cli.study.synthesis.families.curved import with_laws
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.families.four_bars import four_bars
 from geneva_cli.study.synthesis.families.straight import straight
 from geneva_cli.study.synthesis.wish import Wish
 
+# Of a wish for a peak acceleration alone, peaks that are as low as a drive brings them are added to
+# the list.
+Kind: TypeAlias = Callable[[Wish, Sequence[Gearing], list[float]], Iterator[Family]]
 
-def families(wish: Wish, reached: list[float]) -> Iterator[Family]:
-    """All families that may grant a wish.
 
-    Of a wish for a peak acceleration alone, peaks that are as low as a drive brings them go to
-    ``reached``.
+def kinds(wish: Wish) -> list[tuple[Kind, Wish]]:
+    """What may grant a wish, in parts that do not know each other: straight slots, four-bars, and
+    each law.
     """
+    first, last = (
+        (below.straight, below.with_laws) if wish.only_acceleration else (_straight, _laws)
+    )
+    return [
+        (first, wish),
+        (_four_bars, wish),
+        *((last, wish._replace(laws=(law,))) for law in wish.laws),
+    ]
+
+
+def families(kind: Kind, wish: Wish, reached: list[float]) -> Iterator[Family]:
+    """The families of one of these that may grant a wish."""
     wheels = [registry.gearing(gearing)(z) for gearing in wish.gearings for z in wish.z]
-    if wish.only_acceleration:
-        yield from below(wish, wheels, reached)
-        return
+    yield from kind(wish, wheels, reached)
+
+
+def _straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     for wheel in wheels:
         yield from straight(wish, wheel)
+
+
+def _four_bars(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     yield from four_bars(wish, wheels)
+
+
+def _laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     yield from with_laws(wish, wheels)
