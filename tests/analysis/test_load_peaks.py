@@ -9,6 +9,7 @@ from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads import peaks as load_peaks
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.many import summaries_of_many
@@ -189,6 +190,28 @@ def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
     assert n is not None
     again = build(mechanism.spec.replace(drive=spec.drive.replace(n_rpm=n)))
     assert loads.greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
+
+
+def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
+    """A shockless planet starts with a jerk of 0: there the load's sign is any, and told nothing.
+
+    A place where it turned was looked at closer and closer, a million times.
+    """
+    looks = []
+
+    def counted(*of):
+        found = scan(*of)
+        looks.append(len(found.x))
+        return found
+
+    monkeypatch.setattr(load_peaks, "scan", counted)
+    drive, keys = Drive("epicyclic"), Keys("epicyclic", "shockless")
+    limits = Limits(pin_force_max_N=55.0)
+    mechanism = build(Spec(Wheel(4), drive, keys, load=Load(0.043), limits=limits))
+    n = loads.fastest_rpm(mechanism)
+    again = build(mechanism.spec.replace(drive=mechanism.spec.drive.replace(n_rpm=n)))
+    assert loads.greatest(again, "pin_force_N").max == pytest.approx(55.0, rel=2e-14)
+    assert max(looks) < 2000
 
 
 def test_a_limit_that_no_speed_keeps():

@@ -176,9 +176,10 @@ def _slowness(
         for limit, factor in held:
             load = needed * factor
             left = limit - factor * given.resists_Nm
-            driven = np.asarray(load.c[0]) > 0.0  # where it is not, any speed keeps the limit
-            spare = [np.where(driven, c, 0.0 if k else 1.0) for k, c in enumerate(left.c)]
-            out.append(Row(load / left, Jet(spare)))
+            # Where it is not driven any speed keeps the limit: there is room, and as much as beside
+            # it, for at rest the load's sign is rounding.
+            over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
+            out.append(Row(load / left, Jet([np.where(over, -c, c) for c in left.c])))
         return out
 
     still = given._replace(resists_Nm=0.0)
