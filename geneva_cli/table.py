@@ -17,7 +17,7 @@ class Table(NamedTuple):
     line by line. A None is a value that does not exist (an empty field, ``null`` in json). In a
     record a value may be a tuple of texts, or a table of its own. ``prose`` stands below the title.
     The columns of a ``mixed`` table hold quantities of many kinds, so that no number in them is
-    small beside another.
+    small beside another; their names are headings, as drive.A=0.6, in which json sees no tree.
     """
 
     names: tuple[str, ...]

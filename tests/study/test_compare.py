@@ -1,5 +1,6 @@
 """Designs side by side: the same rows for every machine, and the numbers of their own reports."""
 
+import json
 import os
 
 import pytest
@@ -67,6 +68,17 @@ def test_every_machine_has_the_same_rows():
     table = compare([path(n) for n in some])
     assert len(table.names) == len(some) + 2
     assert by_quantity(table).keys() >= {"timing.dwell_s", "acceleration.max", "sizes.ratio"}
+
+
+def test_json_has_every_design_by_its_heading(capsys):
+    """drive.A=0.6 is no path: drive, A=0, 6 would be hidden by drive.A=0."""
+    from geneva_cli.output import show
+
+    varied = ["drive.A=0.6,0", "wheel.z=6"]
+    show(compare([path("side-crank-z6.toml")], vary=varied, picks=["k"]), "-", "json")
+    (row,) = json.loads(capsys.readouterr().out)["rows"]
+    assert list(row) == ["quantity", "drive.A=0.6 wheel.z=6", "drive.A=0 wheel.z=6", "differs"]
+    assert row["drive.A=0 wheel.z=6"] == pytest.approx(0.5, rel=1e-15)
 
 
 def test_differing_rows_are_marked_and_alone_on_request():
