@@ -244,6 +244,8 @@ class Tops:
         # a cubic rises above its ends by 4/27 of this at most; and a cubic may miss
         rise = (turns.right[0] - turns.left[0]) * np.abs(d - e) * (4.0 / 27.0)
         reach = np.maximum(rises * v, rises * w) + rise * (1.0 + 4.0 * PREDICTED)
+        # before a pole no cubic tells how far
+        reach = np.where(np.isfinite(v) & np.isfinite(w), reach, np.inf)
         most = self.most[self.number(turns.row, rises), turns.design]
         hopes = (d * e <= 0.0) & (reach >= most) & (most < np.inf)
         return taken(turns._replace(rises=rises), hopes)

@@ -12,6 +12,7 @@ from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.many import many
+from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.signed_many import BLOCK
 from geneva_cli.spec.tables import Load
 
@@ -74,6 +75,20 @@ def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""
     _, _, found = loaded(name, 100, 5)
     assert (beyond(found, 150, 5) <= 1e-12).all()
+
+
+def test_a_least_value_before_a_pole_is_found():
+    """Of p v, where the roller hardly slides just before its wall is too sharp for it."""
+    spec, _ = MACHINES["cycloidal"]
+    spec = spec.replace(load=Load(torque_Nm=5.0), size=spec.size.replace(face_width_mm=10.0))
+    spec = spec.with_("wheel.z", 8)
+    found = many(spec, {"motion.alpha0_deg": np.array([-16.12715, -12.83089])})
+    least = summaries_of_many(found.machine, ["pv_W_m2"], told=())["pv_W_m2"]
+    for i, alpha0 in enumerate((-16.12715, -12.83089)):
+        one = ends_of(Cycle(build(spec.with_("motion.alpha0_deg", alpha0))), "pv_W_m2")[0]
+        # where it is 0 the search of many knows its square, whose bend there tells the place
+        assert least.min[i] == pytest.approx(max(one.min, 0.0) ** 0.5, rel=1e-12, abs=1.0)
+        assert least.min_at_deg[i] == pytest.approx(one.min_at_deg, abs=1e-4)
 
 
 @pytest.mark.parametrize("name", MISSED)
