@@ -89,28 +89,30 @@ def one_by_one(spec, varied, found):
     return out
 
 
-def beyond(found, places, seed, together=None):
-    """By what share of a quantity's size places of a scan pass its extremes: (designs, NAMES).
+def beyond(found, places, seed, together=None, names=NAMES):
+    """By what share of a quantity's size places of a scan pass its extremes: (designs, names).
 
     One place anywhere in each of so many equal parts of the motion, others in each design. The
     extremes are those ``together``, or else what the search of many designs gives.
     """
     random = np.random.default_rng(seed)
     machine, n = found.machine, len(found.which)
-    together = together or summaries_of_many(machine, NAMES, told=())
-    out = np.full((n, len(NAMES)), -np.inf)
+    together = together or summaries_of_many(machine, names, told=())
+    out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):
             part = slice(i, min(i + BLOCK, n))
-            some = taken(of(engagement, Cycle(machine).given, NAMES, {}), part)
+            some = taken(of(engagement, Cycle(machine).given, names, {}), part)
             here, given, _ = some
             a, b = (np.reshape(x, (-1, 1)) for x in (here.entry_deg, here.exit_deg))
             share = (np.arange(places) + random.random((part.stop - i, places))) / places
             x = np.asfortranarray(a + (b - a) * np.clip(share, 1e-9, 1.0 - 1e-9))
-            load = Loaded(some, NAMES)
+            load = Loaded(some, names)
             with np.errstate(all="ignore"):
-                found_ = look(load.kinds, given, contact(here, x, reactions=False), None).instant
-            for k, name in enumerate(NAMES):
+                found_ = look(
+                    load.kinds, given, contact(here, x, reactions=load.reactions), None
+                ).instant
+            for k, name in enumerate(names):
                 one = SummaryOfMany(*[v if v is None else v[part] for v in together[name]])
                 out[part, k] = np.maximum(out[part, k], _passed(found_, name, one, x.shape))
     return out
