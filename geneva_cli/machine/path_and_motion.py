@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.machine.engagement import (
     Anchor,
+    CarrierVelocity,
     Engagement,
     Motion,
     Path,
@@ -47,8 +48,11 @@ def engagement(
     law: Law,
     path: MiddlePath,
     reactions: Reactions | None = None,
+    body: CarrierVelocity | None = None,
 ) -> Engagement:
     """The engagement of a curved slot whose motion lies evenly about the line of centres."""
     half = 0.5 * motion_deg
     motion = LawMotion(-half, half, half_step, law)
-    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, reactions=reactions)
+    return Engagement(
+        mid_deg, path, SolvedSlot(path, motion), motion, body=body, reactions=reactions
+    )

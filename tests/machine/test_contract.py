@@ -16,7 +16,9 @@ from machine_witness import motions
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many, may_vary, taken
+from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.wheels.external import External
+from geneva_cli.numerics.jet import turning
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so
 # do the places of entry, middle and exit, about which all is written. A motion passes that on as
@@ -213,3 +215,20 @@ def test_keys_that_cannot_vary():
 def test_an_array_needs_the_door():
     with pytest.raises(GenevaError, match="many"):
         External(np.array([[4], [5]]))
+
+
+CARRIED = ["side-crank", "inside", "placed rollers", "noncircular gears", "tilted law", "cycloidal"]
+
+
+@pytest.mark.parametrize("name", CARRIED)
+def test_a_known_carrier_turns_as_its_pin_goes_round_the_crank_axis(name):
+    """The crank's own rate, where it is known, against that of its pin's path."""
+    for engagement in build(MACHINES[name][0]).engagements:
+        assert engagement.body is not None
+        deg = np.linspace(engagement.entry_deg, engagement.exit_deg, 21)
+        x, y = engagement.path(deg, 3)
+        own, seen = (
+            full(jet, deg.shape) for jet in (engagement.carrier(deg, 2), turning(x - 1, y))
+        )
+        # three derivatives of the path, each of which takes the rounding of those before it along
+        assert np.abs(own - seen).max() <= 4 * UNITS * max(1.0, np.abs(seen).max())

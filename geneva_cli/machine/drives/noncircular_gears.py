@@ -18,7 +18,7 @@ from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import ClosedPeaks, Path, Reactions
+from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
@@ -107,6 +107,10 @@ class NoncircularGears(Transmission, kw_only=True):
             return whitworth.about(self.A, crank_deg)
         assert self.ratio is not None  # one of the two is
         return _through(_turned(self.ratio.pairs), crank_deg)
+
+    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
+        """That of the side-crank that has this ratio; None for a ratio by points."""
+        return None if self.A is None else whitworth.turning(self.A, crank_deg, sense)
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """The peaks of the side-crank that has this ratio; None for a ratio by points."""

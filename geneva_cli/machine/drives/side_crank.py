@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.transmission import About, Transmission
-from geneva_cli.machine.engagement import ClosedPeaks, Path, Reactions
+from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
@@ -57,6 +57,10 @@ class SideCrank(Transmission, kw_only=True):
     def about(self, crank_deg: float) -> About:
         """About a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
+
+    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity:
+        """The crank is the coulisse."""
+        return whitworth.turning(self.A, crank_deg, sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Its input crank; without a length as long as the Geneva crank, which is the coulisse."""

@@ -10,6 +10,7 @@ from geneva_cli.machine import path_and_motion
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
 from geneva_cli.machine.engagement import (
     Anchor,
+    CarrierVelocity,
     ClosedPeaks,
     Displacement,
     Engagement,
@@ -120,12 +121,18 @@ class Transmission(Drive, kw_only=True):
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
         body = wheel.body(place, here.advance)
-        if self.direct:
-            body = body or Turning(-wheel.SIGN)
+        body = body or self.turning(place.crank_deg, -wheel.SIGN)
         mid = here.input_deg
         reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
         hub = wheel.hub(place)
         return Engagement(mid, path, slot, motion, body=body, hub=hub, reactions=reactions)
+
+    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
+        """How the crank turns after a crank angle, where that is known without its pin's path.
+
+        ``sense`` is 1 where it turns with the wheel, else -1.
+        """
+        return Turning(sense) if self.direct else None
 
     @property
     def direct(self) -> bool:
@@ -152,7 +159,10 @@ class Transmission(Drive, kw_only=True):
         anchor = self._anchor(pose, 0.0)
         L, path = spec.given_distance_mm, MiddlePath(anchor)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
-        engagement = path_and_motion.engagement(0.0, motion_deg, wheel.step.b, law, path, reactions)
+        body = self.turning(0.0, -wheel.SIGN)
+        engagement = path_and_motion.engagement(
+            0.0, motion_deg, wheel.step.b, law, path, reactions, body
+        )
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)
         return Plan((engagement,), period, ratio, most, spec.given_distance_mm)

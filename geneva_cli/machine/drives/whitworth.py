@@ -88,20 +88,38 @@ class Coulisse(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the coulisse's turn d, ``tau`` input radians later."""
+        y, x, rate = self._turned(tau, order - 1)
+        return sine_versine_of(rate, y, x, order)
+
+    def rate(self, tau: Number, order: int) -> Jet:
+        """How fast the coulisse turns, radians an input radian."""
+        return self._turned(tau, order)[2]
+
+    def _turned(self, tau: Number, order: int) -> tuple[Number, Number, Jet]:
+        """The coulisse's vector (y, x) in the frame of its direction at f, and its rate."""
         A, s, c, length = self.A, self.sin_f, self.cos_f, self.length
         m = library(tau, A, s)
         sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
-        # The coulisse's vector in the frame of its own direction at f.
         x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * self.sin_h - sin_t * sin_t * self.rest
         y = 2.0 * sin_t * (cos_t * self.cos_h - sin_t * self.sin_h)
         # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi: as A nears 1 the
         # coulisse turns at half speed, and nothing cancels.
         sine, cosine = x * s + y * c, x * c - y * s - A
-        turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[: max(order, 1)]
+        turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[: max(order, 0) + 1]
         W = choose(self.grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
         square = Jet((W, *[2.0 * A * t for t in turns[1:]]))
-        rate = 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
-        return sine_versine_of(rate, y, x, order)
+        return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
+
+
+class CoulisseTurning(NamedTuple):
+    """The turning of the coulisse as the roller's crank: with the wheel where ``sense`` is 1."""
+
+    coulisse: Coulisse
+    sense: float
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Radians an input radian."""
+        return self.coulisse.rate(tau, order) * self.sense
 
 
 class SlidingBlock(Pushed):
@@ -120,6 +138,15 @@ class SlidingBlock(Pushed):
 
 def about(A: float, crank_deg: float) -> About:
     """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
+    return About(*_about(A, crank_deg))
+
+
+def turning(A: float, crank_deg: float, sense: float) -> CoulisseTurning:
+    """How the coulisse turns after its angle f in degrees."""
+    return CoulisseTurning(_about(A, crank_deg)[1], sense)
+
+
+def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:
     m = library(A, crank_deg)
     s, c = sin_cos_deg(crank_deg)
     # cos h and the coulisse's length are written as sums of positive terms for A near +-1.
@@ -138,4 +165,4 @@ def about(A: float, crank_deg: float) -> About:
     own = whole + m.degrees(m.atan2(length * s, length * c - A))
     phi = choose(A < 0.0, own, added)
     grows = (A * c < 0.0) & level
-    return About(phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows))
+    return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)
