@@ -85,8 +85,12 @@ class Jet:
 
     def __mul__(self, other: Jet | Number) -> Jet:
         if not isinstance(other, Jet):
-            return Jet([a * other for a in self.c])
+            return Jet(_scaled(self.c, other))
         a, b = self.c, other.c
+        if _is_constant(b):
+            return Jet(_scaled(a, b[0]))
+        if _is_constant(a):
+            return Jet(_scaled(b, a[0]))
         return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
 
     __rmul__ = __mul__
@@ -95,6 +99,8 @@ class Jet:
         if not isinstance(other, Jet):
             return Jet([a / other for a in self.c])
         b = other.c
+        if _is_constant(b):
+            return Jet([a / b[0] for a in self.c])
         q: list[Number] = []
         for k, a in enumerate(self.c):
             q.append((a - sum(q[i] * b[k - i] for i in range(k))) / b[0])
@@ -106,6 +112,16 @@ class Jet:
 
 # What a formula of jets says of their values alone, too.
 V = TypeVar("V", Jet, "Array")
+
+
+def _is_constant(c: Sequence[Number]) -> bool:
+    """Whether all coefficients but the value are the number 0: no array of them is looked at."""
+    return len(c) > 1 and all(isinstance(a, float) and not a for a in c[1:])
+
+
+def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
+    """Coefficients times a number; those that are the number 0 stay it."""
+    return [c[0] * factor, *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]]]
 
 
 def _convolve(a: Sequence[Number], b: Sequence[Number], k: int, first: int) -> Number:

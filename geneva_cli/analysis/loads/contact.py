@@ -150,7 +150,7 @@ def _beside(
     elif rates is None:
         rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = _cut(rates, order), rates.derivative()
-    constant = velocity * 0.0
+    constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
     straight_axis = engagement.slot.axis(x, order)
     if straight_axis:
         lever, along = straight_axis

@@ -146,6 +146,13 @@ def _grip(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
     return at.lever + rub * (at.aside * drives - at.arm * given.radius)
 
 
+class Worked(NamedTuple, Generic[V]):
+    """What was worked out already, to tell the signs."""
+
+    torque: V | None = None
+    sliding: V | None = None
+
+
 class Forces(Generic[V]):
     """What acts for a torque of the sign ``drives`` and a sliding of the sign ``slides``.
 
@@ -156,18 +163,28 @@ class Forces(Generic[V]):
 
     at: Contact[V]
 
-    def __init__(self, given: Setting, at: Contact[V], drives: Number, slides: Number) -> None:
+    def __init__(
+        self,
+        given: Setting,
+        at: Contact[V],
+        drives: Number,
+        slides: Number,
+        worked: Worked[V] | None = None,
+    ) -> None:
         self.given, self.at, self.drives, self.slides = given, at, drives, slides
+        self.worked: Worked[V] = worked or Worked()
 
     @cached_property
     def torque(self) -> V:
         """That the wheel needs."""
-        return wheel_torque(self.given, self.at)
+        torque = self.worked.torque
+        return wheel_torque(self.given, self.at) if torque is None else torque
 
     @cached_property
     def sliding(self) -> V:
         """Speed at which the roller rubs along the wall, over L, per input radian."""
-        return sliding(self.at, self.drives, self.given.radius)
+        speed = self.worked.sliding
+        return sliding(self.at, self.drives, self.given.radius) if speed is None else speed
 
     @cached_property
     def grip(self) -> V:

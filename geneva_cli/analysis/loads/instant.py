@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Generic
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact, valued
-from geneva_cli.analysis.loads.forces import Forces, Row, Setting, value
+from geneva_cli.analysis.loads.forces import Forces, Row, Setting, Worked, value
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.numerics.jet import Jet, Number, V, sqrt
 
@@ -45,13 +45,20 @@ class Instant(Generic[V]):
     forces: Forces[V]
 
     def __init__(
-        self, given: Setting, at: Contact[V], drives: Number, slides: Number, feeds: Number
+        self,
+        given: Setting,
+        at: Contact[V],
+        drives: Number,
+        slides: Number,
+        feeds: Number,
+        *,
+        worked: Worked[V] | None = None,
     ) -> None:
         self.given, self.at = given, at
         self.drives = drives  # sign of the wheel's torque
         self.slides = slides  # sign of the sliding
         self.feeds = feeds  # sign of the input's torque
-        self.forces = Forces(given, at, drives, slides)
+        self.forces = Forces(given, at, drives, slides, worked)
 
     @classmethod
     def known(cls, quantities: Mapping[str, object]) -> Instant[Array]:

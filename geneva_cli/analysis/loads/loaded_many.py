@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored
 from geneva_cli.analysis.loads.cycle import Quantity
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, wheel_torque
+from geneva_cli.analysis.loads.forces import Row, Setting, Worked, gain, sliding, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.mid_motion import Known, at_mid_motion
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
@@ -229,14 +229,16 @@ def look(
             jets.append(jet)
         return here
 
-    drives = sign("drives", wheel_torque(given, at))
+    torque, rubs = wheel_torque(given, at), None
+    drives = sign("drives", torque)
     slides: Number = 1.0
     if "slides" in kinds:
-        slides = sign("slides", sliding(at, drives, given.radius))
+        rubs = sliding(at, drives, given.radius)
+        slides = sign("slides", rubs)
     feeds: Number = 1.0
     if "feeds" in kinds:
         feeds = sign("feeds", gain(given, at, drives, slides) * drives)
-    found = Instant(given, at, drives, slides, feeds)
+    found = Instant(given, at, drives, slides, feeds, worked=Worked(torque, rubs))
     if "grip" in kinds:
         sign("grip", found.grip)
     if "edge" in kinds and found.edge is not None:

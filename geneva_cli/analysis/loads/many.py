@@ -219,7 +219,9 @@ def _sums(
     every = np.arange(len(pieces.design))
     # of a mirrored motion the second half goes with the first, as functions of their own
     other = mirror_images(pieces) if load.mirrored else every
-    kept = every <= other
+    kept = np.flatnonzero(every <= other)
+    # those of one span together: a motion of several pieces is asked for one of them at a time
+    kept = kept[np.argsort(pieces.span[kept], kind="stable")]
     design, (a, b), other = pieces.design[kept], pieces.x[:, kept], other[kept]
     signs = np.where(pieces.positive, 1.0, -1.0)
     sides = signs[:, kept], signs[:, other]
