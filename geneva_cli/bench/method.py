@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 SLACK = 0.1  # one method is faster than another if it takes less than 1 - SLACK of its time
 FLOOR = 1e-15  # relative errors below this are as good as each other
+SECONDS = 1.0  # of a method's own time, at least one run
 
 
 class Method(NamedTuple):
@@ -44,6 +45,7 @@ class Subject(NamedTuple):
     processes: bool = False  # runs are whole processes: times come from ``pairs`` of them
     slack: float = SLACK
     floor: float = FLOOR
+    seconds: float = SECONDS  # that each method is run for
     absent: Sequence[str] = ()  # libraries with methods of their own that are not installed
 
 

@@ -31,7 +31,6 @@ SUBJECTS = (
     "start",
     "export",
 )
-SECONDS = 1.0  # of a method's own time, at least one run
 QUICK_SECONDS = 0.01
 
 
@@ -58,7 +57,9 @@ def measure(name: str, quick: bool) -> tuple[Subject, list[Row]]:
 def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]:
     yield Row(name, task.name, f"baseline: {task.baseline}", None, None, None, 1.0, None, False)
     answers, times = ratios(
-        task.baseline_run, [m.run for m in task.methods], QUICK_SECONDS if quick else SECONDS
+        task.baseline_run,
+        [m.run for m in task.methods],
+        QUICK_SECONDS if quick else subject.seconds,
     )
     rows = [
         Row(
