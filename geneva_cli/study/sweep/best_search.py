@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Row: TypeAlias = Sequence[Cell]
 
 EVALUATIONS = 300  # of the optimiser, from each start
+# The optimiser's first steps, shares of the spans: about what clouds have brought close, or not.
+CLOSE, WIDE = 2e-3, 0.05
 FINEST = 1e-9  # share of a key's range to which it is refined
 FAR = 1e3  # outside a bound, or above a cost: a design that cannot be built
 
@@ -91,6 +93,7 @@ class SweepSearch:
                 seen[place] = self.found.row(self.moved(start, x))
             return seen[place]
 
+        reach = CLOSE if self.found.together else WIDE
         rooms = NonlinearConstraint(lambda x: self.rooms(row(x)), 0.0, np.inf)
         minimize(
             lambda x: min(self.cost(row(x)) / scale, FAR),
@@ -98,6 +101,6 @@ class SweepSearch:
             method="COBYQA",
             bounds=[(0.0, 1.0)] * len(self.free),
             constraints=[rooms] if self.bounds else [],
-            options={"maxfev": EVALUATIONS, "initial_tr_radius": 0.05, "final_tr_radius": FINEST},
+            options={"maxfev": EVALUATIONS, "initial_tr_radius": reach, "final_tr_radius": FINEST},
         )
         return min((r for r in (start, *seen.values()) if self.keeps(r)), key=self.cost)

@@ -12,6 +12,7 @@ MOST = 24  # places that are followed
 PARTS = 3  # of each free key's span, which makes places apart
 ROUNDS = 16
 CLOUD = 48  # designs about each place in a round
+RIVAL = 0.01  # of the least cost, above which a place is not refined: clouds come far closer
 FIRST, LESS = 0.25, 0.6  # half the width of the first cloud, a share of the span; of each next one
 
 
@@ -53,9 +54,9 @@ class Places:
 
 
 def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
-    """Each design, or the best of clouds of designs about it that draw together; the best first.
+    """Of each design the best of clouds about it that draw together; those that are near the best.
 
-    Only where many designs are worked out at once; else they are given back as they are.
+    Only where many designs are worked out at once; else all are given back as they are.
     """
     best = list(rows)
     if not search.found.together:
@@ -73,4 +74,6 @@ def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
         clouds = [drawn[i * CLOUD : (i + 1) * CLOUD] for i in range(len(best))]
         best = [min((row, *c), key=search.merit) for row, c in zip(best, clouds, strict=True)]
         width *= LESS
-    return sorted(best, key=search.merit)
+    best.sort(key=search.merit)
+    least = search.cost(best[0])
+    return [row for row in best if search.cost(row) <= least + RIVAL * abs(least)]
