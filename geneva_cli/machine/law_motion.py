@@ -60,9 +60,9 @@ class LawMotion(Motion):
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
     """Raise GenevaError where an extra dwell leaves the motion no angle, or a whole turn."""
-    low, high = natural_deg - 360.0, natural_deg
+    low, high = natural_deg - 360.0 + MOTION_MIN, natural_deg - MOTION_MIN
     refuse(
-        (alpha0_deg <= low + MOTION_MIN) | (alpha0_deg >= high - MOTION_MIN),
+        (alpha0_deg <= low) | (alpha0_deg >= high),
         lambda: GenevaError(
             f"alpha0_deg = {alpha0_deg:.12g} leaves no motion angle between 0 and 360 degrees; "
             f"it must be above {low:.12g} and below {high:.12g}",

@@ -49,6 +49,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine import spec as given
 from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.registry import DRIVES, GEARINGS
 from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
@@ -59,6 +60,7 @@ from geneva_cli.spec.tables import Size
 
 LIMIT = 16.0
 DIGITS = 120  # A within 1e-12 of 1 costs a fourth derivative four times 12 of them, and more
+BESIDE = mp.mpf(10) ** -60  # of a knot: on one side of it, and at it by any digit asked for
 NAMES = ("position", "velocity", "acceleration", "jerk")
 PEAKS = ("velocity", "acceleration", "jerk", "power")
 # from the derivatives 0..5 of the wheel's angle: a quantity with its first two derivatives
@@ -276,6 +278,11 @@ class RatioFile:
             if abs(step) < mp.mpf(10) ** (5 - DIGITS):
                 break
         return phi
+
+    def knots(self, values):
+        """Input angles at which the ratio's pieces meet, of the turns around the first."""
+        x = self.pieces(values)[0]
+        return [v + turn * 2 * mp.pi for turn in (-1, 0, 1) for v in x]
 
     def keys(self, values):
         rows = zip(self.deg, (*values, values[0]), strict=True)
@@ -657,11 +664,11 @@ class Found(NamedTuple):
     shift: object = 0
 
 
-def candidates(f, quantity, places):
-    """Ends and stationary points of a quantity."""
+def candidates(f, quantity, places, knots=()):
+    """Ends and stationary points of a quantity, and knots, where its slope may jump."""
     pick = PICK[quantity]
     inner, steepest = stationary(f, pick, places)
-    out = [Found(abs(pick(f(x))[0]), x) for x in (places[0], places[-1])]
+    out = [Found(abs(pick(f(x))[0]), x) for x in (places[0], places[-1], *knots)]
     d = unit(steepest)
     for x in inner:
         value, _, bend = pick(f(x))
@@ -738,14 +745,19 @@ def straight_one(table, z, gearing, kind, values, m):
         peak_of, more = {}, {}
         mid = math.ulp(engagement.mid_deg)
         crank = [w.half * (mp.mpf(i) / 24 - 1) for i in range(49)]
-        if j == 0:
+        # a ratio by points has no symmetry, and its pieces' ends are the ends of its slopes
+        knots = getattr(w.front, "knots", lambda _: ())(w.values)
+        mirrored = j == 0 and not knots
+        if mirrored:
             crank = crank[:25]  # the second half mirrors the first
         # where a crank runs away, it does so beyond 90 degrees (inside) or evenly in the input
         crank += [s * (mp.pi / 2 + w.b * k / 9) for k in range(9) for s in (-1, 1) if w.g < 0]
         grid = {w.from_crank(f) for f in crank} | {w.ends[0] * k / 12 for k in range(12)}
-        grid = sorted(x for x in grid if j or x <= 0)
+        beside = [v - w.mid + side for v in knots for side in (-BESIDE, BESIDE)]
+        beside = [x for x in beside if w.ends[0] < x < w.ends[1]]
+        grid = sorted(x for x in {*grid, *beside} if x <= 0 or not mirrored)
         for name in PEAKS:
-            found = candidates(w.at, name, grid)
+            found = candidates(w.at, name, grid, beside)
             # a power's extrema lie between those of velocity and acceleration
             grid = sorted({*grid, *[c.x for c in found]})
             found = [_with_values(w, name, c, values, h, mid) for c in found]
@@ -986,7 +998,9 @@ def curved_one(table, name, shape, series, top, z, gearing, kind, values, sample
     half_crank = mp.pi / 2 - SIGN[gearing] * mp.pi / z
     natural = 2 * front.input(exact_values, half_crank) * 180 / mp.pi
     n = float(natural)
-    alphas = [0.0, rng.uniform(n - 359.0, n - 1.0), n - 1e-9, n - 360.0 + 1e-9]
+    alphas = [rng.uniform(n - 359.0, n - 1.0), n - 1e-9, n - 360.0 + 1e-9]
+    if MOTION_MIN < n < 360.0 - MOTION_MIN:
+        alphas = [0.0, *alphas]
     for alpha0 in rng.sample(alphas, 2) if sample else alphas:
         ratio = rng.choice([None, 1e-6, 0.3, 0.999999999])
         L = rng.choice([1e-6, 1e-3, 1.0, 100.0, 12345.678, 1e6])
