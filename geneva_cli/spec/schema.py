@@ -88,7 +88,7 @@ class SpecTable:
     def __eq__(self, other: object) -> bool:
         if not (isinstance(other, SpecTable) and type(other) is type(self)):
             return NotImplemented
-        return self._values() == other._values()
+        return self is other or self._values() == other._values()
 
     def __hash__(self) -> int:
         return hash(tuple(self._values().values()))

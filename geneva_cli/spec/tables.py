@@ -175,7 +175,7 @@ class Size(SpecTable):
         (0.2, 0.1, 0.15)
         """
         usual = Allowances() if self.process is None else PROCESSES[self.process]
-        given = {key: value for key, value in self.as_dict().items() if key in usual._fields}
+        given = {key: vars(self).get(key) for key in usual._fields}
         return usual._replace(**{key: v for key, v in given.items() if v is not None})
 
 

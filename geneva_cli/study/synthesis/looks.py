@@ -42,6 +42,7 @@ class PartsLook(NamedTuple):
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
     back: tuple[Array, Array] | None  # of a wheel without a lock, the roller's places at rest:
     # along the nearest slot, and beside its middle
+    tried: dict[float, str]  # radii of rollers and what is in their way, which ``parts`` finds
 
 
 def gap_at_rest(back: tuple[Array, Array], rim: float, half_width: float, r: float) -> float:
@@ -125,7 +126,7 @@ def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
         end, near, apart, radius, steep = row
         own = (walls[0].of(i), walls[1].of(i)) if walls else None
         away = (back[0][i], back[1][i]) if back else None
-        out.append(PartsLook(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
+        out.append(PartsLook(spec, RollerPaths((end,), near), apart, radius, steep, own, away, {}))
     return out
 
 

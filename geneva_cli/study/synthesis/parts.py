@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Callable
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import NamedTuple
 
 from geneva_cli.analysis.undercut import depths_mm
@@ -101,9 +101,12 @@ def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]
     mechanism, L = where.mechanism, where.L
     apart = math.inf if m == 1 else mechanism.ratio * L * math.sin(math.pi / m)
 
-    @cache
     def obstacle(r: float) -> str:
-        return ROLLERS if apart <= r else _obstacle(where, at, r)
+        if apart <= r:
+            return ROLLERS
+        if r not in at.tried:
+            at.tried[r] = _obstacle(where, at, r)
+        return at.tried[r]
 
     def of_share(percent: float) -> str:
         return obstacle(0.01 * percent * L)
