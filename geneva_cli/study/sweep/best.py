@@ -8,7 +8,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, written
-from geneva_cli.study.sweep.best_search import Row, SweepSearch
+from geneva_cli.study.sweep.best_search import CLOSE, Row, SweepSearch
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
 from geneva_cli.study.sweep.front import Objective
 from geneva_cli.study.sweep.places import Places, closer
@@ -66,6 +66,7 @@ def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner
     if not starts:
         raise GenevaError(tally.none())
     best = min((search.refined(row) for row in starts), key=search.cost)
+    best = search.refined(best, CLOSE)  # onto the bounds that bind
     best = found.row(search.keys(best))  # built alone, which is what counts
     assert search.keeps(best), best
     values = dict(zip(found.names, best, strict=True))

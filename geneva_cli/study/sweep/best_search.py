@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 Row: TypeAlias = Sequence[Cell]
 
 EVALUATIONS = 300  # of the optimiser, from each start
-# The optimiser's first steps, shares of the spans: about what clouds have brought close, or not.
-CLOSE, WIDE = 2e-3, 0.05
+WIDE, CLOSE = 0.05, 2e-3  # first steps, shares of the spans: from a place, and at the end
 FINEST = 1e-9  # share of a key's range to which it is refined
 FAR = 1e3  # outside a bound, or above a cost: a design that cannot be built
 
@@ -78,7 +77,7 @@ class SweepSearch:
             keys[i] = value
         return keys
 
-    def refined(self, start: Row) -> Row:
+    def refined(self, start: Row, reach: float = WIDE) -> Row:
         """The best design that the optimiser comes by on its way from this one, or this one."""
         if not self.free:
             return start
@@ -93,7 +92,6 @@ class SweepSearch:
                 seen[place] = self.found.row(self.moved(start, x))
             return seen[place]
 
-        reach = CLOSE if self.found.together else WIDE
         rooms = NonlinearConstraint(lambda x: self.rooms(row(x)), 0.0, np.inf)
         minimize(
             lambda x: min(self.cost(row(x)) / scale, FAR),
