@@ -27,10 +27,13 @@ CLEARLY = 1.0 + 1e-6  # times a limit: what is beyond it is so whatever the roun
 
 
 class Failing(NamedTuple):
-    """A check that fails, and the input angle of its value in the machine of ``same_turn``."""
+    """A check that fails: the input angle of its value in the machine of ``same_turn``, and the
+    value over its limit, 0 where there is no such share.
+    """
 
     name: str
     at_deg: float | None = None
+    share: float = 0.0
 
 
 def same_turn(spec: Spec) -> Spec:
@@ -81,7 +84,11 @@ class Turns:
 
 
 def _failing(checks: Iterable[Check]) -> list[Failing]:
-    return [Failing(c.name, c.at_deg) for c in checks if c.passes is False]
+    return [
+        Failing(c.name, c.at_deg, c.value / c.limit if c.value and c.limit else 0.0)
+        for c in checks
+        if c.passes is False
+    ]
 
 
 def _fails_there(parts: Turned, one: Failing) -> bool:
