@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import repo
 from witness import mp
-from words import Drive, Motion, Spec, Wheel, load
+from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.stretches import whole
@@ -124,6 +124,18 @@ def test_a_constant_force_is_its_own_mean():
     assert (one.work / one.rolled_m) < life(mechanism).equivalent_force_N < 324.503703
     twice = build(CASE.with_("load.torque_Nm", 30.0).with_("load.inertia_kgm2", 0.8))
     assert passages(twice)[0].load == pytest.approx(2.0**EXPONENT * one.load, rel=1e-13)
+
+
+def test_the_mean_force_of_a_crank_that_runs_away():
+    """Inside, with A near 1, forces grow as 1/(1-A)²; where they begin they are rounding, of any
+    sign, which has no power of 10/3. From 1e-7 to 1e-8 the rest changes by some 1e-4."""
+
+    def mean(gap):
+        drive, keys = Drive("side-crank"), Keys("side-crank", 1.0 - gap)
+        found = life(build(Spec(Wheel(16, "internal"), drive, keys, load=Load(0.036))))
+        return found.equivalent_force_N * gap * gap
+
+    assert mean(1e-8) == pytest.approx(mean(1e-7), rel=5e-4)
 
 
 def test_life_in_turns_motions_and_hours():

@@ -99,7 +99,9 @@ def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) ->
     found = Forces(given, at, drives, slides)
     rubs = abs(sliding(at, drives, given.radius).arrays()[0]) * given.L
     with np.errstate(all="ignore"):
-        force = np.where(found.grip.c[0] > 0.0, found.force.c[0], np.inf) * at.touches.c[0]
+        # beside the torque's change of sign the force of one sign may be a rounding below 0
+        force = np.maximum(found.force.c[0], 0.0)
+        force = np.where(found.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
         # nothing presses on a wall where nothing is to be turned
         force = np.where(found.torque.c[0] == 0.0, 0.0, force)
         along = abs(at.along.arrays()[0]) * given.L * at.touches.c[0]
