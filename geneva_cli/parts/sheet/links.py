@@ -58,10 +58,10 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
     assert isinstance(plate.outline, Contour)
     eyes = (piece for piece in plate.outline.segments if isinstance(piece, Arc))
     own = next((eye for eye in eyes if math.hypot(*eye.centre) < NEAR), None)
-    first = min((hole.centre for hole in holes), key=lambda p: math.hypot(*p))
-    if own is None or math.hypot(*first) < NEAR:
-        return first
-    view.cross((0.0, 0.0), own.radius)
+    nearest = sorted((hole.centre for hole in holes), key=lambda p: math.hypot(*p))
+    if nearest and (own is None or math.hypot(*nearest[0]) < NEAR):
+        return nearest[0]
+    view.cross((0.0, 0.0), own.radius if own else 0.0)
     view.remark("one piece with its shaft")
     return 0.0, 0.0
 
