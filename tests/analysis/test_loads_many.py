@@ -86,7 +86,7 @@ def test_a_least_value_before_a_pole_is_found():
     least = summaries_of_many(found.machine, ["pv_W_m2"], told=())["pv_W_m2"]
     for i, alpha0 in enumerate((-16.12715, -12.83089)):
         one = ends_of(Cycle(build(spec.with_("motion.alpha0_deg", alpha0))), "pv_W_m2")[0]
-        # where it is 0 the search of many knows its square, whose bend there tells the place
+        # where it is 0, what a rounding of the place leaves beside millions
         assert least.min[i] == pytest.approx(max(one.min, 0.0) ** 0.5, rel=1e-12, abs=1.0)
         assert least.min_at_deg[i] == pytest.approx(one.min_at_deg, abs=1e-4)
 

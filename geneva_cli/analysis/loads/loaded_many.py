@@ -76,7 +76,8 @@ class Loaded:
     def __init__(self, machine: Machine, names: Sequence[str], more: Sequence[str] = ()) -> None:
         self.machine = engagement, given, _ = machine
         self.names = names
-        self.kinds = kinds(engagement, given, more)
+        # p v is 0 where the sliding is, in a notch that may lie beside a pole
+        self.kinds = kinds(engagement, given, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
         own = any(name not in QUANTITIES for name in names)
         held = own or any(name in REACTIONS for name in names)
