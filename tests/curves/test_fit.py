@@ -196,6 +196,19 @@ def test_a_tolerance_beyond_double_precision_is_refused(kind, tolerance):
         kind(ellipse(25.0, 20.0), 0.0, 1.0, tolerance)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_curve_that_leaps_is_refused_at_once(kind):
+    """As the wall of a groove does whose roller is too large: it was tried with 200,000 pieces."""
+
+    def leaping(t):
+        points = np.stack((t, np.where(t < math.e, 0.0, 0.1)), 1)
+        return points, np.stack((np.ones_like(t), np.zeros_like(t)), 1)
+
+    with pytest.raises(GenevaError, match="leaps"):
+        kind(leaping, 0.0, 10.0, 1e-3)
+    kind(leaping, 0.0, 2.7, 1e-3)
+
+
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CURVES)

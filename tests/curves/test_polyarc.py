@@ -38,7 +38,10 @@ def polygon(contour: Contour, tolerance: float = FINE) -> Polygon:
 
 
 def counterclockwise(contour: Contour) -> Contour:
-    return contour if polygon(contour).exterior.is_ccw else backwards(contour)
+    """The contour so directed. That arcs cross at a narrow tip only a fine polygon sees."""
+    fine = polygon(contour)
+    assume(fine.is_valid)
+    return contour if fine.exterior.is_ccw else backwards(contour)
 
 
 @QUICK

@@ -76,7 +76,7 @@ def fitted_arcs(path: CurvePath) -> list[Arc | Line]:
         if count > PIECES_MAX:
             raise path.too_fine()
         found, worst = _attempt(path, path.spread(density, count, EVEN), target)
-        enough = _even(count * np.cbrt(worst / path.tolerance))
+        enough = _even(count * min(np.cbrt(worst / path.tolerance), 2.0))  # may be infinite
         if found is not None:
             best, good = found, count
             count = max(min(enough, good - 2), too_few + 2)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     Curve: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
 CELLS = 1024  # of the survey
+LEAP = 4.0  # times its neighbours' length: a cell in which the curve may leap
+HALVINGS = 60  # of such a cell, to the last digits of its ends
 FINEST = 64  # tolerances below that many last digits of the coordinates cannot be shown
 PIECES_MAX = 200_000
 TARGET = 0.995  # of the tolerance: what lies between samples is allowed for
@@ -32,7 +34,9 @@ class CurvePath:
     """
 
     def __init__(self, curve: Curve, a: float, b: float, tolerance: float) -> None:
-        """Raises GenevaError for a tolerance that double precision cannot show at this size."""
+        """Raises GenevaError for a tolerance that double precision cannot show at this size, and
+        for a curve that leaps farther.
+        """
         self.curve, self.tolerance = curve, tolerance
         self.t = np.linspace(a, b, CELLS + 1)
         points, tangents = self._complex(self.t)
@@ -43,12 +47,33 @@ class CurvePath:
             raise self.too_fine()
         self.rounding = 4.0 * float(np.spacing(size))
         self.step = np.abs(np.diff(points))
+        if self._leaps(points):
+            raise GenevaError(
+                f"no smooth curve within {tolerance:g} mm: it leaps, as the walls of a slot or "
+                "groove do where roller and slot overlap"
+            )
         self.turn = np.angle(tangents[1:] / tangents[:-1])
         self.turning = float(np.abs(self.turn).sum())
         w = np.cumsum(
             self.step / self.step.sum() + np.abs(self.turn) / max(self.turning, LEAST_TURN)
         )
         self.w = np.concatenate(([0.0], w)) / w[-1]
+
+    def _leaps(self, points: Array) -> bool:
+        """Whether the ends of a cell stay more than a tolerance apart however often it is halved.
+
+        Looked at where a cell is that much longer than both of its neighbours.
+        """
+        beside = np.pad(self.step, 1)
+        i = np.flatnonzero(self.step > LEAP * np.maximum(beside[:-2], beside[2:]) + self.tolerance)
+        t0, t1, p0, p1 = self.t[i], self.t[i + 1], points[i], points[i + 1]
+        for _ in range(HALVINGS if len(i) else 0):
+            t = 0.5 * (t0 + t1)
+            p = self._complex(t)[0]
+            first = np.abs(p - p0) > np.abs(p1 - p)
+            t0, p0 = np.where(first, t0, t), np.where(first, p0, p)
+            t1, p1 = np.where(first, t, t1), np.where(first, p, p1)
+        return bool((np.abs(p1 - p0) > self.tolerance).any())
 
     def too_fine(self) -> GenevaError:
         """The refusal of a tolerance."""
