@@ -28,7 +28,12 @@ ROUNDING = 1e-12  # share of a value that no sampling makes any surer
 NOISE = 1e-15  # share of a function's greatest size that has no sign
 TINY = 1e-16  # share of a value that no double shows
 NARROW = 1e-6  # share of all spans within which a place is told well enough
+MOST = 65_536  # places, and as many more as 16 times those that it begins with
 CROWDED = 16  # places towards each end, each four times as near to it as the one before
+
+
+class NeverSeen(Exception):
+    """Functions of which more is seen the nearer one looks, without an end: they are rounding."""
 
 
 class Scan(NamedTuple):
@@ -90,6 +95,8 @@ def scan(
     A value that is not finite marks a place where the function has none: nothing is asked of it.
     Of the functions ``signed`` no two changes of sign lie between neighbours: where both tangents
     head for zero and meet beyond it, there is another sample.
+
+    Raises NeverSeen past ``MOST`` places; what has digits takes some hundreds a span.
     """
     unit = _unit()
     a, b = (np.array(side)[:, None] for side in zip(*spans, strict=True))
@@ -107,6 +114,7 @@ def _refined(functions: Functions, x: Array, span: Whole, signed: slice) -> Scan
     left = _taken((x[:-1], span[:-1], value[:, :-1], slope[:, :-1]), same)
     right = _taken((x[1:], span[1:], value[:, 1:], slope[:, 1:]), same)
     low, high = _range(value)
+    left_over = MOST + 16 * len(x)
     for _ in range(DEEPEST):
         check_time()
         x = 0.5 * (left[0] + right[0])
@@ -114,6 +122,9 @@ def _refined(functions: Functions, x: Array, span: Whole, signed: slice) -> Scan
         if not open_.any():
             break
         x, left, right = x[open_], _taken(left, open_), _taken(right, open_)
+        left_over -= len(x)
+        if left_over < 0:
+            raise NeverSeen
         value, slope = functions(x, left[1])
         middle = (x, left[1], value, slope)
         every.append(middle)

@@ -16,14 +16,14 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import Greatest, Row, Setting
 from geneva_cli.analysis.loads.mid_motion import Rows, at_mid_motion
-from geneva_cli.analysis.loads.stretches import Stretch, at_break, stretches
+from geneva_cli.analysis.loads.stretches import Stretch, at_break, scanned, stretches
 from geneva_cli.analysis.loads.zeros import STEP, between_samples, columns, inside
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import rows_of
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots_many import roots_many
-from geneva_cli.numerics.scan import Scan, hopeful, scan
+from geneva_cli.numerics.scan import Scan, hopeful
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
@@ -66,7 +66,7 @@ def looked(
         return value, slope
 
     # no two changes of sign of a room are stepped over: between them there is no bound
-    found = scan(sampled, [(p.start, p.end) for p in pieces], signed).first(len(first))
+    found = scanned(sampled, [(p.start, p.end) for p in pieces], signed).first(len(first))
     middle = _middle(engagement, given, rows)
     tops = _tops(engagement, found, rows, signs)
     brinks: dict[int, float] = {}

@@ -23,7 +23,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.roots import root
-from geneva_cli.numerics.scan import scan
+from geneva_cli.numerics.scan import Functions, NeverSeen, Scan, scan
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -79,6 +79,21 @@ def stretches(engagement: Engagement, given: Setting) -> tuple[Stretch, ...]:
     return tuple(signs.cut(cut, lambda piece: first + pairs.index(piece[2:4]), "feeds"))
 
 
+def scanned(functions: Functions, spans: Sequence[tuple[float, float]], signed: slice) -> Scan:
+    """Samples of loads, as ``numerics.scan`` takes them. Raises GenevaError for loads that are
+    rounding, which no number of samples tells.
+    """
+    try:
+        return scan(functions, spans, signed)
+    except NeverSeen:
+        raise GenevaError(
+            "loads change within less than the input's angle can tell apart: they would be "
+            "rounding; a drive that hurries less has some (elliptical gears, an eccentricity up "
+            "to 0.999999)",
+            ("drive", "kind"),
+        ) from None
+
+
 def _refuse_rounding(engagement: Engagement, fastest: float) -> None:
     """Raise GenevaError where angles are too coarse for the motion: no load has digits then."""
     furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
@@ -109,7 +124,7 @@ class Signs:
             self.fastest = float(np.max(abs(at.velocity.arrays()[0]), initial=self.fastest))
             return columns([of(at) for of in functions], x)
 
-        self.found = found = scan(sampled, spans, signed=slice(None))
+        self.found = found = scanned(sampled, spans, slice(None))
         inner = inside(found)
         ends = [found.changes(row) for row in range(len(functions))]
         kept = [(before[inner[before]], after[inner[before]]) for before, after in ends]
