@@ -86,11 +86,8 @@ def scanned(functions: Functions, spans: Sequence[tuple[float, float]], signed: 
     try:
         return scan(functions, spans, signed)
     except NeverSeen:
-        raise GenevaError(
-            "loads change within less than the input's angle can tell apart: they would be "
-            "rounding; a drive that hurries less has some (elliptical gears, an eccentricity up "
-            "to 0.999999)",
-            ("drive", "kind"),
+        raise _rounding(
+            "loads change within less than the input's angle can tell apart: they"
         ) from None
 
 
@@ -99,12 +96,19 @@ def _refuse_rounding(engagement: Engagement, fastest: float) -> None:
     furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
     share = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
     if share > COARSE:
-        raise GenevaError(
+        raise _rounding(
             f"the wheel moves {fastest:.2g} times as fast as the input, {share:.1g} of its step "
-            "while the input's angle changes by its last digit: such loads would be rounding; a "
-            "drive that hurries less has some (elliptical gears, an eccentricity up to 0.999999)",
-            ("drive", "kind"),
+            "while the input's angle changes by its last digit: such loads"
         )
+
+
+def _rounding(why: str) -> GenevaError:
+    """The refusal of loads that have no digits."""
+    return GenevaError(
+        f"{why} would be rounding; a drive that hurries less has some (elliptical gears, an "
+        "eccentricity up to 0.999999)",
+        ("drive", "kind"),
+    )
 
 
 class Signs:
