@@ -19,7 +19,7 @@ from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.stops import WheelCaps, about, caps, polar, round_cap
 from geneva_cli.parts.sphere.wheel import edge
-from geneva_cli.parts.turn.stops import stopped
+from geneva_cli.parts.turn.touch import stopped
 from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:

@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.sphere_arcs import FLAT, Arcs
-from geneva_cli.parts.turn.stops import Touch, ahead_by
+from geneva_cli.parts.turn.touch import SLACK, Touch, ahead_by
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.jet import Array
 
-SLACK = 1e-9  # radians: arcs that meet smoothly leave nothing between them
 WHOLE = 7.0  # radians, more than a whole turn
 
 

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.parts.turn.touch import SLACK
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.jet import Array
-
-SLACK = 1e-9  # radians, and of a length: pieces that meet smoothly leave nothing between them
 
 
 class Rounds(NamedTuple):

@@ -1,0 +1,49 @@
+"""Contacts of a turning wheel, flat or on a sphere, and the first of them, which stops it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.parts.turn.turned import Stopped
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+ZERO = 1e-13  # radians: a stop that lies behind by less is here
+SLACK = 1e-9  # radians, and of a length: pieces that meet smoothly leave nothing between them
+
+
+class Touch(NamedTuple):
+    """Contacts: of which pose, at which turn of the wheel, and the pressure angle's cosine."""
+
+    row: NDArray[np.intp]
+    lead: Array
+    cosine: Array
+
+
+def ahead_by(lead: Array, pitch: float) -> Array:
+    """Angles from 0 up to the pitch, after which a wheel is as before."""
+    found = lead % pitch
+    return np.where(found > pitch - ZERO, 0.0, found)
+
+
+def stopped(rolling: list[Touch], locking: list[Touch], count: int, most: float) -> Stopped:
+    """What stops the wheel first in ``count`` poses: rollers, what locks, or nothing up to most."""
+    nothing = Touch(np.arange(count), np.full(count, most), np.zeros(count))
+    by_roller, cosine = _first([nothing, *rolling])
+    by_crank, _ = _first([nothing, *locking])
+    rolls = (by_roller < most) & (by_roller <= by_crank)
+    pressure = np.where(rolls, np.arccos(np.minimum(cosine, 1.0)), 0.0)
+    return Stopped(np.minimum(by_roller, by_crank), pressure)
+
+
+def _first(touches: list[Touch]) -> tuple[Array, Array]:
+    """The first contact of each pose: its turn, and its cosine."""
+    row, lead, cosine = (np.concatenate(each) for each in zip(*touches, strict=True))
+    order = np.lexsort((lead, row))
+    first = order[np.flatnonzero(np.diff(row[order], prepend=-1))]
+    return lead[first], cosine[first]
