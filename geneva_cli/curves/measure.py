@@ -92,6 +92,13 @@ def directions(piece: Line | Arc) -> tuple[float, float]:
     return chord - half, chord + half
 
 
+def legs(arc: Arc) -> tuple[float, float]:
+    """The directions of an arc's ends from its centre, counterclockwise."""
+    x, y = arc.centre
+    first = math.atan2(arc.start[1] - y, arc.start[0] - x)
+    return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
+
+
 def share_of(piece: Line | Arc, point: Point) -> float:
     """The share of the way at which a point of the piece, or of its whole line or circle, is.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.curves.measure import at
+from geneva_cli.curves.measure import at, legs
 from geneva_cli.curves.shapes import Arc, Circle, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.parts.arm import CrankArm, bolts
@@ -60,7 +60,7 @@ def draw_disc(view: View, found: Outlines) -> None:
 
 def _gaps(view: View, found: Outlines, locking: list[Arc]) -> None:
     """The angles between the arcs that lock."""
-    ends = sorted(_directions(arc) for arc in _joined(locking))
+    ends = sorted(legs(arc) for arc in _joined(locking))
     gaps: dict[str, list[tuple[float, float]]] = {}
     for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
         wide = (start - end) % math.tau
@@ -80,11 +80,6 @@ def _joined(arcs: list[Arc]) -> list[Arc]:
         else:
             found.append(arc)
     return found
-
-
-def _directions(arc: Arc) -> tuple[float, float]:
-    first = math.atan2(arc.start[1], arc.start[0])
-    return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
 
 
 def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.measure import mapped
+from geneva_cli.curves.measure import legs, mapped
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, Label, Measure, line, polar
 from geneva_cli.parts.sheet import marks
@@ -152,7 +152,7 @@ class View:
             kind(
                 self._at(arc.centre),
                 self._long(arc.radius),
-                marks.within(*_span(arc)),
+                marks.within(*legs(arc)),
                 text,
                 factor * arc.radius,
                 SMALL,
@@ -221,13 +221,6 @@ def _short_first(found: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
     Directions keep their order.
     """
     return merge(*found, key=lambda m: round(math.dist(*m.lines[0]), 6))
-
-
-def _span(arc: Arc) -> tuple[float, float]:
-    """The directions of an arc's ends from its centre, counterclockwise."""
-    x, y = arc.centre
-    first = math.atan2(arc.start[1] - y, arc.start[0] - x)
-    return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
 
 
 def number(value: float, decimals: int = 3) -> str:
