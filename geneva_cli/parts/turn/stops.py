@@ -21,7 +21,6 @@ from geneva_cli.parts.turn.touch import Touch, ahead_by, stopped
 from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
-
     from geneva_cli.numerics.jet import Array
 
 BLOCK = 1 << 15  # pairs of pieces that are looked at together: in the cache
