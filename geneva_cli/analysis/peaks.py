@@ -16,7 +16,7 @@ from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.roots import TIE, extrema
+from geneva_cli.numerics.roots import SCAN, TIE, Curve, extrema
 from geneva_cli.table import Table, record_table, rows_table
 
 
@@ -55,7 +55,8 @@ QUANTITIES: dict[str, Callable[[tuple[float, ...]], tuple[float, float, float]]]
 }
 _ORDER = {"velocity": 3, "acceleration": 4, "jerk": 5, "power": 4}
 _SAME = 1e-15  # of the motion: a rounding
-_BESIDE = (1e-12, 1e-6)  # of the motion: nearer is rounding; some root of TIE, the flat of a top
+_BESIDE = (1e-12, 1e-6)  # of the motion: nearer may be rounding; some root of TIE, a top's flat
+_LEVEL = 16.0 * 2.0**-52  # of the steepest slope: of less a rounding may be all
 
 
 def peak(motion: Motion, quantity: str) -> Peak:
@@ -82,10 +83,18 @@ def peak(motion: Motion, quantity: str) -> Peak:
     # As high as its neighbour, a break so near a summit is on its flat top.
     low, high = (share * (breaks[-1] - breaks[0]) for share in _BESIDE)
     near = [x for x, top in equal if top and abs(x - at_deg) < high]
-    if near and abs(near[0] - at_deg) > low:
+    if near and (abs(near[0] - at_deg) > low or _leans(curve, at_deg, near[0], breaks)):
         at_deg = near[0]
     beside = min(breaks, key=lambda x: abs(x - at_deg))  # as 0 beside 1e-47
     return Peak(size, beside if abs(beside - at_deg) < _SAME * (breaks[-1] - breaks[0]) else at_deg)
+
+
+def _leans(curve: Curve, x: float, to: float, breaks: tuple[float, ...]) -> bool:
+    """Whether a curve's slope at x, on the side of another place, is more than rounding."""
+    width = breaks[-1] - breaks[0]
+    slopes = [curve(breaks[0] + width * k / SCAN)[1] for k in range(SCAN)]
+    here = curve(math.nextafter(x, to))[1]
+    return abs(here) > _LEVEL * max(abs(slope) for slope in slopes)
 
 
 def _summit(x: float, value: float, slope: float, bend: float) -> float:

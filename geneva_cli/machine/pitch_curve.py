@@ -22,7 +22,10 @@ WALLED = (
     "pressure_deg",
     "curvature_radius_mm",
 )
-RETRACE = 1e-9  # |M'| at mid-motion, below which the pin leaves on the way it came
+# |M'| at mid-motion, as a share of what the pin and the wheel move by there, below which the pin
+# leaves on the way it came
+RETRACE = 1e-9
+EPSILON = 2.0**-52  # of a matched ratio near 1, rounding leaves this much of the pin's distance
 
 
 class Way(NamedTuple):
@@ -55,9 +58,17 @@ def retraces(engagement: Engagement) -> bool:
 
     True for straight slots and at the mid condition; otherwise the pin passes mid-motion across
     the slot's radius, and the pressure angle is 90 degrees there. Of many designs an array.
+
+    M' is what is left of the pin's own motion p' and of psi' |p|, by which the wheel turns below
+    it. Both are small where gears are slow and the pin passes near the wheel's centre.
     """
     x, y = engagement.slot(0.0, 1)
-    return cast("bool", x.c[1] * x.c[1] + y.c[1] * y.c[1] < RETRACE * RETRACE)
+    m = library(x.c[0])
+    left = m.hypot(x.c[1], y.c[1])
+    (x0, x1), (y0, y1) = (jet.derivatives() for jet in engagement.path(0.0, 1))
+    turns, far = size(engagement.motion(0.0, 1).c[1]), m.hypot(x0, y0)
+    bar = RETRACE * (m.hypot(x1, y1) + turns * far) + EPSILON * turns
+    return cast("bool", left < bar)
 
 
 def pitch(engagement: Engagement, input_deg: Number) -> Pitch:

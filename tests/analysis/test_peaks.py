@@ -195,6 +195,17 @@ def test_of_two_equal_peaks_the_earlier(machine):
                 assert getattr(found, name).at_deg <= 0.0
 
 
+def test_a_peak_beside_mid_motion(machine):
+    """1e-14 of the motion beside it, on either side: at -/+1.223534258378942246e-12 degrees (root
+    of the acceleration in 120 digits); that was taken for rounding after mid-motion, not before.
+    To a unit in the last place of half the motion, 60 degrees."""
+    m = machine(3, A=-1.0 + 1e-12, rollers=5)
+    before, after = (peaks(s).velocity.at_deg for s in m.engagements[2:4])
+    bar = 60.0 * 2.0**-52
+    assert before == pytest.approx(-1.223534258378942246e-12, rel=0.0, abs=bar)
+    assert after == pytest.approx(1.223534258378942246e-12, rel=0.0, abs=bar)
+
+
 def test_worst_engagement_of_a_side_crank_with_two_rollers(machine):
     m = machine(4, A=0.6, rollers=2)
     each = [peaks(s) for s in m.engagements]

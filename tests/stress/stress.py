@@ -53,6 +53,7 @@ from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.registry import DRIVES, GEARINGS
 from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
+from geneva_cli.numerics.roots import TIE
 from geneva_cli.parts.slot_profile import slot
 from geneva_cli.parts.slot_sampling import nodes
 from geneva_cli.spec.schema import fields
@@ -1178,19 +1179,17 @@ def other_one(table, name, text, mechanism, sample):
         found = strictly(peaks, engagement)
         peak = {"position": w.b}
         for quantity in PEAKS:
-            p = getattr(found, quantity)
-            at = w.derivatives(p.at_deg)
-            sizes = [abs(PICK[quantity]((*e, 0))[0]) for e in exact]
-            here = abs(PICK[quantity]((*at, 0))[0])
-            peak[quantity] = max(here, *sizes)
-            # nowhere is it greater than what was found, and what was found is there
-            u, d = unit(peak[quantity]), radians(max(math.ulp(p.at_deg), turned))
-            slope = abs(PICK[quantity]((*at, 0))[1])
-            c = max([float(slope * d / u), *[
-                float(abs(abs(PICK[quantity]((*m.derivatives(p.at_deg), 0))[0]) - here) / u)
-                for m in moved
-            ]])  # fmt: skip
-            table.add((name, f"peak {quantity}"), ulps([p.max], [peak[quantity]], u), c, place)
+            p, pick = getattr(found, quantity), PICK[quantity]
+            here = abs(pick((*w.derivatives(p.at_deg), 0))[0])
+            # nowhere is it greater than what was found, and what was found is there, or where it
+            # is greater by less than 1e-13: of tops so nearly equal the first place is told
+            at, top = greatest_top(w, pick, x, exact, p.at_deg, here)
+            peak[quantity] = max(top, *[abs(pick((*e, 0))[0]) for e in exact])
+            u = unit(peak[quantity])
+            c = [float(size_moves(w, moved, pick, v, turned) / u) for v in (at, p.at_deg)]
+            table.add((name, f"peak {quantity}"), ulps([p.max], [peak[quantity]], u), c[0], place)
+            less = max(0, top * (1 - 2 * mp.mpf(TIE)) - here)
+            table.add((name, f"peak {quantity}, angle"), float(less / u), c[1], place)
         condition = []
         for k, quantity in enumerate(NAMES):
             u = unit(peak[quantity])
@@ -1200,6 +1199,32 @@ def other_one(table, name, text, mechanism, sample):
                 c = np.maximum(c, np.array(change) / u)
             condition.append(c)
         compare(table, name, engagement, x, exact, peak, condition, place)
+
+
+def size_moves(w, moved, pick, deg, turned):
+    """What one unit of a place, of the engagement's own or of a key moves a size by there."""
+    size, slope = pick((*w.derivatives(deg), 0))[:2]
+    by_keys = [abs(abs(pick((*m.derivatives(deg), 0))[0]) - abs(size)) for m in moved]
+    return max([abs(slope) * radians(max(math.ulp(deg), turned)), *by_keys])
+
+
+def greatest_top(w, pick, x, exact, at_deg, told):
+    """A peak's place and size, or those of another top between two of the places x."""
+    here, known = (at_deg, told), [pick((*e, 0))[:2] for e in exact]
+    for a, b, (p, s), (q, t) in zip(x, x[1:], known, known[1:], strict=False):
+        # no cubic with these slopes has a higher top
+        reach = max(abs(p), abs(q)) + radians(b - a) * max(abs(s), abs(t))
+        if s * t < 0 < p * s and not a <= at_deg <= b and reach > told:
+            top = mp.findroot(
+                lambda v: pick((*w.derivatives(v), 0))[1],
+                (a, b),
+                solver="anderson",
+                tol=1e-30,
+                verify=False,
+            )
+            size = abs(pick((*w.derivatives(float(top)), 0))[0])
+            here = max(here, (float(top), size), key=lambda found: found[1])
+    return here
 
 
 def arrays(table, sample):
