@@ -17,6 +17,7 @@ TIMING = ["timing.motion_deg", "timing.dwell_s", "timing.k"]
 PEAKS = [
     *["velocity.max", "velocity.at_deg", "acceleration.max", "acceleration.entry", "jerk.entry"],
     *["jerk.max_rad_s3", "power.max", "acceleration.entry_rad_s2"],
+    *["acceleration.exit", "jerk.exit"],
 ]
 # the last bits of one sine by the C library, of many by NumPy; tops' places to its root
 CLOSE, PLACE = 1e-13, 1e-6

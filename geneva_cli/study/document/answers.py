@@ -21,7 +21,8 @@ UNITS = {
     "jerk": "rad/s³",
     "power": "rad²/s³",
 }
-PEAKS = ("max", "at_deg", "max_", "entry", "entry_")  # those that end so are followed by the unit
+# those that end with a stroke are followed by the unit
+PEAKS = ("max", "at_deg", "max_", "entry", "entry_", "exit")
 STRONG = ("pin", "horn", "lock", "wheel_shaft", "crank_shaft")
 
 
@@ -37,6 +38,7 @@ def timing(left: Left, n_rpm: float) -> Iterator[Block]:
         f"Greatest at {n_rpm:.6g} rpm",
         "At entry, by input angle",
         f"At entry at {n_rpm:.6g} rpm",
+        "At exit, by input angle",
         "Unit at speed",
     )
     rows = []
@@ -46,7 +48,7 @@ def timing(left: Left, n_rpm: float) -> Iterator[Block]:
         by_time = {key.partition("_")[0]: found.pop(key) for key in ends}
         values = (found["max"], found["at_deg"], by_time["max"])
         entry = (found.get("entry"), by_time.get("entry"))
-        rows.append((capital(name), *values, *entry, unit))
+        rows.append((capital(name), *values, *entry, found.get("exit"), unit))
     yield Grid("Peaks: derivatives of the wheel's angle, in radians", heads, tuple(rows))
     yield from _each(left.one("stations"))
 

@@ -40,6 +40,7 @@ WORDS = {
     "at": "at the input angle",
     "rms": "root mean square",
     "entry": "at entry",
+    "exit": "at exit",
     "k": "k, time of motion over time of dwell",
     "tau": "τ, share of the cycle in motion",
     "k_r": "k_r, motion over the rest of a turn",

@@ -14,12 +14,13 @@ from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.loads.summary import SHOWN, shares
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
 from geneva_cli.analysis.timing import timings
+from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.study.sweep.part_columns import is_known, part_columns
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Number
 
 Columns: TypeAlias = "dict[str, Array | float | None]"
 
@@ -133,15 +134,20 @@ def _peaks(machine: Mechanism, sought: Sequence[str]) -> Columns:
         values[f"{name}.at_deg"] = peak.at_deg
         values[f"{name}.max_{unit}"] = peak.max * rate
         if name in ENDS:
-            entry = _entry(machine, ENDS[name])
-            values[f"{name}.entry"] = entry
+            entry, leaving = _ends(machine, ENDS[name])
+            values[f"{name}.entry"], values[f"{name}.exit"] = entry, leaving
             values[f"{name}.entry_{unit}"] = entry * rate
     return values
 
 
-def _entry(machine: Mechanism, order: int) -> Array:
-    """The greatest size of a derivative just after an entry."""
+def _ends(machine: Mechanism, order: int) -> list[Array]:
+    """The greatest sizes of a derivative just after an entry, and just before an exit."""
     motions = [e.motion for e in machine.engagements]
-    found = [np.ravel(abs(m(m.entry_deg, order).arrays()[order])) for m in motions]
-    greatest: Array = np.max(np.broadcast_arrays(*found), axis=0)
-    return greatest
+    return [
+        np.max(np.broadcast_arrays(*(_size(m, m.entry_deg, order) for m in motions)), axis=0),
+        np.max(np.broadcast_arrays(*(_size(m, m.exit_deg, order) for m in motions)), axis=0),
+    ]
+
+
+def _size(motion: Motion, at_deg: Number, order: int) -> Array:
+    return np.ravel(abs(motion(at_deg, order).arrays()[order]))

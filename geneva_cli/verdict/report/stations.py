@@ -63,7 +63,9 @@ def _peaks(mechanism: Mechanism, found: Peaks) -> Numbers:
         if name == "acceleration":
             entry = found.ends.acceleration_entry
             values[f"{name}.entry"] = entry
+            values[f"{name}.exit"] = found.ends.acceleration_exit
             values[f"{name}.entry_{unit}"] = entry * scale
         if name == "jerk":
             values[f"{name}.entry"] = found.ends.jerk_entry
+            values[f"{name}.exit"] = found.ends.jerk_exit
     return values
