@@ -39,6 +39,16 @@ class Joint(Enum):
     NONE = "none"  # nothing: a point of the link
 
 
+class Teeth(NamedTuple):
+    """Where a gear has its teeth: all round, outside, unless something else is said."""
+
+    sectors: int = 1  # evenly round it
+    each_deg: float = 360.0  # how wide one is
+    middle_deg: float = 0.0  # the direction of the first one's middle at input angle 0
+    inside: bool = False  # of a ring
+    fixed: bool = False  # to the frame
+
+
 class Link(NamedTuple):
     """A body between joints, in mm at input angles: a bar, or a plate of three joints.
 
@@ -52,6 +62,7 @@ class Link(NamedTuple):
     kinds: tuple[Joint, ...]
     plane: int
     radius_mm: float = 0.0
+    teeth: Teeth = Teeth()
 
 
 Layout: TypeAlias = tuple[Pivot | Dimension, ...]

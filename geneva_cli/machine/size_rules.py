@@ -83,6 +83,8 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
         ("arm_eye_mm", 2.0 * L, "twice the centre distance"),
         ("dial_bolt_mm", 2.0 * L, "twice the centre distance"),
         ("dial_bolt_circle_mm", 4.0 * L, "four times the centre distance"),
+        ("gear_bolt_mm", 2.0 * L, "twice the centre distance"),
+        ("gear_bolt_circle_mm", 4.0 * L, "four times the centre distance"),
         ("link_pin_mm", 2.0 * L, "twice the centre distance"),
         ("link_bore_mm", 2.0 * L, "twice the centre distance"),
         ("link_width_mm", 2.0 * L, "twice the centre distance"),

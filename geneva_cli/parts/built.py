@@ -6,23 +6,29 @@ The wheel's axis is the origin, the crank's is on the x axis.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.curves.plates import Member
 from geneva_cli.curves.shapes import Contour
+from geneva_cli.machine.layout import Joint
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import lowest, standing_plates
-from geneva_cli.parts.gear_drawings import driver_shaft
+from geneva_cli.parts.frame import frame_plate, lowest, standing_plates
+from geneva_cli.parts.gear_drawings import driver_shaft, gear_members
 from geneva_cli.parts.groove_plate import TOLERANCE
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_shafts import link_shafts
+from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.plates import crank_group, wheel_part
+from geneva_cli.parts.plates import crank_group, roller_plates, wheel_part
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts
+from geneva_cli.parts.sizes import pin_radius, thicknesses
 from geneva_cli.parts.turn.planes import crank_stop
 
 
@@ -33,6 +39,7 @@ class Built(NamedTuple):
     crank: Member  # locking disc, arm, rollers on their pins, hub
     arm: CrankArm | None
     links: Links
+    gears: tuple[Member, ...]  # as blanks up to their pitch curves
     first: tuple[Member, ...]  # of two wheels in series, the first and its locking disc
     shafts: tuple[Member, ...]
     standing: tuple[Member, ...]  # a cam's groove plate, if there is one, and then the frame
@@ -41,7 +48,39 @@ class Built(NamedTuple):
     def members(self) -> tuple[Member, ...]:
         """All of them."""
         links = *self.links.cut, *self.links.joined
-        return (self.wheel, self.crank, *links, *self.first, *self.shafts, *self.standing)
+        moved = (self.wheel, self.crank, *links, *self.gears, *self.first)
+        return (*moved, *self.shafts, *self.standing)
+
+
+def link_gears(bars: Links) -> list[Member]:
+    """The gears among links, as blanks."""
+    return [gear.member for gear in bars.gears]
+
+
+def link_members(proof: Proof) -> tuple[Member, ...]:
+    """Links and gears, with their shafts and the frame, of a machine whose wheel is not drawn."""
+    mechanism = proof.mechanism
+    bars = drawn_links(mechanism)
+    carried = _carried(mechanism, bars)
+    members = (*bars.cut, *bars.joined, *carried, *link_gears(bars), *gear_members(proof))
+    if not mechanism.spec.wheel.FLAT:
+        return members
+    frame = frame_plate(proof, [], bars)
+    shafts = (*link_shafts(mechanism, bars, frame.low), *driver_shaft(proof, frame.low))
+    return (*members, *shafts, Member(frame))
+
+
+def _carried(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
+    """The rollers on links, with their pins."""
+    size, L, r = mechanism.spec.size, mechanism.center_distance_mm, mechanism.roller_radius_mm
+    if bars.pin_low is None:
+        return
+    plates = roller_plates(r, pin_radius(size, r), bars.pin_low, thicknesses(size, L).wheel)
+    for link in links_at(mechanism, np.zeros(1)):
+        for way, kind in zip(places(link), link.kinds, strict=True):
+            if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED):
+                at = float(way[0].real), float(way[0].imag)
+                yield from (Member(plate, at) for plate in plates)
 
 
 def built(
@@ -49,8 +88,11 @@ def built(
     contour: Contour | None = None,
     tolerance: float = TOLERANCE,
     curves: str = "arcs",
+    pitch: bool = True,
 ) -> Built:
     """All parts of a flat machine; ``contour`` is the wheel's, if it is drawn finer or coarser.
+
+    Without ``pitch`` noncircular gears are left out: their curves take long to fit.
 
     Raises GenevaError, naming the key, for sizes that leave no arm, no links or no shafts.
     """
@@ -61,6 +103,8 @@ def built(
     standing = tuple(standing_plates(found, bars, tolerance, curves))
     low, stop = lowest(standing), crank_stop(found, bars)
     own = crank_shaft_radius(found) > 0.0
+    first = tuple(first_members(given, bars))
+    proof = Proof(given, found)
     return Built(
         Member(wheel_part(found, contour or found.wheel), turn=float(assembly.wheel(at)[0])),
         Member(
@@ -70,11 +114,12 @@ def built(
         ),
         arm,
         bars,
-        tuple(first_members(given, bars)),
+        (*([] if first else link_gears(bars)), *(gear_members(proof) if pitch else ())),
+        first,
         (
             *shafts(found, low, stop),
             *link_shafts(given, bars, low, stop, own),
-            *driver_shaft(Proof(given, found), low),
+            *driver_shaft(proof, low),
         ),
         standing,
     )

@@ -28,6 +28,7 @@ class Part(NamedTuple):
     sheet: str | None = None  # as a drawing sheet with dimensions
     alone: bool = False  # whether it is drawn without the outlines of wheel and crank
     in_front: bool = False  # whether it is of a first wheel, in front of the crank
+    bare: str | None = None  # where the drive leaves the wheel no outline
     flat: str | None = None  # its drawing, or sheet, laid flat where the wheel is a sphere's
 
 
@@ -51,7 +52,7 @@ PARTS = {
     "groove": Part("groove:groove_table", "drawings:groove"),
     "groove-plate": Part(drawing="groove_plate:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
-    "sheet": Part(sheet="sheet.sheet:sheet", flat="sphere.sheet:sheet"),
+    "sheet": Part(sheet="sheet.sheet:sheet", bare="sheet.bare:sheet", flat="sphere.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
@@ -95,7 +96,11 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 def is_alone(mechanism: Mechanism, part: str) -> bool:
     """Whether a part is drawn without the outlines of wheel and crank."""
     own = PARTS.get(part)
-    return own is not None and (own.alone or (own.flat is not None and not _in_plane(mechanism)))
+    if own is None:
+        return False
+    if not _in_plane(mechanism):
+        return own.alone or own.flat is not None
+    return own.alone or (own.bare is not None and not mechanism.spec.drive.OUTLINED)
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -133,11 +138,12 @@ def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> She
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; {', '.join(SHEETS)} is")
     own = PARTS[part]
-    if _in_plane(proof.mechanism):
+    if not is_alone(proof.mechanism, part):
         made: Sheet = _made(own.sheet)(proof.found, tolerance_mm, curves)
         return made
-    laid_flat: Sheet = _made(own.flat)(proof, tolerance_mm, curves)
-    return laid_flat
+    by = own.bare if _in_plane(proof.mechanism) else own.flat
+    alone: Sheet = _made(by)(proof, tolerance_mm, curves)
+    return alone
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -104,17 +104,21 @@ def lowest(standing: Sequence[Member]) -> float:
 
 
 def standing(mechanism: Mechanism) -> Iterator[Point]:
-    """Where shafts stand in the frame: the wheel's, the crank's, and those of what drives it."""
+    """Where shafts stand in the frame, each once: the wheel's, the crank's, what drives it."""
     L, turns = mechanism.center_distance_mm, mechanism.spec.drive.turns
-    yield from ((0.0, 0.0), (L, 0.0))
+    seen = [(0.0, 0.0), (L, 0.0)]
     if mechanism.spec.drive.gears:
-        yield L + mechanism.spec.drive.gears.distance_mm, 0.0
+        seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
+    yield from seen
     for link in links_at(mechanism, np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)):
         for joint, kind in zip(places(link), link.kinds, strict=True):
             middle = complex(joint[len(joint) // 2])  # input angle 0
+            at = middle.real, middle.imag
             stands = bool(np.abs(joint - middle).max() < SAME * L)
-            if stands and kind in (Joint.SHAFT, Joint.PIN) and abs(middle - L) > SAME * L:
-                yield middle.real, middle.imag
+            known = any(same(at, one, L) for one in seen)
+            if stands and kind in (Joint.SHAFT, Joint.PIN) and not known:
+                seen.append(at)
+                yield at
 
 
 def _bores(proof: Proof, found: Outlines | None, bars: Links) -> Iterator[tuple[Point, float]]:
@@ -136,10 +140,14 @@ def _bores(proof: Proof, found: Outlines | None, bars: Links) -> Iterator[tuple[
 
 
 def _fixed(bars: Links) -> Iterator[Circle]:
-    """The holes by which links that stand, as a guide, are screwed to the frame."""
+    """The holes by which what stands, as a guide or a gear, is screwed to the frame."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             yield from placed_holes(member)
+    for gear in bars.gears:
+        for hole in gear.bolts:
+            (x, y), (u, v) = gear.at, hole.centre
+            yield Circle(HOLES, (x + u, y + v), hole.radius)
 
 
 def _mounted(members: list[Member], L: float) -> Iterator[Circle]:
@@ -152,7 +160,7 @@ def _lowest(mechanism: Mechanism, found: Outlines | None, bars: Links) -> float:
     """The lowest place of what moves, along the axis."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
-    under += [gear.low for gear in bars.gears]
+    under += [gear.plate.low for gear in bars.gears]
     arm = thicknesses(size, L).arm if found and has_arm(found) else 0.0
     return min([*under, -size.pin_gap_mm - arm])
 

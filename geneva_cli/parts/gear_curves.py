@@ -75,8 +75,14 @@ def required_gears(mechanism: Mechanism) -> Gears:
     drive = mechanism.spec.drive
     if drive.gears is None:
         geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
+        if drive.TOOTHED:
+            raise GenevaError(
+                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles, which are '
+                "no table: write them as .dxf or .svg; --part parts has their radii"
+            )
+        geared += [kind for kind in registry.DRIVES if registry.drive(kind).TOOTHED]
         raise GenevaError(
-            f'--part gears: kind = "{drive.NAME}" has none; {" or ".join(geared)} has'
+            f'--part gears: kind = "{drive.NAME}" has none; {", ".join(geared)} have some'
         )
     return drive.gears
 

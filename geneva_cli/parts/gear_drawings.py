@@ -14,15 +14,17 @@ import numpy as np
 from geneva_cli.curves import fit
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import mapped
-from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Shape, closed
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_curves import SAMPLES, ratio_and_turn, required_gears
-from geneva_cli.parts.link_drawings import titled
+from geneva_cli.parts.link_drawings import once, shapes, titled
 from geneva_cli.parts.link_sizes import link_sizes
+from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.shafts import SHAFT
 
@@ -32,22 +34,40 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 PITCH, BORE = "PITCH", "BORE"
+NAMES = "driven gear", "driver gear"
 # Of the axes' distance: what the curves are fitted to at the coarsest. Teeth are spaced along both
 # of them, and so their lengths must agree, better than to 1e-9.
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
 def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """Both pitch curves with their bores, and the line of their centres.
+    """All pitch curves with bores and bolts as the gears mesh, and the line of their centres.
 
-    Raises GenevaError for a machine without noncircular gears.
+    Raises GenevaError for a machine without gears.
     """
+    if proof.mechanism.spec.drive.TOOTHED:
+        return _round_gears(proof)
     L, C = proof.mechanism.center_distance_mm, required_gears(proof.mechanism).distance_mm
     bores = [Circle(BORE, (x - L, y), r) for (x, y), r in gear_bores(proof) if r]
     line = Contour(PITCH, (Line((0.0, 0.0), (C, 0.0)),), closed=False)
     pitch = pitch_curves(proof.mechanism, min(tolerance, FINE[curves] * C), curves)
-    shapes: tuple[Shape, ...] = (*pitch, *bores, line, *centre_marks(bores))
-    return Drawing(f"{titled(proof.mechanism)}: pitch curves of the gears", shapes)
+    drawn: tuple[Shape, ...] = (*pitch, *bores, line, *centre_marks(bores))
+    title = f"{titled(proof.mechanism)}: pitch curves of the gears"
+    return Drawing(title, drawn, solid=Group(title, gear_members(proof)))
+
+
+def _round_gears(proof: Proof) -> Drawing:
+    """The blanks of gears with pitch circles, at their places from the crank's axis."""
+    mechanism, L = proof.mechanism, proof.mechanism.center_distance_mm
+    bars = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
+    about = ((mapped(s, lambda p: (p[0] - L, p[1]))) for s in shapes(g.member for g in bars.gears))
+    drawn = list(once(about))
+    holes = [s for s in drawn if isinstance(s, Circle) and s.layer == BORE]
+    ends = [(x - L, y) for (x, y), *_ in bars.gears]
+    line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
+    title = f"{titled(mechanism)}: gears"
+    solid = Group(title, tuple(gear.member for gear in bars.gears))
+    return Drawing(title, (*drawn, line, *centre_marks(holes)), solid=solid)
 
 
 def pitch_curves(mechanism: Mechanism, tolerance: float, curves: str) -> tuple[Contour, Contour]:
@@ -84,6 +104,37 @@ def gear_span(proof: Proof) -> tuple[float, float]:
     ).span(2)
 
 
+def gear_members(proof: Proof) -> tuple[Member, ...]:
+    """Both gears as blanks up to their pitch curves, in the machine; none without such gears.
+
+    Raises GenevaError as ``gear_bores`` does.
+    """
+    mechanism = proof.mechanism
+    pair = mechanism.spec.drive.gears
+    if pair is None:
+        return ()
+    low, high = gear_span(proof)
+    sense, tolerance = crank_sense(mechanism), FINE["cubics"] * pair.distance_mm
+    found = []
+    both = (driven_curve(pair, sense), driver_curve(pair, sense))
+    for name, curve, (at, bore) in zip(NAMES, both, gear_bores(proof), strict=True):
+        outline = closed(PITCH, fit.KINDS["cubics"](curve, -np.pi, np.pi, tolerance))
+        holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
+        found.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
+    return tuple(found)
+
+
+def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The least and the greatest radius of the pitch curves of driven gear and driver, mm."""
+    ratio = array(ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0].c[0])
+    C = pair.distance_mm
+    driven, driver = C / (1.0 + ratio), C * ratio / (1.0 + ratio)
+    return (
+        (float(driven.min()), float(driven.max())),
+        (float(driver.min()), float(driver.max())),
+    )
+
+
 def driver_shaft(proof: Proof, lowest: float) -> Iterator[Member]:
     """The driver's shaft, from the frame's lower face up; none without such gears."""
     if proof.mechanism.spec.drive.gears is None:
@@ -97,18 +148,22 @@ def driver_shaft(proof: Proof, lowest: float) -> Iterator[Member]:
 def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
     """Place in the machine and radius of the bores of driven gear and driver; 0 for none.
 
-    Raises GenevaError as ``gears`` does.
+    Raises GenevaError as ``gears`` does, and, naming the key, for a bore larger than its gear.
     """
     mechanism = proof.mechanism
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes = link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
-    ratio = array(ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0].c[0])
-    C = pair.distance_mm
-    driven, driver = float((C / (1.0 + ratio)).min()), float((C * ratio / (1.0 + ratio)).min())
-    return [
-        ((L, 0.0), sizes.bore(driven, L, on_crank=True)),
-        ((L + C, 0.0), sizes.bore(driver, L, on_crank=False)),
-    ]
+    C, ((driven, _), (driver, _)) = pair.distance_mm, pitch_radii(pair)
+    bores = sizes.bore(driven, L, on_crank=True), sizes.bore(driver, L, on_crank=False)
+    for name, bore, least in zip(NAMES, bores, (driven, driver), strict=True):
+        if bore >= least:
+            raise GenevaError(
+                f"no blank of the {name} is left: its bore must be below {2.0 * least:.6g}, where "
+                "its pitch curve is nearest to its axis; a smaller link_bore_mm, or "
+                "crank_diameter_mm where it is on the crank's shaft, leaves some",
+                ("size", "link_bore_mm"),
+            )
+    return [((L, 0.0), bores[0]), ((L + C, 0.0), bores[1])]
 
 
 def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, Array]]:

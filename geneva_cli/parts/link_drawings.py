@@ -69,11 +69,12 @@ def placed(shape: S, at: Point, turn: float) -> S:
 
 
 def together(made: Links) -> Iterator[Shape]:
-    """The links in the machine: outlines, bores, and the gears' pitch circles."""
+    """The links in the machine, and the gears by their pitch circles, with all holes."""
     found = [shape._replace(layer=LAYER) for shape in shapes(made.cut)]
-    found += [Circle(PITCH, gear.at, gear.radius) for gear in made.gears]
+    blanks = list(shapes(gear.member for gear in made.gears))
     yield from found
-    yield from (Circle(LAYER, gear.at, gear.bore) for gear in made.gears if gear.bore)
+    yield from (shape for shape in blanks if shape.layer == PITCH)
+    yield from (shape._replace(layer=LAYER) for shape in blanks if shape.layer != PITCH)
 
 
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:

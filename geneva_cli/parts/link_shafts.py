@@ -22,6 +22,7 @@ from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shafts import SHAFT
+from geneva_cli.parts.sizes import thicknesses
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -57,9 +58,11 @@ def link_shafts(
             continue
         if axis.stands:
             what = "shaft" if Joint.SHAFT in axis.kinds else "pivot"
-            name = f"{'crank' if on_crank else axis.names[0]}'s {what}"
+            on_wheel = same(axis.at, (0.0, 0.0), L)
+            whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
             low = stop if on_crank and stop is not None else lowest
-            yield from _through(bars, name, axis, L, low)
+            high = thicknesses(mechanism.spec.size, L).wheel if on_wheel else None
+            yield from _through(bars, f"{whose}'s {what}", axis, L, low, high)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those have their pin
             yield from _through(bars, f"shaft of {', '.join(axis.names)}", axis, L)
 
@@ -84,9 +87,15 @@ def _axes(mechanism: Mechanism) -> Iterator[Axis]:
 
 
 def _through(
-    bars: Links, name: str, axis: Axis, L: float, low: float | None = None
+    bars: Links,
+    name: str,
+    axis: Axis,
+    L: float,
+    low: float | None = None,
+    high: float | None = None,
 ) -> Iterator[Member]:
-    """The shaft through the bores of the links on an axis, from ``low``, or the lowest of them, up.
+    """The shaft through the bores of the links on an axis, from ``low``, or the lowest of them, up
+    to ``high``, or the highest.
 
     There is none where none has a bore.
     """
@@ -101,8 +110,9 @@ def _through(
     for gear in bars.gears:
         if gear.name in axis.names and gear.bore:
             radii.append(gear.bore)
-            heights += [gear.low, gear.high]
+            heights += [gear.plate.low, gear.plate.high]
     if radii:
         bottom = min(heights) if low is None else low
         outline = Circle(SHAFT, (0.0, 0.0), radii[0])
-        yield Member(Plate(name, SHAFT, outline, (), bottom, max(heights)), axis.at)
+        top = max(heights) if high is None else high
+        yield Member(Plate(name, SHAFT, outline, (), bottom, top), axis.at)

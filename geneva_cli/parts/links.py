@@ -2,7 +2,7 @@
 
 A link's own frame has its first joint as origin, and x through its second. Its outline is the belt
 round an eye about each hole; a pin that slides along a link has a block, and the link a slot as
-long as its path. Gears are not cut: only their pitch circles are drawn.
+long as its path. Gears are blanks (``gear_blanks``), drawn by their pitch circles.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ import numpy as np
 
 from geneva_cli.curves.belt import belt
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
+from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.gear_blanks import Gear, link_gear
 from geneva_cli.parts.hole_walls import apart, least_wall
 from geneva_cli.parts.link_pins import pins, rollers
 from geneva_cli.parts.link_positions import links_at
@@ -35,7 +36,7 @@ class Links(NamedTuple):
     """The links of a machine at input angle 0.
 
     ``cut`` are the links and blocks as plates, ``joined`` the pins, washers and rollers between
-    them; ``gears`` have pitch circles, about a place and with a bore.
+    them; ``gears`` are blanks about their places.
     """
 
     sizes: LinkSizes | None  # None where there are none
@@ -50,17 +51,6 @@ class Links(NamedTuple):
     def plates(self) -> list[Plate]:
         """The plates to cut, each in its own frame."""
         return [one.part for one in self.cut if isinstance(one.part, Plate)]
-
-
-class Gear(NamedTuple):
-    """A pitch circle with its bore, and its place along the axis; teeth are not drawn."""
-
-    name: str
-    at: Point
-    radius: float
-    bore: float
-    low: float
-    high: float
 
 
 def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
@@ -84,7 +74,7 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
         *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r)),
     ]
     bored = [hole for member in cut for hole in placed_holes(member)]
-    gears = [_gear(link, sizes, L, bored) for link in links if link.radius_mm]
+    gears = [_gear(link, sizes, mechanism, bored) for link in links if link.radius_mm]
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
@@ -94,14 +84,14 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     return Links(sizes, tuple(cut), tuple(between), tuple(gears), pin_low, standing, blocks)
 
 
-def _gear(link: Link, sizes: LinkSizes, L: float, bored: list[Circle]) -> Gear:
+def _gear(link: Link, sizes: LinkSizes, mechanism: Mechanism, bored: list[Circle]) -> Gear:
     """A gear has the bore of the link on its shaft, if there is one."""
-    (at,) = places(link)
+    (at,), L = places(link), mechanism.center_distance_mm
     z = complex(at[len(at) // 2])
     own = sizes.bore(link.radius_mm, L, abs(z - L) < SAME * L)
     there = (hole.radius for hole in bored if abs(complex(*hole.centre) - z) < SAME * L)
     bore = next(there, own)
-    return Gear(link.name, (z.real, z.imag), link.radius_mm, bore, *sizes.span(link.plane))
+    return link_gear(link, (z.real, z.imag), bore, sizes, mechanism.spec.size, L)
 
 
 def _members(link: Link, sizes: LinkSizes, L: float) -> Iterator[Member]:

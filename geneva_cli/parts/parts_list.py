@@ -20,10 +20,7 @@ from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.built import built
-from geneva_cli.parts.frame import frame_plate
-from geneva_cli.parts.link_shafts import link_shafts
-from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.built import built, link_members
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_part
 from geneva_cli.parts.proof import Proof
@@ -85,14 +82,8 @@ def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
 
 
 def link_rows(proof: Proof) -> Iterator[dict[str, object]]:
-    """The links with their shafts and the frame alone, of a machine whose wheel is not drawn."""
-    mechanism = proof.mechanism
-    bars = drawn_links(mechanism)
-    members = [*bars.cut, *bars.joined]
-    if mechanism.spec.wheel.FLAT:
-        frame = frame_plate(proof, [], bars)
-        members += [*link_shafts(mechanism, bars, frame.low), Member(frame)]
-    yield from plate_rows(mechanism.spec, Group("", tuple(members)))
+    """Links and gears, their shafts and the frame alone: where the wheel is not drawn."""
+    yield from plate_rows(proof.mechanism.spec, Group("", link_members(proof)))
 
 
 def plate_rows(spec: Spec, group: Group) -> Iterator[dict[str, object]]:

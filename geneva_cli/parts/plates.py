@@ -68,20 +68,20 @@ def crank_group(
     plates += [arm_plate(found, arm)] if arm else []
     members = [Member(plate) for plate in plates]
     below = low - (sizes.arm_thickness if arm else 0.0) if pin_low is None else pin_low
-    round_ = _rollers(found, below)
+    round_ = roller_plates(sizes.roller, sizes.pin, below, sizes.wheel_thickness)
     members += [Member(plate, axis) for axis in roller_centres(assembly) for plate in round_]
     hub = crank_hub(found)
     members += [Member(hub)] if hub else []
     return Group("crank", tuple(members))
 
 
-def _rollers(found: Outlines, low: float) -> list[Plate]:
-    """A roller as thick as the wheel, and its pin from ``low`` up."""
-    sizes, layer, at = found.sizes, "ROLLER", (0.0, 0.0)
-    outline, high = Circle(layer, at, sizes.roller), sizes.wheel_thickness
-    if not sizes.pin:
+def roller_plates(radius: float, pin_radius: float, low: float, high: float) -> list[Plate]:
+    """A roller in the wheel's plane, up to ``high``, and its pin from ``low`` up to there."""
+    layer, at = "ROLLER", (0.0, 0.0)
+    outline = Circle(layer, at, radius)
+    if not pin_radius:
         return [Plate("roller", layer, outline, (), 0.0, high)]
-    pin = Circle(layer, at, sizes.pin)
+    pin = Circle(layer, at, pin_radius)
     return [
         Plate("roller", layer, outline, (pin,), 0.0, high),
         Plate("pin", layer, pin, (), low, high),

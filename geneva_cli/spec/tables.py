@@ -126,6 +126,13 @@ class Size(SpecTable):
     dial_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "diameter of the circle they stand on; amid bore and slots"
     ] = None
+    gear_bolts: Annotated[
+        int, Range(0, 100), "screws that hold a gear that stands to the frame, evenly"
+    ] = 4
+    gear_bolt_mm: Annotated[float | None, POSITIVE, "diameter of their holes; L/40 at most"] = None
+    gear_bolt_circle_mm: Annotated[
+        float | None, POSITIVE, "diameter of the circle they stand on; amid bore and pitch circle"
+    ] = None
     lock_bolts: Annotated[
         int, Range(0, 100), "bolts or dowels through each sector of the locking disc and the arm"
     ] = 0

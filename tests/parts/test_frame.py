@@ -42,8 +42,8 @@ def test_a_hole_for_every_shaft_that_stands(name):
     design, _, drawing = made(name)
     holes = [shape for shape in drawing.shapes if isinstance(shape, Circle)]
     pivots = rows(design, "pivot")
-    # two screws hold a guide besides
-    guide = 2 if name == "slider-crank" else 0
+    # two screws hold a guide besides, and four a gear
+    guide = {"slider-crank": 2, "epicyclic-z4": 4}.get(name, 0)
     assert len(holes) == len(STANDING[name]) + guide + MOUNTS
     for pivot, hole in zip(STANDING[name], holes, strict=False):
         at = pivots[pivot]["x_mm"], pivots[pivot]["y_mm"]

@@ -81,6 +81,8 @@ class Drive(SpecTable, kw_only=True):
     ANALYTIC: ClassVar[bool] = True
     # whether it is a pair of noncircular gears, which have pitch curves
     GEARED: ClassVar[bool] = False
+    # whether it has other gears, of pitch circles
+    TOOTHED: ClassVar[bool] = False
     # whether its crank is turned by a Geneva wheel of its own
     IN_SERIES: ClassVar[bool] = False
     # the key of [drive] that the reactions of its links need; empty where they need none

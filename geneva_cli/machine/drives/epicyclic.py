@@ -17,7 +17,7 @@ from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
 from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
@@ -51,6 +51,7 @@ class Epicyclic(PinPath, kw_only=True):
             "size": {"roller_radius_mm": 4.0},
         },
     )
+    TOOTHED: ClassVar[bool] = True
     planet_ratio: Annotated[
         float | str,
         Words(Range(-0.4, 0.4), ("shockless",)),
@@ -123,7 +124,14 @@ class Epicyclic(PinPath, kw_only=True):
             Link("carrier", (axis, planet), (shaft, shaft), 2),
             Link("planet's arm", (planet, roller), (shaft, Joint.ROLLER), 1),
             Link("planet", (planet,), (shaft,), 3, radius),
-            Link("fixed gear", (axis,), (shaft,), 3, radius * abs(c - 1.0)),
+            Link(
+                "fixed gear",
+                (axis,),
+                (shaft,),
+                3,
+                radius * abs(c - 1.0),
+                Teeth(inside=self.fixed == "ring", fixed=True),
+            ),
         )
 
 

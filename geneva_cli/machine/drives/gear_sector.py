@@ -19,7 +19,7 @@ from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import PinTravel, same
 from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, SlotAxis
 from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
+from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
@@ -52,6 +52,7 @@ class GearSector(PinPath, kw_only=True):
             "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"},
         },
     )
+    TOOTHED: ClassVar[bool] = True
     OUTLINED: ClassVar[bool] = False
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle that the gears drive, D"]
@@ -82,7 +83,7 @@ class GearSector(PinPath, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """The crank with its rollers, one at each end of the sector, and both pitch circles."""
+        """The crank with its rollers, one at each end of the sector, and both toothed sectors."""
         L, still = plan.center_distance_mm, 0.0 * input_deg
         axis, R = (still + L, still), L * plan.ratio
         u = self._solved(plan.engagements[0].half_step).ratio
@@ -92,8 +93,22 @@ class GearSector(PinPath, kw_only=True):
         shaft, roller = Joint.SHAFT, Joint.ROLLER
         return (
             Link("crank", (axis, *rollers), (shaft, roller, roller), 1),
-            Link("crank gear", (axis,), (shaft,), 2, L * u / (1.0 + u)),
-            Link("wheel gear", ((still, still),), (shaft,), 2, L / (1.0 + u)),
+            Link(
+                "crank gear",
+                (axis,),
+                (shaft,),
+                2,
+                L * u / (1.0 + u),
+                Teeth(1, self.sector_deg, 180.0),
+            ),
+            Link(
+                "wheel gear",
+                ((still, still),),
+                (shaft,),
+                2,
+                L / (1.0 + u),
+                Teeth(round(math.pi / plan.engagements[0].half_step), u * self.sector_deg),
+            ),
         )
 
     def _solved(self, half_step: float) -> Handover:

@@ -7,6 +7,7 @@ import math
 from geneva_cli.curves.measure import at, legs
 from geneva_cli.curves.shapes import Arc, Circle, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.outlines import Outlines
@@ -15,6 +16,7 @@ from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, radius_of
 from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
+from geneva_cli.parts.sizes import pin_radius
 
 SAME = 1e-6  # mm
 
@@ -126,19 +128,18 @@ def _between(view: View, made: CrankArm) -> None:
         view.angular(some, reach, reach, times(len(some), text))
 
 
-def draw_roller(view: View, found: Outlines) -> None:
+def draw_roller(view: View, mechanism: Mechanism) -> None:
     """A roller about its pin."""
-    sizes, axis = found.sizes, (0.0, 0.0)
-    circles = [Circle("", axis, sizes.roller)] + (
-        [Circle("", axis, sizes.pin)] if sizes.pin else []
-    )
+    roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
+    pin = pin_radius(mechanism.spec.size, roller)
+    circles = [Circle("", axis, roller)] + ([Circle("", axis, pin)] if pin else [])
     for c in circles:
         view.draw(c, OUTLINE)
-    view.cross(axis, sizes.roller)
-    view.diameter(circles[:1], sized.roller(found.assembly.mechanism, sizes.roller))
-    if sizes.pin:
-        view.diameter(circles[1:], sized.roller_bore(sizes.pin))
-        view.remark(f"turns on its pin {sized.pin(sizes.pin)}, which is pressed in")
+    view.cross(axis, roller)
+    view.diameter(circles[:1], sized.roller(mechanism, roller))
+    if pin:
+        view.diameter(circles[1:], sized.roller_bore(pin))
+        view.remark(f"turns on its pin {sized.pin(pin)}, which is pressed in")
 
 
 def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> None:

@@ -1,4 +1,4 @@
-"""The views of links and gears, and a table of the round parts between links."""
+"""The views of links, and a table of the round parts between links."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
-from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
+from geneva_cli.curves.sheet import OUTLINE
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.frame import same
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
-from geneva_cli.parts.links import Gear, Links, placed_holes
+from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.paper import table
 from geneva_cli.parts.sheet.view import Block, View, number, times
@@ -25,7 +25,6 @@ UP = 0.5 * math.pi
 NEAR = 1e-6  # mm
 COLUMNS = (62.0, 44.0, 46.0, 16.0)  # mm, of the table of round parts
 HEADING = ("round parts",)
-TOOTHLESS = "teeth are for who cuts them"
 
 
 def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
@@ -125,31 +124,6 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
         radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
     for text, some in radii.items():
         view.of_arcs(some, times(len(some), text))
-
-
-def draw_gear(view: View, gear: Gear) -> None:
-    """A gear's pitch circle and bore."""
-    pitch, bore = (Circle("", (0.0, 0.0), r) for r in (gear.radius, gear.bore))
-    view.draw(pitch, CENTRE)
-    view.cross((0.0, 0.0), gear.radius)
-    view.diameter([pitch], f"pitch {sized.plain(2.0 * gear.radius, 'Ø ')}")
-    if gear.bore:
-        view.draw(bore, OUTLINE)
-        view.diameter([bore], sized.bore(gear.bore))
-    view.remark(f"pitch circle; {TOOTHLESS}")
-
-
-def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -> None:
-    """The pitch curves of two gears as they mesh at input angle 0, with bores, about their axes."""
-    for shape in shapes:
-        view.draw(shape, OUTLINE if isinstance(shape, Circle) else CENTRE)
-    view.centre_line(*ends)
-    for bore in shapes:
-        if isinstance(bore, Circle):
-            view.cross(bore.centre, bore.radius)
-            view.diameter([bore], sized.bore(bore.radius))
-    view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
-    view.remark(f"pitch curves; {TOOTHLESS}")
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.machine.layout import Dimension, Pivot
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sheet import links, points
 from geneva_cli.parts.sheet.composed import on_paper
@@ -28,7 +29,7 @@ def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
         *points.tables(found, tolerance),
         *points.gear_tables(found.assembly.given, tolerance),
         *links.round_parts(bars.joined, mechanism),
-        *_layout(found),
+        *layout(found.assembly.given),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
@@ -39,15 +40,14 @@ def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
     return on_paper(found.assembly.given.spec, shown.rows, shown.largest, blocks, shown.area)
 
 
-def _layout(found: Outlines) -> list[Block]:
+def layout(given: Mechanism) -> list[Block]:
     """Pivots and lengths of what drives the crank."""
-    given = found.assembly.given
-    layout = given.spec.drive.layout(given.plan, given.spec.wheel.SIGN)
+    own = given.spec.drive.layout(given.plan, given.spec.wheel.SIGN)
     rows = [("drive", "x or value", "y or unit")]
-    rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in layout if isinstance(p, Pivot)]
+    rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in own if isinstance(p, Pivot)]
     rows += [
         (d.name, number(d.value) if isinstance(d.value, (int, float)) else d.value, d.unit)
-        for d in layout
+        for d in own
         if isinstance(d, Dimension)
     ]
     return [table((), rows, LAYOUT)] if len(rows) > 1 else []

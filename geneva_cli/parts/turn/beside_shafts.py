@@ -18,8 +18,10 @@ from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.parts.built import built
+from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
 SAME = 1e-9  # of the centre distance: what shares less of a height only touches
@@ -59,9 +61,9 @@ def beside_shafts(found: Outlines) -> Beside | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    whole = built(found)
+    whole = built(found, pitch=False)
     members = [whole.wheel, whole.crank, *whole.first, *whole.standing[:-1]]
-    rings = [ring for one in members for ring in _rings(one)]
+    rings = [*(ring for one in members for ring in _rings(one)), *_noncircular(found)]
     axes = [ring for ring in rings if ring.layer == HUB]
     axes += [ring for one in whole.shafts for ring in _rings(one)]
     near = SAME * found.assembly.L
@@ -75,6 +77,18 @@ def beside_shafts(found: Outlines) -> Beside | None:
         ),
         default=None,
     )
+
+
+def _noncircular(found: Outlines) -> Iterator[Ring]:
+    """The rings of noncircular gears, by the farthest points of their pitch curves."""
+    given = found.assembly.given
+    pair, L = given.spec.drive.gears, given.center_distance_mm
+    if pair is None:
+        return
+    (_, driven), (_, driver) = pitch_radii(pair)
+    low, high = gear_span(Proof(given, found))
+    yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
+    yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
 
 
 def _rings(member: Member) -> Iterator[Ring]:

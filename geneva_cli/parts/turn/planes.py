@@ -1,10 +1,10 @@
 """The gaps, in a whole turn, between links and what passes through their planes.
 
-Each plane below the wheel's has one link, and the arm has its own check. What passes through is
-round: the wheel's hub and, below it, its shaft, the spacer on a pin that joins links of planes
-farther apart, the crank's shaft between the planes in which it carries something. That shaft gets
-out below all links, or above through the locking disc: where it gets neither way, nobody can say
-how it is carried.
+Each plane below the wheel's has one link, or gears, and the arm has its own check. What passes
+through is round: the wheel's hub and, below it, its shaft, the spacer on a pin that joins links of
+planes farther apart, the crank's shaft between the planes in which it carries something. That shaft
+gets out below all links, or above through the locking disc: where it gets neither way, nobody can
+say how it is carried.
 """
 
 from __future__ import annotations
@@ -66,7 +66,8 @@ def planes(found: Outlines) -> Planes:
     given = found.assembly.given
     turns = given.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
-    links = [link for link in links_at(given, turn) if not link.radius_mm]
+    every = links_at(given, turn)
+    links = [link for link in every if not link.radius_mm]
     if not links:
         return Planes(None, None)
     made = drawn_links(given, found)
@@ -80,9 +81,26 @@ def planes(found: Outlines) -> Planes:
         for one in passing
         if one.plane == link.plane
     ]
+    met += _gears(found, made, every, turn)
     out = shaft.way_out(turn)
     blocked = out if out is not None and out.gap < 0.0 else None
     return Planes(min(met, default=None), blocked)
+
+
+def _gears(found: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
+    """The gears' gaps to the wheel's hub and shaft, which pass through their plane.
+
+    A first wheel is no gear: ``beside_shafts`` has its gap.
+    """
+    assert made.sizes is not None
+    if found.assembly.given.spec.drive.IN_SERIES:
+        return
+    gears = [link for link in links if link.radius_mm]
+    for gear, link in zip(made.gears, gears, strict=True):
+        for one in _on_wheel(found, [link], made.sizes, 0.0 * turn):
+            gaps = np.abs(one.way - places(link)[0]) - gear.outer - one.radius
+            least = int(np.argmin(gaps))
+            yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
 
 
 def crank_stop(found: Outlines, bars: Links) -> float | None:

@@ -53,10 +53,10 @@ def wheel_shaft(name: str, found: Outlines) -> Check | None:
 def beside(name: str, found: Outlines) -> Check | None:
     """Between hubs and shafts and what turns beside them; made where a size of theirs is given.
 
-    By default they have their room, but for a first wheel's.
+    By default they have their room, but for a first wheel's and for gears.
     """
     given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
-    if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
+    if not (drive.IN_SERIES or drive.GEARED or any(given[key] is not None for key in KEYS)):
         return None
     try:
         least = beside_shafts(found)

@@ -1,0 +1,144 @@
+"""Gears as blanks: plates up to the pitch circle, whole or in sectors about a hub.
+
+Teeth are left out: they belong to a module and a cutter that no key of a spec names. They stand out
+of the pitch circle about as much as their gaps go into it, so a blank's mass is a gear's to a few
+percent. A gear that stands is screwed to the frame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Segment, about, closed, two_arcs
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.layout import Link, Teeth
+from geneva_cli.parts.hole_walls import least_wall
+from geneva_cli.parts.link_sizes import LinkSizes
+from geneva_cli.spec.tables import Size
+
+PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
+AXIS = (0.0, 0.0)
+FIRST = 0.25 * math.pi  # the first bolt's direction: off the line on which shafts stand
+
+
+class Gear(NamedTuple):
+    """A gear about its axis: its pitch circle, the radius of its bore, 0 for none, and its blank.
+
+    A ring has no bore.
+    """
+
+    at: Point
+    radius: float
+    bore: float
+    teeth: Teeth
+    plate: Plate
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.plate.name
+
+    @property
+    def member(self) -> Member:
+        """The blank in the machine, at input angle 0."""
+        return Member(self.plate, self.at)
+
+    @property
+    def bolts(self) -> list[Circle]:
+        """The holes by which it is screwed to the frame."""
+        found = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
+        return [hole for hole in found if hole.layer == HOLES and hole.centre != AXIS]
+
+    @property
+    def outer(self) -> float:
+        """How far it goes from its axis."""
+        outline = self.plate.outline
+        return outline.radius if isinstance(outline, Circle) else self.radius
+
+
+def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, L: float) -> Gear:
+    """The gear of a link that is a pitch circle, with a bore.
+
+    Raises GenevaError, naming the key, where its bore or its bolts leave none of it.
+    """
+    radius, teeth = link.radius_mm, link.teeth
+    low, high = sizes.span(link.plane)
+    hole = 0.0 if teeth.inside else bore
+    holes: list[Circle] = []
+    outline: Circle | Contour = Circle(PITCH, AXIS, radius)
+    if teeth.inside:
+        outline, holes = Circle(RIM, AXIS, radius + 2.0 * sizes.eye), [Circle(PITCH, AXIS, radius)]
+        inner, outer = radius, radius + 2.0 * sizes.eye
+    else:
+        inner, outer = bore, radius
+        holes += [Circle(HOLES, AXIS, bore)] if bore else []
+        hub = sizes.hub(bore)
+        if teeth.sectors * teeth.each_deg < 360.0:
+            _refuse(link.name, radius - hub, "hub")
+            outline = sectors(radius, hub, teeth)
+    _refuse(link.name, outer - inner, "bore")
+    if teeth.fixed:
+        holes += _bolts(size, inner, outer, L)
+    plate = Plate(link.name, PITCH, outline, tuple(holes), low, high)
+    _refuse(link.name, gear_wall(plate), "bolts" if teeth.fixed else "bore")
+    return Gear(at, radius, hole, teeth, plate)
+
+
+def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
+    """Sectors of a pitch circle, evenly, joined by the hub between them."""
+    wide = math.radians(teeth.each_deg)
+    pitch = math.tau / teeth.sectors
+    pieces: list[Segment] = []
+    for k in range(teeth.sectors):
+        start = math.radians(teeth.middle_deg) + k * pitch - 0.5 * wide
+        rim = about(AXIS, radius, start, wide)
+        back = about(AXIS, hub, start + wide, pitch - wide)
+        first = pieces[-1].end if pieces else about(AXIS, hub, start, 1.0).start
+        pieces += [Line(first, rim.start), rim, Line(rim.end, back.start), back]
+    return closed(PITCH, pieces)
+
+
+def gear_wall(plate: Plate) -> float:
+    """The least wall between a gear's holes, and from them to its pitch circle or rim."""
+    outline = plate.outline
+    if isinstance(outline, Circle):
+        outline = closed(outline.layer, two_arcs(outline))
+    return least_wall(plate.holes, outline)
+
+
+def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]:
+    """The holes of the screws that hold a gear to the frame, evenly, amid its bore and teeth."""
+    far, room = 0.5 * (inner + outer), 0.5 * (outer - inner)
+    if size.gear_bolt_circle_mm is not None:
+        far = 0.5 * size.gear_bolt_circle_mm
+    r = min(L / 80.0, 0.5 * room) if size.gear_bolt_mm is None else 0.5 * size.gear_bolt_mm
+    for k in range(size.gear_bolts):
+        turn = FIRST + math.tau * k / size.gear_bolts
+        yield Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
+
+
+def _refuse(name: str, wall: float, what: str) -> None:
+    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear."""
+    if wall > 0.0:
+        return
+    key = {
+        "bore": "link_bore_mm",
+        "hub": "link_bore_mm",
+        "bolts": "gear_bolt_circle_mm",
+    }[what]
+    helps = {
+        "bore": "a smaller link_bore_mm, or crank_diameter_mm where it is on the crank's shaft, "
+        "leaves some",
+        "hub": "a smaller link_bore_mm, or crank_diameter_mm where it is on the crank's shaft, "
+        "leaves some",
+        "bolts": "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts "
+        "leave some",
+    }[what]
+    raise GenevaError(
+        f"no blank of the {name} is left within its pitch circle: its {what} "
+        f"{'are' if what == 'bolts' else 'is'} {-wall:.4g} mm too large; {helps}",
+        ("size", key),
+    )

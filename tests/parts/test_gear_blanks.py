@@ -1,0 +1,200 @@
+"""Gears as blanks: their masses by closed forms, the screws of those that stand, their refusals."""
+
+import math
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+import repo
+
+from geneva_cli import Design, Epicyclic, External, GearSector, load
+from geneva_cli.curves.shapes import Arc, Circle, Contour
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.gear_curves import gears_table
+from geneva_cli.parts.gear_drawings import gear_members
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.spec.tables import Size
+
+RHO = 7850.0  # kg/m³, steel
+# Pitch curves are fitted to 2e-9 of the axes' distance; what they hold, to a few times that.
+FITTED = 1e-8
+SOFT = Epicyclic(planet_ratio="shockless")
+RING = Epicyclic(planet_ratio=0.02, fixed="ring")
+
+
+@cache
+def design(name):
+    return load(str(repo.DESIGNS / f"{name}.toml"))
+
+
+def listed(of):
+    """The parts of a design by their names: count, mass, inertia and z."""
+    return {row["name"]: row for row in of.part_table("parts").to_rows() if row["row"] == "part"}
+
+
+def disc(r, thick):
+    """Mass and moment of inertia of a disc, radius and thickness in mm."""
+    mass = RHO * math.pi * r * r * thick * 1e-9
+    return np.array([mass, 0.5 * mass * r * r * 1e-6])
+
+
+def found(of, name):
+    row = listed(of)[name]
+    return np.array([row["mass_kg"], row["inertia_kgm2"]])
+
+
+def test_elliptical_gears_are_ellipses_that_turn_about_a_focus():
+    """a = 50 and e = 0.3: m = rho pi a b h, J = m ((a² + b²)/4 + c²), less the bores."""
+    a, c, thick = 50.0, 15.0, 16.0
+    b = math.sqrt(a * a - c * c)
+    mass = RHO * math.pi * a * b * thick * 1e-9
+    whole = np.array([mass, mass * ((a * a + b * b) / 4.0 + c * c) * 1e-6])
+    of = design("elliptical-gears")
+    for name, bore in (("driven gear", 14.0), ("driver gear", 16.0)):
+        assert found(of, name) == pytest.approx(whole - disc(bore / 2.0, thick), rel=FITTED)
+
+
+def test_noncircular_gears_are_what_their_radii_sweep():
+    """m = rho h/2 integral of r², J = rho h/4 integral of r⁴ over their own turning, in mpmath."""
+    of = design("noncircular-gears")
+    at = dict(zip(*_columns(of), strict=True))
+    thick = 16.0
+    for name, bore, r, turn in (
+        ("driven gear", 14.0, at["driven_radius_mm"], at["crank_deg"]),
+        ("driver gear", 16.0, at["driver_radius_mm"], at["input_deg"]),
+    ):
+        # trapezoids of a period by the input's angle, dturn = ratio dinput: exact beyond digits
+        slope = at["ratio"][:-1] if turn is at["crank_deg"] else np.ones(len(r) - 1)
+        step = mpmath.radians(360) / (len(r) - 1)
+        square, fourth = (
+            mpmath.fsum(mpmath.mpf(x) ** n * s for x, s in zip(r[:-1], slope, strict=True)) * step
+            for n in (2, 4)
+        )
+        swept = RHO * thick * np.array([float(square) / 2.0 * 1e-9, float(fourth) / 4.0 * 1e-15])
+        assert found(of, name) == pytest.approx(swept - disc(bore / 2.0, thick), rel=FITTED)
+
+
+def _columns(of):
+    table = gears_table(of.mechanism, 0.01, 1441)
+    return table.names, [np.asarray(column) for column in table.columns]
+
+
+def test_planet_and_sun_are_discs_with_their_holes():
+    """Radii from theory: the carrier R0 = L sin b (1 + 1/24), the planet R0/5, the sun 4 R0/5."""
+    of = design("epicyclic-z4")
+    R0 = 120.0 * math.sqrt(0.5) * 25.0 / 24.0
+    assert found(of, "planet") == pytest.approx(disc(R0 / 5.0, 12.0) - disc(6.0, 12.0), rel=1e-12)
+    sun, bore, bolt = 4.0 * R0 / 5.0, 13.5, 1.5
+    far = (sun + bore) / 2.0
+    holes = 4.0 * disc(bolt, 12.0)
+    holes[1] += holes[0] * far * far * 1e-6  # Steiner
+    whole = disc(sun, 12.0) - disc(bore, 12.0) - holes
+    assert found(of, "fixed gear") == pytest.approx(whole, rel=1e-12)
+
+
+def test_gear_sectors_are_hub_and_sectors():
+    """L = 120, u = 1: three sectors of 60 degrees on the wheel, one on the crank."""
+    of, r, hub, bore = design("gear-sector"), 60.0, 9.5, 6.0
+    for name, count in (("wheel gear", 3), ("crank gear", 1)):
+        share = count * 60.0 / 360.0
+        whole = share * disc(r, 12.0) + (1.0 - share) * disc(hub, 12.0) - disc(bore, 12.0)
+        assert found(of, name) == pytest.approx(whole, rel=1e-12)
+
+
+def test_sectors_are_where_gears_mesh():
+    """On the line of centres at mid-motion, each half its angle to both sides."""
+    bars = drawn_links(design("gear-sector").mechanism)
+    for gear, towards in zip(bars.gears, (math.pi, 0.0), strict=True):
+        toothed = [
+            piece
+            for piece in gear.plate.outline.segments
+            if isinstance(piece, Arc) and piece.radius == pytest.approx(60.0)
+        ]
+        ends = {round(math.degrees(math.atan2(p.start[1], p.start[0]) - towards)) % 360
+                for p in toothed}  # fmt: skip
+        assert 330 in ends  # half of 60 degrees before
+
+
+def test_a_ring_is_round_its_pitch_circle():
+    of = Design(External(6), RING)
+    (_, ring) = drawn_links(of.mechanism, of.parts).gears
+    (pitch, *bolts) = ring.plate.holes
+    # c = 1 - 2z/(z - 2) = -2: the planet has R0/2 and the ring three times that, R0 = 0.52 L
+    assert (ring.bore, pitch.radius) == (0.0, pytest.approx(78.0, rel=1e-14))
+    assert len(bolts) == 4
+    assert all(pitch.radius < math.hypot(*b.centre) - b.radius for b in bolts)
+    assert all(math.hypot(*b.centre) + b.radius < ring.outer for b in bolts)
+    whole = disc(ring.outer, 10.0) - disc(pitch.radius, 10.0)
+    far = math.hypot(*bolts[0].centre)
+    holes = 4.0 * disc(bolts[0].radius, 10.0)
+    holes[1] += holes[0] * far * far * 1e-6
+    assert found(of, "fixed gear") == pytest.approx(whole - holes, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "keys", [{}, {"gear_bolts": 5, "gear_bolt_mm": 4.0, "gear_bolt_circle_mm": 90.0}]
+)
+def test_the_screws_of_a_fixed_gear_are_in_the_frame(keys):
+    of = Design(External(4), SOFT, size=Size(**keys))
+    drawn = of.drawing("gears")
+    count = 5 if keys else 4
+    holes = {(round(s.centre[0] + 100.0, 9), round(s.centre[1], 9), s.radius)
+             for s in drawn.shapes if isinstance(s, Circle) and s.layer == "BORE"}  # fmt: skip
+    framed = {(round(s.centre[0], 9), round(s.centre[1], 9), s.radius)
+              for s in of.drawing("frame").shapes if isinstance(s, Circle)}  # fmt: skip
+    screws = {hole for hole in holes & framed if math.dist(hole[:2], (100.0, 0.0)) > 1.0}
+    assert len(screws) == count
+    if keys:
+        assert {round(math.dist(s[:2], (100.0, 0.0)), 6) for s in screws} == {45.0}
+        assert {s[2] for s in screws} == {2.0}
+
+
+def test_no_hole_is_twice_in_the_frame():
+    """The shaft of a wheel's gear is the wheel's."""
+    holes = [s for s in design("gear-sector").drawing("frame").shapes if isinstance(s, Circle)]
+    assert len({hole.centre for hole in holes}) == len(holes) == 6
+
+
+def test_rollers_on_links_are_listed_without_a_wheel():
+    parts = listed(design("gear-sector"))
+    assert (parts["roller"]["count"], parts["pin"]["count"]) == (2, 2)
+    assert parts["wheel's shaft"]["z_high_mm"] == 12.0  # through the wheel
+
+
+def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
+    """z = 3: the planet reaches 1.01 L from the crank's axis, below the wheel."""
+    of = Design(External(3), SOFT)
+    (check,) = (c for c in of.checks if c.name == "link_gap_mm")
+    R0 = 100.0 * math.sin(math.pi / 3.0) * 49.0 / 48.0
+    shaft = of.parts.sizes.wheel_bore
+    assert check.value == pytest.approx(100.0 - R0 - R0 / 7.0 - shaft, rel=1e-9)
+    assert not check.passes
+
+
+@pytest.mark.parametrize(
+    ("z", "drive", "keys", "said"),
+    [
+        (6, RING, {"gear_bolt_circle_mm": 150.0}, "fixed gear.*bolts are .*gear_bolt_circle_mm"),
+        (3, GearSector(sector_deg=60.0), {"link_bore_mm": 70.0}, "crank gear.*hub is .*link_bore"),
+    ],
+)
+def test_refusals(z, drive, keys, said):
+    with pytest.raises(GenevaError, match=said):
+        Design(External(z), drive, size=Size(**keys)).drawing("gears")
+
+
+def test_a_bore_that_leaves_no_noncircular_gear_is_refused():
+    of = design("elliptical-gears").with_("size.link_bore_mm", 71.0)
+    with pytest.raises(GenevaError, match=r"no blank of the driven gear.*below 70,.*link_bore_mm"):
+        gear_members(of.drawn(0.001))
+
+
+def test_a_blank_has_one_closed_outline():
+    for name in ("gear-sector", "epicyclic-z4"):
+        for gear in drawn_links(design(name).mechanism).gears:
+            outline = gear.plate.outline
+            if isinstance(outline, Contour):
+                assert outline.closed
+                for one, after in zip(outline.segments, outline.segments[1:], strict=False):
+                    assert one.end == after.start
