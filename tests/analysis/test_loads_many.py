@@ -91,6 +91,23 @@ def test_a_least_value_before_a_pole_is_found():
         assert least.min_at_deg[i] == pytest.approx(one.min_at_deg, abs=1e-4)
 
 
+def test_the_least_of_a_size_is_nothing():
+    """Where a motion begins and ends nothing presses, nor where the torque changes its sign.
+
+    Nearly free rollers were told to press by -0.4 N: at mid-motion the wall that friction alone
+    would hold had a limit from beside it. What is left is rounding of a torque's zero.
+    """
+    names = ("wheel_bearing_N", "crank_bearing_N")
+    for torque, of_each in ((0.0, (0, 3, 6)), (10.0, (0,))):
+        spec, varied, found = loaded("cycloidal", 12, 5, torque_Nm=torque)
+        together = summaries_of_many(found.machine, names, told=())
+        for row in of_each:
+            cycle = Cycle(alone(spec, varied, found.which[row]))
+            assert abs(ends_of(cycle, "wheel_bearing_N")[0].min) < 1e-10
+            assert [summaries(cycle)[load].min for load in names] == [0.0, 0.0]
+            assert [together[load].min[row] for load in names] == [0.0, 0.0]
+
+
 @pytest.mark.parametrize("name", MISSED)
 def test_what_was_stepped_over_is_found(name):
     """Dense samples pass no extreme of designs of which one was missed, together or one by one."""

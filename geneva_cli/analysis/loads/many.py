@@ -36,7 +36,7 @@ from geneva_cli.analysis.loads.loaded_many import (
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
 from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of, stretches_of
-from geneva_cli.analysis.loads.summary import rounded, shares
+from geneva_cli.analysis.loads.summary import ends_told, shares
 from geneva_cli.analysis.peaks_many import PeakOfMany
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
@@ -125,11 +125,7 @@ def summaries_of_many(
     for i, name in enumerate(sources):
         one = best[name]
         bounded = np.isfinite(one.max) & np.isfinite(one.min)
-        if name in SQUARED:
-            one = one._replace(
-                max=np.sqrt(np.maximum(one.max, 0.0)), min=np.sqrt(np.maximum(one.min, 0.0))
-            )
-        most, least = rounded(one.max, one.min)
+        most, least = ends_told(name, one.max, one.min)
         one = one._replace(max=most, min=least)
         if sums is not None:
             square = np.where(bounded, sums[i] / period, np.inf)

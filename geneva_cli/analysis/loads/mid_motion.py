@@ -65,8 +65,10 @@ def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1
                 there = (room > ZERO) & np.isfinite(known)
                 away = np.isinf(room) & np.isfinite(known)
                 out.append(Known(k, middle, np.where(away, known, np.nan)[:, 0]))
+                held = room < -ZERO  # on this side by friction alone, whatever the torque
                 for limit in limits:
-                    none = np.where(loaded, np.inf * row.way, limit[k])
+                    none = np.where(held, np.nan, limit[k])
+                    none = np.where(loaded, np.inf * row.way, none)
                     told = np.where(there, known, none)
                     told = np.where(crosses, told, np.nan) if way < 0.0 else told
                     out.append(Known(k, middle, told[:, 0]))

@@ -14,6 +14,8 @@ KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power 
 PRESSED = (STRESS, PV)  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
+# Those that are never negative.
+SIZES = (*SQUARED, "wheel_bearing_N")
 # Each quantity at an instant.
 QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: Row(i.omega_rad_s),

@@ -15,6 +15,7 @@ from geneva_cli.analysis.loads.means import Means, means_of, plain_of
 from geneva_cli.analysis.loads.quantities import (
     PRESSED,
     PV,
+    SIZES,
     SQUARED,
     STRESS,
     ends_of,
@@ -27,7 +28,7 @@ from geneva_cli.table import Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.jet import Array, Number
 
 PLACES = ("time_s", "input_deg", "wheel_deg")
 UNLOADED = (
@@ -126,10 +127,9 @@ def extremes(cycle: Cycle, names: Sequence[str]) -> list[Extremes]:
     of = {name: shares(cycle).get(name, (name, 1.0, ""))[:2] for name in names}
     sources = list(dict.fromkeys(source for source, _ in of.values()))
     rooted = dict(zip(sources, ends_of(cycle, *sources), strict=True))
-    for name in SQUARED:
-        if name in rooted:
-            one = rooted[name]
-            rooted[name] = one._replace(max=_root(one.max), min=_root(one.min))
+    for name, one in rooted.items():
+        most, least = (float(x) for x in ends_told(name, one.max, one.min))
+        rooted[name] = one._replace(max=most, min=least)
     return [
         rooted[source]._replace(max=rooted[source].max * share, min=rooted[source].min * share)
         for source, share in of.values()
@@ -137,15 +137,8 @@ def extremes(cycle: Cycle, names: Sequence[str]) -> list[Extremes]:
     ]
 
 
-def _root(square: float) -> float:
-    return math.sqrt(max(square, 0.0))
-
-
 def _summary(name: str, ends: Extremes, means: Means | None) -> Summary:
-    most, least = ends.max, ends.min
-    if name in SQUARED:
-        most, least = (_root(x) for x in (most, least))
-    most, least = (float(x) for x in rounded(np.array(most), np.array(least)))
+    most, least = (float(x) for x in ends_told(name, ends.max, ends.min))
     mean, square = means or (None, None)
     return Summary(
         None if math.isinf(most) else most,
@@ -157,12 +150,16 @@ def _summary(name: str, ends: Extremes, means: Means | None) -> Summary:
     )
 
 
-def rounded(most: Array, least: Array) -> tuple[Array, Array]:
-    """Greatest and least value, of one design or of many; 0 where one is rounding of the other."""
-    sizes = [np.where(np.isfinite(x), np.abs(x), 0.0) for x in (most, least)]
-    level = ZERO * np.maximum(*sizes)
-    first, last = (np.where(np.abs(x) > level, x, 0.0) for x in (most, least))
-    return first, last
+def ends_told(name: str, most: Number, least: Number) -> list[Array]:
+    """Greatest and least of a quantity from those of what is looked for; of many designs too.
+
+    Where the torque changes its sign, rounding may leave a size below 0. Of the two, 0 is told
+    where one is rounding of the other.
+    """
+    found = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
+    found = [np.sqrt(x) if name in SQUARED else x for x in found]
+    level = ZERO * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in found])
+    return [np.where(np.abs(x) > level, x, 0.0) for x in found]
 
 
 def reversals_deg(cycle: Cycle) -> list[float]:
