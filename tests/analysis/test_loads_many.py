@@ -104,8 +104,9 @@ def test_the_least_of_a_size_is_nothing():
         for row in of_each:
             cycle = Cycle(alone(spec, varied, found.which[row]))
             assert abs(ends_of(cycle, "wheel_bearing_N")[0].min) < 1e-10
-            assert [summaries(cycle)[load].min for load in names] == [0.0, 0.0]
-            assert [together[load].min[row] for load in names] == [0.0, 0.0]
+            for load in names:
+                assert 0.0 <= summaries(cycle)[load].min < 1e-10
+                assert 0.0 <= together[load].min[row] < 1e-10
 
 
 @pytest.mark.parametrize("name", MISSED)
