@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import reduce
 from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.roots import SCAN, TIE, Curve, extrema
+from geneva_cli.numerics.roots import SCAN, TIE, Curve, extrema, greatest_at
 from geneva_cli.table import Table, record_table, rows_table
 
 
@@ -142,20 +141,14 @@ def peaks(engagement: Engagement) -> Peaks:
     )
 
 
-def _greater(one: Peak, other: Peak) -> Peak:
-    """The greater of two sizes; of two that are one peak, where the first is."""
-    at_deg = other.at_deg if other.max > one.max * (1.0 + TIE) else one.at_deg
-    return Peak(max(one.max, other.max), at_deg)
-
-
 def worst(mechanism: Mechanism) -> Peaks:
     """The greatest peaks over all engagements; angles are the machine's input angles."""
     each = [placed(mechanism, s) for s in mechanism.engagements]
     return Peaks(
-        reduce(_greater, [e.velocity for e in each]),
-        reduce(_greater, [e.acceleration for e in each]),
-        reduce(_greater, [e.jerk for e in each]),
-        reduce(_greater, [e.power for e in each]),
+        Peak(*greatest_at([e.velocity for e in each])),
+        Peak(*greatest_at([e.acceleration for e in each])),
+        Peak(*greatest_at([e.jerk for e in each])),
+        Peak(*greatest_at([e.power for e in each])),
         Ends(*[max(values) for values in zip(*[e.ends for e in each], strict=True)]),
     )
 
@@ -163,7 +156,7 @@ def worst(mechanism: Mechanism) -> Peaks:
 def worst_of(mechanism: Mechanism, quantity: str) -> Peak:
     """The greatest peak of one quantity over all engagements, at the machine's input angle."""
     each = [_placed(mechanism, s, _peak(s.motion, quantity)) for s in mechanism.engagements]
-    return reduce(_greater, each)
+    return Peak(*greatest_at(each))
 
 
 def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:

@@ -170,7 +170,7 @@ def _part(
     return found
 
 
-def _greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
+def greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
     """The greater of two sizes; of two that are one peak, where the first is."""
     more = other.max > first.max * (1.0 + TIE)
     return PeakOfMany(
@@ -188,5 +188,5 @@ def worst_of_many(
         for name, found in peaks_of_many(engagement.motion, quantities).items():
             at_deg = engagement.mid_deg + parameter(found.at_deg[:, None])
             here = PeakOfMany(found.max, np.ravel(mechanism.shown_deg(at_deg)))
-            best[name] = _greater(best[name], here) if name in best else here
+            best[name] = greater(best[name], here) if name in best else here
     return best

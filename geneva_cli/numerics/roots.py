@@ -131,15 +131,16 @@ class Falsi:
             self.left *= 0.5 if self._stayed < -1 else 1.0
 
 
-def first_greatest(values: Sequence[float]) -> int:
-    """Which of some values is the greatest; of some that are one but for rounding, the first.
+def greatest_at(found: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """The greatest of some values, each with its place: of some that are one but for rounding, the
+    first has the place, whichever has the last digits.
 
-    >>> first_greatest([1.0, 3.0, 3.0000000000000004])
-    1
+    >>> greatest_at([(1.0, 10.0), (3.0, 20.0), (3.0000000000000004, 30.0)])
+    (3.0000000000000004, 20.0)
     """
-    most = max(values)
+    most = max(value for value, _ in found)
     bar = most - TIE * abs(most) if math.isfinite(most) else most
-    return next(i for i, value in enumerate(values) if value >= bar)
+    return most, next(place for value, place in found if value >= bar)
 
 
 def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import smaller
-from geneva_cli.numerics.roots import boundary_by_sections, first_greatest
+from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
     # a groove is as steep before the motion as after it: from the middle of the dwell on
     places = sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops])
     found = [_steepest(groove, x) for x in places]
-    tangent, at_deg = found[first_greatest([top for top, _ in found])]
+    tangent, at_deg = greatest_at(found)
     return math.degrees(math.atan(tangent)), at_deg
 
 

@@ -7,6 +7,11 @@ import pytest
 from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.analysis.loads import loads
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
+from geneva_cli.analysis.loads.quantities import ends_of, ends_of_each
+from geneva_cli.machine import registry
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -88,3 +93,25 @@ def test_power_closes_over_a_cycle() -> None:
     torque = [loads.state(mechanism, engagement, float(60.0 * t)).input_torque_Nm for t in x]
     work = float(np.dot(torque, weights)) * math.radians(60.0)
     assert work == pytest.approx(497.0 * math.pi / 3.0, rel=1e-13)  # quadrature of smooth curves
+
+
+def test_the_greatest_of_two_that_are_nearly_one() -> None:
+    """Nearer than 1e-13 the first has the place and the greater the size, of one and of many.
+
+    To 2e-14, since those of many are known to 32 units in the last place: the first's size is less
+    by 5.5e-14.
+    """
+    drive = registry.drive("side-crank")(A=0.3, roller_angles_deg=(0.0, 120.0, 240.0 - 5e-12))
+    spec = Spec(Wheel(3), drive, size=Size(100.0), load=Load(1.0))
+    m, force, bearing = build(spec), "pin_force_N", "wheel_bearing_N"
+    first, second = ends_of_each(Cycle(m), bearing)[1:]
+    assert first.max * (1.0 + 5e-14) < second.max < first.max * (1.0 + 1e-13)
+    together = many(spec, {"drive.A": np.array([0.3])}).machine
+    for most, at_deg in (
+        ends_of(Cycle(m), bearing)[0][:2],
+        loads.greatest(m, force),
+        [v[0] for v in summaries_of_many(together, [bearing], told=())[bearing][:2]],
+        [v[0] for v in greatest_of_many(together, [force])[force]],
+    ):
+        assert most == pytest.approx(second.max, rel=2e-14)
+        assert at_deg == pytest.approx(first.max_at_deg, abs=1e-6)

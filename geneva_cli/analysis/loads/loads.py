@@ -19,7 +19,7 @@ from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.roots import TIE, first_greatest
+from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.spec.tables import Limits
 
 if TYPE_CHECKING:
@@ -79,12 +79,11 @@ def greatest(mechanism: Mechanism, quantity: str) -> Greatest:
 
 
 def _over_all(mechanism: Mechanism, given: Setting, quantity: str) -> Greatest:
-    best = Greatest(0.0, 0.0)
+    found = [(0.0, 0.0)]
     for engagement in mechanism.engagements:
-        found = _greatest(engagement, given)[quantity]
-        if found.max > best.max * (1.0 + TIE):
-            best = Greatest(found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg))
-    return best
+        size, at_deg = _greatest(engagement, given)[quantity]
+        found.append((size, mechanism.shown_deg(engagement.mid_deg + at_deg)))
+    return Greatest(*greatest_at(found))
 
 
 @lru_cache(maxsize=256)
@@ -116,7 +115,7 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
     return {
         "torque_Nm": torque,
         "pin_force_N": force,
-        "input_torque_Nm": shafts[first_greatest([found.max for found in shafts])],
+        "input_torque_Nm": Greatest(*greatest_at(shafts)),
         "contact_stress_MPa": force if square and math.isinf(force.max) else stress,
         "pressure_deg": pressure,
     }

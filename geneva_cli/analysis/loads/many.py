@@ -37,7 +37,7 @@ from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
 from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of, stretches_of
 from geneva_cli.analysis.loads.summary import ends_told, shares
-from geneva_cli.analysis.peaks_many import PeakOfMany
+from geneva_cli.analysis.peaks_many import PeakOfMany, greater
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -88,7 +88,7 @@ def greatest_of_many(
     for found, at_deg, _ in _over_all(mechanism, sought, sized=True, told=(), own=own):
         for name, most, at in zip(sought, found, at_deg, strict=True):
             here = PeakOfMany(most, at)
-            best[name] = _greater(best[name], here) if name in best else here
+            best[name] = greater(best[name], here) if name in best else here
     out = {}
     for name, source in lent.items():
         one = best[source]
@@ -264,19 +264,13 @@ def _powers(load: Loaded, state: At, signs: Array | None, plain: bool) -> Array:
     return out
 
 
-def _greater(one: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
-    """The greater of two peaks; of two that are one the first."""
-    more = other.max > one.max * (1.0 + TIE)
-    return PeakOfMany(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))
-
-
 def _outer(one: SummaryOfMany, other: SummaryOfMany) -> SummaryOfMany:
-    """The greater maximum and the lesser minimum; of two that are one the first."""
+    """The greater maximum and the lesser minimum; of two that are one, where the first is."""
     more = other.max > one.max + np.where(np.isfinite(one.max), TIE * np.abs(one.max), 0.0)
     less = other.min < one.min - np.where(np.isfinite(one.min), TIE * np.abs(one.min), 0.0)
     return SummaryOfMany(
-        np.where(more, other.max, one.max),
+        np.maximum(one.max, other.max),
         np.where(more, other.max_at_deg, one.max_at_deg),
-        np.where(less, other.min, one.min),
+        np.minimum(one.min, other.min),
         np.where(less, other.min_at_deg, one.min_at_deg),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
 from geneva_cli.analysis.loads.forces import Row
-from geneva_cli.numerics.roots import first_greatest
+from geneva_cli.numerics.roots import greatest_at
 
 FORCE = "pin_force_N"
 STRESS = "contact_stress_MPa"
@@ -60,6 +60,6 @@ def ends_of_each(cycle: Cycle, name: str) -> list[Extremes]:
 
 def _of_all(each: list[Extremes]) -> Extremes:
     """The greatest maximum and the least minimum, of equal ones the first."""
-    most = each[first_greatest([one.max for one in each])]
-    least = each[first_greatest([-one.min for one in each])]
-    return Extremes(most.max, most.max_at_deg, least.min, least.min_at_deg)
+    most, most_at_deg = greatest_at([(one.max, one.max_at_deg) for one in each])
+    least, least_at_deg = greatest_at([(-one.min, one.min_at_deg) for one in each])
+    return Extremes(most, most_at_deg, -least, least_at_deg)

@@ -24,7 +24,7 @@ from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.peaks import maxima
 from geneva_cli.numerics.arrays import only_of, parameter
-from geneva_cli.numerics.roots import TIE
+from geneva_cli.numerics.roots import greatest_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -139,12 +139,12 @@ def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
         i = Instant(known, at, *signs)
         return [one(i, at) for one in wanted]
 
-    both, at_deg, most = -1.0, 0.0, 0.0
+    every, most = [], 0.0
     for engagement in mechanism.engagements:
-        found, turned = maxima(engagement, known, rows)
+        (size, at_deg), turned = maxima(engagement, known, rows)
+        every.append((size, mechanism.shown_deg(engagement.mid_deg + at_deg)))
         most = max(most, turned.max)
-        if found.max > both * (1.0 + TIE):
-            both, at_deg = found.max, mechanism.shown_deg(engagement.mid_deg + found.at_deg)
+    both, at_deg = greatest_at(every)
     moment, _, *rest = only_of(_turned(mechanism, ends, np.array([both]), at_deg, most))
     assert moment is not None
     return Turned(moment, at_deg, *rest)
