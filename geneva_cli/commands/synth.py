@@ -100,12 +100,13 @@ def run(
     nearest to the plain crank (a four-bar: the gentlest, of the plain crank's motion if it can).
 
     Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
-    tenth of the centre distance aside; a side-crank; equal elliptical gears; a planet gear (z 3, 4,
-    6); a four-bar's coupler; curved slots and a cam, with an extra dwell. Side-crank, gears, planet
-    and four-bar carry one roller, straight slots as many as leave a dwell, curved slots and cams
-    also more while their parts can be built. Where a range has no other end, a hundredth of the
-    cycle is left to motion and to dwell. --law all takes seconds more.
-    Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes the motion.
+    tenth of the centre distance aside, or as far as a bound or --sort has them; a side-crank; equal
+    elliptical gears; a planet gear (z 3, 4, 6); a four-bar's coupler; curved slots and a cam, with
+    an extra dwell. Side-crank, gears, planet and four-bar carry one roller, straight slots as many
+    as leave a dwell, curved slots and cams also more while their parts can be built. Where a range
+    has no other end, a hundredth of the cycle is left to motion and to dwell. --law all takes
+    seconds more. Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes
+    the motion.
 
     The four-bar is the best found among proportions whose crank turns all round, whose joints keep
     to --space and whose roller passes the wheel on its way back; where --sort or a bound is not on

@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.text import chunks
-from geneva_cli.spec.tables import Limits
+from geneva_cli.spec.tables import Limits, Load
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.reading import SPANS, read_wish, span
 from geneva_cli.study.synthesis.search import search
@@ -286,3 +286,72 @@ def test_a_hundred_columns_hold_it(options, terminal):
     plain = [line.replace("\x1b[1m", "").replace("\x1b[0m", "") for line in lines]
     assert max(map(len, plain)) <= 100
     assert {"no", "machine", "parts"} <= set(table.names)
+
+
+def dense(spec, key, values, names):
+    """Quantities of a dense sweep, (n,) each."""
+    found = many(spec, {key: np.asarray(values)})
+    return columns(found.machine, names, len(found.which))
+
+
+def test_slots_are_as_far_aside_as_a_bound_wants():
+    """With e = cos b sin d the entry is sin b cos d / cos(b - d): a half where d = 30° - d."""
+    wish = {"motion_deg": "120", "z": "6", "external": True, "rollers": 1}
+    found = rows(**wish, subject_to=["acceleration.entry <= 0.5"])
+    (row,) = [r for r in found if r.spec.wheel.offset_mm]
+    aside = 100.0 * math.cos(math.pi / 6.0) * math.sin(math.radians(15.0))
+    assert row.spec.wheel.offset_mm == pytest.approx(aside, rel=1e-3)
+    assert row.candidate.acceleration_entry <= 0.5 * (1 + 1e-12)
+    # the other way aside the exit is the gentler end
+    found = rows(**wish, subject_to=["acceleration.exit <= 0.5"])
+    (row,) = [r for r in found if r.spec.wheel.offset_mm]
+    assert row.spec.wheel.offset_mm == pytest.approx(-aside, rel=1e-3)
+
+
+def test_any_motion_within_a_band_of_a_few_thousandths():
+    """Two bounds leave a side-crank 5.6e-4 of the 2 that A runs through, in any motion."""
+    bounds = ["velocity.max <= 1.3737", "acceleration.exit <= 0.15002"]
+    spec = Spec(Wheel(11, "internal"), Drive("side-crank"), Keys("side-crank", 0.1))
+    names = ["velocity.max", "acceleration.exit"]
+    speed, exit_ = dense(spec, "drive.A", np.linspace(-0.9999, 0.9999, 20001), names)
+    assert 4 <= ((speed <= 1.3737) & (exit_ <= 0.15002)).sum() <= 6
+    found = rows(z="11", internal=True, rollers=1, subject_to=bounds)
+    assert "side-crank" in {r.candidate.drive for r in found}
+
+
+def test_the_best_that_a_bound_leaves_beside_the_end_of_a_range():
+    """A bound that is kept by the last place looked at alone: gentler ones are nearer to it."""
+    frame = Spec(Wheel(6), load=Load(inertia_kgm2=0.4, torque_Nm=15.0))
+    bound = "loads.input_torque_Nm.max"
+    found = rows(
+        frame=frame,
+        motion_deg="100..200",
+        internal=True,
+        rollers=1,
+        subject_to=[f"{bound} <= 10"],
+    )
+    (side,) = [r for r in found if r.candidate.drive == "side-crank"]
+    names = ["acceleration.max", "timing.motion_deg", bound]
+    peak, motion, torque = dense(side.spec, "drive.A", np.linspace(-0.45, -0.35, 4001), names)
+    fits = (motion >= 100.0) & (motion <= 200.0) & (torque <= 10.0)
+    assert side.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
+
+
+def test_a_refusal_says_how_near_the_nearest_come():
+    """What no machine keeps: the nearest value is the least of dense sweeps, not of some row's."""
+    wish = {"motion_deg": "..160", "z": "6", "spherical": True, "rollers": 1}
+    with pytest.raises(GenevaError, match="nearest") as refused:
+        rows(**wish, subject_to=["power.max <= 0.2"])
+    wheel, peaks = Wheel(6, "spherical"), []
+    for drive, key, values in (
+        ("side-crank", "drive.A", np.linspace(-0.9, 0.9, 1801)),
+        ("crank", "wheel.axes_deg", np.linspace(30.0, 90.0, 1801)),
+    ):
+        keys = Keys(drive, 0.1) if drive != "crank" else {}
+        power, motion = dense(
+            Spec(wheel, Drive(drive), keys), key, values, ["power.max", "timing.motion_deg"]
+        )
+        peaks.append(power[motion <= 160.0].min())
+    nearest = float(str(refused.value).rpartition("nearest ")[2].rstrip(")"))
+    assert nearest == pytest.approx(min(peaks), rel=2e-3)
+    assert nearest <= min(peaks) * (1 + 1e-5)

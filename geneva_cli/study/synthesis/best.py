@@ -2,8 +2,8 @@
 
 The best has the least peak acceleration, or the least of what the wish sorts by; the nearest to
 the plain crank is taken where any motion will do. All families are looked at together: at places
-evenly between their ends, then nearer and nearer about the best of each, or about the place where
-a bound is just kept.
+evenly between their ends, then nearer and nearer about those of each that are better than the
+places beside them, or about the place where a bound is just kept.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from geneva_cli.study.synthesis.wish import PEAK
 
 PLACES = 24  # intervals of a family's span that are looked at first
 LOOKS, CLOSER = 8, 3  # times that the look is narrowed, and by how much: a least value is flat
-BROKEN = 4  # of these, after which a family that has broken its bounds so far is given up
+TRACKS = 3  # of a family: places better than those beside them that are looked about
+HOPELESS = 2.0  # times what bounds are broken by less than beside a place: more, nothing near mends
 TINY = 1e-300  # what a bound that is broken by no more than rounding counts
 FORGIVEN = 1e-200  # what rounding adds up to at most
 SAME = 1e-4  # share of a span, nearer than which the best is another family's machine
@@ -35,29 +36,31 @@ def best(
     bounds: Sequence[Constraint] = (),
     nearest: bool = False,
     least: str = "",
-) -> list[Spec]:
-    """One spec of each family; none of one that has no machine, or none within the bounds.
+    how_near: bool = False,
+) -> tuple[list[Spec], list[Spec]]:
+    """One spec of each family that has a machine within the bounds; of the others that which breaks
+    them least, with ``how_near`` to the last digit.
 
     ``bounds``, and what is to be the ``least`` (with a minus sign the greatest), are quantities
-    that ``together`` knows. Where no place of a family keeps them, the look goes on about the one
-    that breaks them least.
+    that ``together`` knows.
     """
     free = [f for f in families if f.low < f.high]
-    search = _Search(free, bounds, nearest and not least, least)
+    search = _Search(free, bounds, nearest and not least, least, how_near)
     if search.nearest:
         search.look([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
     search.look([(i, x) for i, f in enumerate(free) if not search.done(i) for x in _first(f)])
+    search.begin()
     for look in range(LOOKS):
-        search.look([at for i in search.found for at in search.beside(i, look)])
+        search.nearer(look)
     chosen = {id(f): search.found.get(i, NONE) for i, f in enumerate(free)}
-    out = []
+    kept: list[Spec] = []
+    broken: list[Spec] = []
     for f in families:
         place = chosen.get(id(f), Candidate(0.0, 0.0, f.low))
         known = abs(place.x - f.known) <= SAME * (f.high - f.low)
-        spec = None if known or place.broken >= FORGIVEN else _made(f, place.x)
-        if spec is not None:
-            out.append(spec)
-    return out
+        if not known and (spec := _made(f, place.x)):
+            (broken if place.broken >= FORGIVEN else kept).append(spec)
+    return kept, broken
 
 
 def _first(f: Family) -> list[float]:
@@ -79,6 +82,14 @@ class Candidate(NamedTuple):
 NONE = Candidate(math.inf, math.inf, math.nan)
 
 
+class Tried(NamedTuple):
+    """A place of a family that was looked at, and the room that the bounds leave there."""
+
+    x: float
+    room: float
+    candidate: Candidate
+
+
 class _Search:
     """The best place so far of each family, by its number."""
 
@@ -87,44 +98,70 @@ class _Search:
         families: Sequence[Family],
         bounds: Sequence[Constraint],
         nearest: bool,
-        least: str = "",
+        least: str,
+        patient: bool,
     ) -> None:
         self.families, self.bounds, self.nearest = families, bounds, nearest
+        self.patient = patient  # also about places that no step nearby makes keep the bounds
         self.least, self.sign = least.lstrip("-") or PEAK, -1.0 if least[:1] == "-" else 1.0
         self.found: dict[int, Candidate] = {}
-        # of each family all places looked at, in order, with the room that the bounds leave there
-        self.rooms: list[list[tuple[float, float]]] = [[] for _ in families]
+        # of each family all places looked at, in order
+        self.tried: list[list[Tried]] = [[] for _ in families]
+        self.tracks: list[tuple[int, Candidate]] = []
 
     def done(self, i: int) -> bool:
         """Whether a family's best place cannot be bettered."""
         place = self.found.get(i, NONE)
         return self.nearest and not place.broken and place.far == 0.0
 
-    def beside(self, i: int, look: int) -> list[tuple[int, float]]:
-        """Places beside a family's best, nearer at each look; none where it can get no better."""
-        f, (broken, _, x) = self.families[i], self.found[i]
+    def begin(self) -> None:
+        """Take of each family the best of the places that are better than those beside them."""
+        for i, tried in enumerate(self.tried):
+            places = [one.candidate for one in tried]
+            beside = zip(places, [NONE, *places], [*places[1:], NONE], strict=False)
+            tops = [at for at, one, two in beside if at <= min(one, two)]
+            self.tracks += [(i, at) for at in sorted(tops)[:TRACKS]]
+
+    def nearer(self, look: int) -> None:
+        """Look beside the best of every track, nearer at each look."""
+        places = [self._beside(i, at, look) for i, at in self.tracks]
+        seen = iter(
+            self.look([(i, x) for (i, _), xs in zip(self.tracks, places, strict=True) for x in xs])
+        )
+        self.tracks = [
+            (i, min([at, *(next(seen) for _ in xs)]))
+            for (i, at), xs in zip(self.tracks, places, strict=True)
+        ]
+
+    def _beside(self, i: int, best: Candidate, look: int) -> list[float]:
+        """Places beside the best of a track; none where it can get no better."""
+        f, (broken, _, x) = self.families[i], best
         if self.done(i):
             return []
-        if self.nearest and f.plain == f.plain:
-            if not broken:
-                return [(i, at) for at in self._crossing(i)]
-            if look >= BROKEN:
+        if self.nearest and f.plain == f.plain and not broken:
+            return self._crossing(i, x)
+        end = x in (f.low, f.high)
+        if look or not end:
+            places = self.tried[i]
+            at = bisect_left(places, (x, -math.inf))
+            beside = [one.candidate.broken for one in places[max(at - 1, 0) : at + 2]]
+            if broken and not self.patient and broken > HOPELESS * (max(beside) - broken):
                 return []
-        # one that is still best at an end of its span, looked at nearer there, is best there
-        if look and x in (f.low, f.high):
-            return []
+            # one that is still best at an end of its span, looked at nearer there, is best there
+            if end and not any(beside):
+                return []
         step = _step(f) / CLOSER**look
         near = [x + step * j / CLOSER for j in range(1 - CLOSER, CLOSER) if j]
-        return [(i, at) for at in near if f.low <= at <= f.high]
+        return [at for at in near if f.low <= at <= f.high]
 
-    def _crossing(self, i: int) -> list[float]:
+    def _crossing(self, i: int, x: float) -> list[float]:
         """Places about the one where the bounds are just kept, on the way to the plain crank."""
-        f, places, x = self.families[i], self.rooms[i], self.found[i].x
+        f, places = self.families[i], self.tried[i]
         at = bisect_left(places, (x, -math.inf))
         beside = at + (1 if f.plain > x else -1)
         if not 0 <= beside < len(places):
             return []
-        (a, kept), (b, broken) = places[at], places[beside]
+        (a, kept, _), (b, broken, _) = places[at], places[beside]
         wide = (b - a) / (f.high - f.low)
         if abs(wide) <= CLOSE or not broken < 0.0 <= kept < math.inf:
             return []
@@ -134,24 +171,33 @@ class _Search:
         tried = {line - about, line, line + about, 0.5 * (a + b)}
         return [at for at in tried if low < at < high]
 
-    def look(self, places: Sequence[tuple[int, float]]) -> None:
-        """Look at these places of the families too."""
-        tried = [(i, x, spec) for i, x in places if (spec := _made(self.families[i], x))]
-        specs = [spec for _, _, spec in tried]
+    def look(self, places: Sequence[tuple[int, float]]) -> list[Candidate]:
+        """Look at these places of the families too: what is there, ``NONE`` where nothing is."""
+        specs = [_made(self.families[i], x) for i, x in places]
+        rows = iter(self._numbers([spec for spec in specs if spec]))
+        found = []
+        for (i, x), spec in zip(places, specs, strict=True):
+            row = next(rows) if spec else None
+            found.append(self._add(i, x, row) if row and row[0] == row[0] else NONE)
+        return found
+
+    def _numbers(self, specs: Sequence[Spec]) -> Sequence[Sequence[float] | None]:
         rows = numbers(specs, [self.least, *(b.name for b in self.bounds)])
         if self.bounds or self.least != PEAK:  # what no array of machines has, is asked for later
             without = iter(
                 numbers([s for s, row in zip(specs, rows, strict=True) if not row], [PEAK])
             )
             rows = [row or next(without) for row in rows]
-        for (i, x, _), row in zip(tried, rows, strict=True):
-            if row is None or row[0] != row[0]:
-                continue
-            plain = self.families[i].plain
-            far = abs(x - plain) if self.nearest and plain == plain else self.sign * row[0]
-            broken, room = self._broken(row[1:])
-            self.found[i] = min(self.found.get(i, NONE), Candidate(broken, far, x))
-            insort(self.rooms[i], (x, room))
+        return rows
+
+    def _add(self, i: int, x: float, row: Sequence[float]) -> Candidate:
+        plain = self.families[i].plain
+        far = abs(x - plain) if self.nearest and plain == plain else self.sign * row[0]
+        broken, room = self._broken(row[1:])
+        candidate = Candidate(broken, far, x)
+        self.found[i] = min(self.found.get(i, NONE), candidate)
+        insort(self.tried[i], Tried(x, room, candidate))
+        return candidate
 
     def _broken(self, values: Sequence[float]) -> tuple[float, float]:
         """By how much the bounds are broken together, over their sizes; the least room."""

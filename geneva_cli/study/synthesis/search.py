@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -35,14 +36,10 @@ class FoundRows(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """What one kind of machine has for a wish.
-
-    ``keeps`` says whether some machine keeps the bounds; ``broken`` are those that do not.
-    """
+    """What one kind of machine has for a wish, and whether some machine keeps the bounds."""
 
     rows: list[Row]
     keeps: bool
-    broken: list[Spec]
     reached: list[float]
     errors: list[str]
 
@@ -56,10 +53,10 @@ def search(wish: Wish) -> FoundRows:
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
     parts = _parts(wish)
+    if not any(part.keeps for part in parts):  # a refusal says how near they come
+        parts = _parts(wish, how_near=True)
     errors = [error for part in parts for error in part.errors]
     found = [row for part in parts for row in part.rows]
-    if not any(part.keeps for part in parts):  # a refusal says how near they come
-        found += _rows(wish, [spec for part in parts for spec in part.broken], errors)
     if not found:
         reached = [peak for part in parts for peak in part.reached]
         raise GenevaError(_out_of_reach(wish, reached, errors))
@@ -69,23 +66,26 @@ def search(wish: Wish) -> FoundRows:
     return FoundRows(found, wanted.names)
 
 
-def _parts(wish: Wish) -> list[_Part]:
+def _parts(wish: Wish, how_near: bool = False) -> list[_Part]:
     """What each kind of machine has, by all cores; the laws, which take longest, begin."""
     tasks = kinds(wish)[::-1]
     many = len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
     workers = min(len(tasks), cores()) if many else 1
-    return [*mapped(_part, tasks, workers, "machines")][::-1]
+    part = partial(_part, how_near=how_near)
+    return [*mapped(part, tasks, workers, "machines")][::-1]
 
 
-def _part(task: tuple[Kind, Wish]) -> _Part:
+def _part(task: tuple[Kind, Wish], how_near: bool) -> _Part:
     kind, wish = task
     reached: list[float] = []
     errors: list[str] = []
     bounds = [b for b in wish.limits if in_arrays([b.name])]
     least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
-    one_each = best([*families(kind, wish, reached)], bounds, wish.any_motion, least)
+    of_kind = [*families(kind, wish, reached)]
+    one_each, near = best(of_kind, bounds, wish.any_motion, least, how_near)
     keeps, kept, broken = _apart(bounds, [*dict.fromkeys(one_each)])
-    return _Part(_rows(wish, kept, errors), keeps, broken, reached, errors)
+    shown = [*kept, *broken, *near] if how_near else kept
+    return _Part(_rows(wish, shown, errors), keeps, reached, errors)
 
 
 def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:

@@ -19,7 +19,14 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.curved import cam, curved, more_rollers, standard
 from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
-from geneva_cli.study.synthesis.families.straight import driven, gears, plain, planets, side_crank
+from geneva_cli.study.synthesis.families.straight import (
+    aside,
+    driven,
+    gears,
+    plain,
+    planets,
+    side_crank,
+)
 from geneva_cli.study.synthesis.wish import Wish
 
 # velocities at which curved slots inside cannot be, where R/L is 1, and can be: R/L is 9/11
@@ -33,6 +40,8 @@ def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Ite
     """
     for wheel in wheels:
         yield from map(only, _specs(wish, wheel, reached))
+        for m in rollers(wish, natural_deg(wheel)):
+            yield from aside(wish, wheel, m)
         if not wheel.FLAT:
             yield from driven(wish, wheel)
         if wish.rollers in (None, 1):

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 ORDERS = {"velocity": 1, "acceleration": 2, "power": 2, "jerk": 3}
 UNITS = {f"{told}_{unit}": power for power, unit in RATES.values() for told in ("max", "entry")}
+ENDS = {"entry": 0, "exit": -1}  # at which place of the motion
 SPARE = 1e-4  # share by which bounds are kept, for what lies between the places
 
 
@@ -40,7 +41,8 @@ class Costs(NamedTuple):
         value = self.derivatives[ORDERS[group]]
         if group == "power":
             value = value * self.derivatives[1]
-        size = np.abs(value[:, 0]) if told.startswith("entry") else top(np.abs(value))
+        ended = told.partition("_")[0] in ENDS
+        size = np.abs(value[:, ENDS[told.partition("_")[0]]]) if ended else top(np.abs(value))
         if told in UNITS:
             size = size * (self._n_rpm() * (math.pi / 30.0)) ** UNITS[told]
         return size
@@ -64,8 +66,8 @@ def is_known(name: str) -> bool:
     group, _, told = name.partition(".")
     if group == "timing":
         return told in Timing._fields
-    ended = told.startswith("entry")
-    whole = told in ("max", "entry") or told in UNITS
+    ended = told.partition("_")[0] in ENDS
+    whole = told == "max" or told in ENDS or told in UNITS
     return group in ORDERS and whole and not (ended and group in ("velocity", "power"))
 
 

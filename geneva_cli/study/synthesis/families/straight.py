@@ -45,7 +45,7 @@ def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         motion = wanted(wish, m, natural)
         if holds(motion, natural):
             yield only(plain(wish, wheel, m))
-            yield from _aside(wish, wheel, m)
+            yield from aside(wish, wheel, m)
             if m == 1:
                 yield from planets(wish, wheel, natural)
     yield from driven(wish, wheel)
@@ -57,13 +57,21 @@ def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
     return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
 
 
-def _aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
-    """Slots that miss the wheel's centre by a tenth of the centre distance: a gentler entry."""
+def aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
+    """Slots that miss the wheel's centre by a tenth of the centre distance: a gentler entry. Where
+    the wish has bounds, or something else is to be least, also by any other part of it.
+    """
     if "offset_mm" not in wheel.as_dict():
         return
     spec = plain(wish, wheel, m)
-    e = spec.given_distance_mm * ASIDE
-    yield Family(lambda x: spec.with_("wheel.offset_mm", e))
+
+    def make(e: float) -> Spec:
+        return spec.with_("wheel.offset_mm", spec.given_distance_mm * e)
+
+    yield Family(lambda x: make(ASIDE))
+    if wish.limits or wish.sort:
+        widest = closed.MOST * wheel.step.sin_cos[1] ** 2
+        yield Family(make, -widest, widest, known=0.0, plain=ASIDE)
 
 
 def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
