@@ -59,13 +59,14 @@ jam: .venv/dev
 	$(BIN)/pip install --quiet "pymunk>=7,<8"
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
-# A million random specs, 20,000 machines with parts, 100,000 wheels of ever larger clearance, 20,000
-# outlines with a kerf; hours.
+# A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 100,000 wheels of ever
+# larger clearance, 20,000 outlines with a kerf; hours.
 # Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
 fuzz: .venv/dev
 	@mkdir -p build
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_spec.py --runs 1000000 --jobs 2 --state build/fuzz-specs.json
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_sheets.py --runs 10000 --jobs 2 --state build/fuzz-sheets.json
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
 	PYTHONPATH=tests:tests/machine:tests/curves $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
 

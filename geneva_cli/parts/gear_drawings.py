@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 PITCH, BORE = "PITCH", "BORE"
 NAMES = "driven gear", "driver gear"
+THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis goes round no shaft
 # Of the axes' distance: what the curves are fitted to at the coarsest. Teeth are spaced along both
 # of them, and so their lengths must agree, better than to 1e-9.
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
@@ -73,6 +74,7 @@ def _round_gears(proof: Proof) -> Drawing:
 def pitch_curves(mechanism: Mechanism, tolerance: float, curves: str) -> tuple[Contour, Contour]:
     """Those of driven gear and driver as they mesh at input angle 0, to a tolerance in mm."""
     pair = required_gears(mechanism)
+    pitch_radii(pair)  # or there are no gears
     sense = crank_sense(mechanism)
     driven, driver = (
         closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, tolerance))
@@ -125,10 +127,20 @@ def gear_members(proof: Proof) -> tuple[Member, ...]:
 
 
 def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The least and the greatest radius of the pitch curves of driven gear and driver, mm."""
+    """The least and the greatest radius of the pitch curves of driven gear and driver, mm.
+
+    Raises GenevaError where one comes as near to its axis as no gear can.
+    """
     ratio = array(ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0].c[0])
     C = pair.distance_mm
     driven, driver = C / (1.0 + ratio), C * ratio / (1.0 + ratio)
+    for name, r in zip(NAMES, (driven, driver), strict=True):
+        if r.min() < THIN * C:
+            raise GenevaError(
+                f"the pitch curve of the {name} comes within {r.min():.3g} mm of its axis: that is "
+                f"no gear; a ratio that changes less keeps it {THIN * C:.3g} mm from there",
+                ("drive", "kind"),
+            )
     return (
         (float(driven.min()), float(driven.max())),
         (float(driver.min()), float(driver.max())),

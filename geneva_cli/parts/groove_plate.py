@@ -13,12 +13,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Member, Plate, plates
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.drawings import groove
+from geneva_cli.parts.groove import groove_curve
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
@@ -26,6 +26,7 @@ from geneva_cli.parts.sizes import even
 
 HOLES, RIM = "BORE", 1.5  # of the roller's radius: round the groove, where there is room
 MOUNTS = 4
+SAMPLES = 3601  # input angles of a turn: the farthest place is known to its square
 TOLERANCE = 1e-3  # mm, of the flanks where nobody asks for another: that of a drawing
 
 
@@ -70,7 +71,7 @@ def _plates(
     follower = next(
         m.part for m in bars.joined if isinstance(m.part, Plate) and m.part.name.endswith("groove")
     )
-    far, wall = _reach(outer), sizes.wall_min
+    far, wall = _farthest(found), sizes.wall_min
     room = L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     rim = min(max(RIM * sizes.roller, 4.0 * wall), room)
     if rim < 4.0 * wall:
@@ -97,14 +98,20 @@ def _plates(
     )
 
 
-def _reach(flank: Contour) -> float:
-    """The farthest place of a flank from the crank's axis: at the ends of its pieces, nearly.
+def _farthest(found: Outlines) -> float:
+    """How far the groove goes from the crank's axis: half its width beyond its farthest middle.
 
-    Arcs bulge beyond their ends by less than what the box about the flank does.
+    There a flank is square to the ray. However coarsely it is drawn, its plate has one size.
     """
-    box = bounds(flank)
-    ends = np.array([piece.start for piece in flank.segments])
-    return max(float(np.hypot(*ends.T).max()), *map(abs, box))
+    guide = found.assembly.rollers[0][0].groove
+    assert guide is not None  # or there were no plate
+    at, _ = groove_curve(guide, found.assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
+    return float(np.hypot(*at.T).max()) + found.sizes.half_width
+
+
+def _reach(flank: Contour) -> float:
+    """The farthest end of a flank's pieces from the crank's axis: which flank is the outer one."""
+    return max(math.hypot(*piece.start) for piece in flank.segments)
 
 
 def _shaft(links: Iterable[Member], L: float) -> float:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 # A roller that does not find its slot, or meets the rim beside it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
 # Below the wheel's plane: the wheel can be cut all the same.
-BELOW = ("link_wall_mm", "link_gap_mm")
+BELOW = ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
 
 
 def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:

@@ -196,6 +196,11 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
             for what in ("hub", "hub_length", "shaft_low", "shaft_high")
         ),
     ),
+    "gear_gap_mm": (
+        *(scaled("drive", key, 0.3) for key in ("gear_distance_mm", "eccentricity", "A")),
+        set_to("size", "wheel_hub_mm", 0.0),
+        scaled("size", "arm_bore_mm", 0.3),
+    ),
     "wheel_bore_wall_mm": (
         scaled("size", "wheel_bore_mm", 0.2),
         replaced("size", "wheel_bore_mm", 0.0),

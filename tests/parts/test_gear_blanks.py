@@ -184,6 +184,30 @@ def test_refusals(z, drive, keys, said):
         Design(External(z), drive, size=Size(**keys)).drawing("gears")
 
 
+@pytest.mark.parametrize(
+    ("keys", "gap"),
+    [
+        # the driven gear, to 65/100 of the gears' distance from the crank's axis, and the wheel's
+        # shaft of 26 mm, 160 mm off; or the driver, likewise, and the crank's shaft of 14 mm
+        ({"drive.gear_distance_mm": 240.0}, 160.0 - 0.65 * 240.0 - 13.0),
+        ({"drive.eccentricity": 0.95}, 50.0 * 0.05 - 7.0),
+    ],
+)
+def test_gears_that_meet_a_shaft_fail_their_check(keys, gap):
+    of = design("elliptical-gears")
+    for key, value in keys.items():
+        of = of.with_(key, value)
+    (check,) = (c for c in of.checks if c.name == "gear_gap_mm")
+    assert check.value == pytest.approx(gap, rel=1e-6)  # of 721 places on a pitch curve
+    assert not check.passes
+
+
+def test_a_pitch_curve_through_its_axis_is_refused():
+    of = design("elliptical-gears").with_("drive.eccentricity", 1.0 - 1e-9)
+    with pytest.raises(GenevaError, match="within 5e-08 mm of its axis: that is no gear"):
+        of.drawing("gears")
+
+
 def test_a_bore_that_leaves_no_noncircular_gear_is_refused():
     of = design("elliptical-gears").with_("size.link_bore_mm", 71.0)
     with pytest.raises(GenevaError, match=r"no blank of the driven gear.*below 70,.*link_bore_mm"):

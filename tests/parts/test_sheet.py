@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 import repo
 import shapely
-from drawing_witness import vertices
 from shapely import affinity
-from shapely.geometry import LineString, Polygon, box
+from shapely.geometry import LineString, Polygon
+from sheet_witness import assert_as_listed, assert_measured, beyond, overlaps
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load
-from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
@@ -34,29 +33,6 @@ DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 
 SPHERICAL = {"spherical-z6": "shafts 90°", "spherical-60deg": "shafts 60°"}
 TOLERANCE = 0.05  # mm: coarse walls are quick, and look the same on paper
-CHORD = 0.02  # mm: how far the witness's polylines are from the arcs
-
-
-def lines_of(found):
-    """Every line on a sheet as a polyline; arrows are triangles."""
-    shapes = [*found.shapes]
-    shapes += [Contour("", (piece,), closed=False) for m in found.measures for piece in m.lines]
-    lines = [LineString(vertices(shape, CHORD)) for shape in shapes]
-    return lines + [Polygon(a.corners) for m in found.measures for a in m.arrows]
-
-
-def overlaps(found):
-    """Texts that stand on a line, on another text, or beyond the frame."""
-    boxes = [Polygon(label.corners) for label in found.texts]
-    tree = shapely.STRtree([*lines_of(found), *boxes])
-    inside = box(20.0, 10.0, found.width - 10.0, found.height - 10.0)
-    bad = []
-    for i, one in enumerate(boxes):
-        own = len(tree.geometries) - len(boxes) + i
-        hit = [k for k in tree.query(one, predicate="intersects") if k != own]
-        if hit or not inside.contains(one):
-            bad.append((found.texts[i].text, hit))
-    return bad
 
 
 def of(spec, tolerance=TOLERANCE):
@@ -79,6 +55,7 @@ def sheets():
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
     assert overlaps(found) == []
+    assert beyond(found) == []
     assert (found.width, found.height) in [(f.width, f.height) for f in FORMATS]
     assert found.scale in SCALES
     assert_measured(found)
@@ -88,29 +65,7 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
     # the centre distance is on it, as the machine has it
     L = f"{design.mechanism.center_distance_mm:.3f}".rstrip("0").rstrip(".")
     assert any(m.label.text.startswith(f"L = {L}") for m in found.measures)
-
-
-def assert_measured(found):
-    """Each dimension says what its points are apart, at the scale of its view."""
-    for m in found.measures:
-        if m.kind == "angular":
-            apex, a, b, _ = m.points
-            turn = math.atan2(b[1] - apex[1], b[0] - apex[0])
-            turn -= math.atan2(a[1] - apex[1], a[0] - apex[0])
-            assert math.degrees(turn % math.tau) == pytest.approx(m.value, abs=1e-6)
-            shown = float(re.search(r"([\d.]+)°", m.label.text)[1])
-        elif m.kind == "note":
-            continue
-        else:
-            a, b = m.points[:2]
-            c, s = math.cos(m.turn), math.sin(m.turn)
-            along = (b[0] - a[0]) * c + (b[1] - a[1]) * s
-            paper = abs(along) if m.kind == "linear" else math.dist(a, b)
-            scale = paper / m.value
-            assert min(abs(scale / known - 1.0) for known in SCALES) < 1e-9
-            text = re.sub(r"^\d+× ", "", m.label.text)
-            shown = float(re.search(r"[\d.]+", text)[0])
-        assert shown == pytest.approx(m.value, abs=5.1e-4)  # three decimals
+    assert_as_listed(found, list(design.part_table("parts").to_rows()), 2e-3)
 
 
 SMALL = [
@@ -329,6 +284,21 @@ def test_what_finds_no_place_is_said_below():
     moved = half.first(tries)
     assert moved is not None
     assert moved != Board().first(tries)
+
+
+@pytest.mark.parametrize(
+    ("wheel", "A"),
+    [
+        (Wheel(6), 0.99993),  # its coulisse is one piece with its shaft: its slot is all its holes
+        (Wheel(3, offset_mm=-6.6), 0.99988),  # likewise, with offset slots
+    ],
+)
+def test_a_link_without_a_round_hole_has_a_view(wheel, A):
+    """Random sheets that once broke off: a link with a slot alone is measured from its shaft."""
+    found = of(Spec(wheel, Drive("side-crank"), Keys("side-crank", A)))
+    assert "one piece with its shaft" in {label.text for label in found.labels}
+    assert overlaps(found) == []
+    assert_measured(found)
 
 
 def test_the_comparison_can_fail():

@@ -67,7 +67,7 @@ def usual(rng, key, z, L, r, outside):
         return clearance(rng, r)
     if key in WORDED:
         return rng.choice(WORDED[key])
-    if key in ("lock_bolts", "dial_bolts"):
+    if key in ("lock_bolts", "dial_bolts", "gear_bolts"):
         return rng.choice([0, 1, 2, 3])
     of = {
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
@@ -104,6 +104,8 @@ def usual(rng, key, z, L, r, outside):
         "lock_thickness_mm": L / 10.0,
         "arm_thickness_mm": L / 10.0,
         "dial_bolt_mm": L / 40.0,
+        "gear_bolt_mm": L / 40.0,
+        "gear_bolt_circle_mm": 0.8 * L,
         "dial_bolt_circle_mm": L / 2.0,
     }
     return near(rng, of[key])

@@ -11,6 +11,7 @@ import random
 import re
 
 import fuzz_parts
+import fuzz_sheets
 import numpy as np
 import pytest
 from fuzz_machines import machine_text
@@ -96,6 +97,13 @@ def test_specs_of_known_keys(seed):
 def test_machines_with_parts(case):
     """Cases of `fuzz_parts.py`: all that is made of them is finite, without a warning."""
     fuzz_parts.one(machine_text(numbers("make test", case)))
+
+
+# of the first that have a sheet: gears by points, an internal wheel, two in series, a sphere
+@pytest.mark.parametrize("case", [4, 14, 27, 33])
+def test_sheets(case):
+    """Cases of `fuzz_sheets.py`: texts stand free, sizes and list are the machine's."""
+    assert fuzz_sheets.one(machine_text(numbers("sheets", case))) == "sheet"
 
 
 def test_the_random_machines_are_of_every_kind_and_have_every_key():

@@ -17,7 +17,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
-from geneva_cli.parts.built import built
+from geneva_cli.parts.built import Built, built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
 from geneva_cli.parts.outlines import Outlines
@@ -63,10 +63,26 @@ def beside_shafts(found: Outlines) -> Beside | None:
     """
     whole = built(found, pitch=False)
     members = [whole.wheel, whole.crank, *whole.first, *whole.standing[:-1]]
-    rings = [*(ring for one in members for ring in _rings(one)), *_noncircular(found)]
-    axes = [ring for ring in rings if ring.layer == HUB]
-    axes += [ring for one in whole.shafts for ring in _rings(one)]
+    rings = [ring for one in members for ring in _rings(one)]
+    return _least(found, whole, rings)
+
+
+def beside_gears(found: Outlines) -> Beside | None:
+    """The least gap between noncircular gears and the hubs and shafts that pass them; else None.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    if found.assembly.given.spec.drive.gears is None:
+        return None
+    whole = built(found, pitch=False)
+    return _least(found, whole, list(_noncircular(found)))
+
+
+def _least(found: Outlines, whole: Built, rings: list[Ring]) -> Beside | None:
     near = SAME * found.assembly.L
+    turning = [ring for one in (whole.wheel, whole.crank) for ring in _rings(one)]
+    axes = [ring for ring in turning if ring.layer == HUB]
+    axes += [ring for one in whole.shafts for ring in _rings(one)]
     return min(
         (
             Beside(ring.gap(shaft.axis, shaft.outer), shaft.name, ring.name)

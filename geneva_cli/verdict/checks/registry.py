@@ -66,6 +66,7 @@ STATIC: Checks = {
     "crank_hub_mm": "shafts:crank_hub",
     "wheel_shaft_mm": "shafts:wheel_shaft",
     "beside_shafts_mm": "shafts:beside",
+    "gear_gap_mm": "shafts:beside_noncircular",
     "arm_wall_mm": "arm:arm_wall",
     "arm_to_hub_mm": "arm:arm_to_hub",
     "link_wall_mm": "links:wall",

@@ -6,7 +6,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.beside_shafts import beside_shafts
+from geneva_cli.parts.turn.beside_shafts import beside_gears, beside_shafts
 from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING = 1e-12  # of the centre distance
@@ -53,15 +53,25 @@ def wheel_shaft(name: str, found: Outlines) -> Check | None:
 def beside(name: str, found: Outlines) -> Check | None:
     """Between hubs and shafts and what turns beside them; made where a size of theirs is given.
 
-    By default they have their room, but for a first wheel's and for gears.
+    By default they have their room, but for a first wheel's.
     """
     given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
-    if not (drive.IN_SERIES or drive.GEARED or any(given[key] is not None for key in KEYS)):
+    if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
         return None
     try:
         least = beside_shafts(found)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
+    noise = ROUNDING * found.assembly.L
+    return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
+
+
+def beside_noncircular(name: str, found: Outlines) -> Check | None:
+    """Between noncircular gears, by the farthest places of their pitch curves, and shafts."""
+    try:
+        least = beside_gears(found)
+    except GenevaError as error:
+        return Check(name, None, "at least", 0.0, None, str(error))
     noise = ROUNDING * found.assembly.L
     return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
 
