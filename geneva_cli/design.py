@@ -290,9 +290,9 @@ class Design:
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
-        """The wheel's own mass, centroid and inertia, from its outline.
+        """The wheel's own mass, centroid and inertia, from its outline, or its sphere's shell.
 
-        None without ``face_width_mm`` or ``wheel_thickness_mm``, or where there are no flat parts.
+        None without ``face_width_mm`` or ``wheel_thickness_mm``, or where there are no parts.
 
         >>> wheel = Design(External(6), size=Size(face_width_mm=20)).wheel_plate
         >>> round(wheel.mass_kg, 3), round(1e3 * wheel.inertia_kgm2, 3)

@@ -9,9 +9,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+import numpy as np
+
+from geneva_cli.curves.sphere_arcs import Arcs
+
 if TYPE_CHECKING:
+    from geneva_cli.curves.round_holes import RoundHole
     from geneva_cli.curves.shapes import Circle, Contour, Point
-    from geneva_cli.curves.sphere import Region, Vector
+    from geneva_cli.curves.sphere import Region, Rotation, Vector
 
 
 class Plate(NamedTuple):
@@ -31,18 +36,41 @@ class Plate(NamedTuple):
 
 
 class Shell(NamedTuple):
-    """What lies between two spheres about the origin, over regions that touch along whole arcs."""
+    """What lies between two spheres about the origin, over regions that touch along whole arcs.
+
+    Round holes are all within the last of the regions, and apart from each other.
+    """
 
     name: str
     layer: str
     regions: tuple[Region, ...]
     inner: float
     outer: float
+    holes: tuple[RoundHole, ...] = ()
 
     @property
     def volume(self) -> float:
-        """Solid angle times a third of the difference of the cubes, mm³."""
-        return math.fsum(r.area for r in self.regions) * (self.outer**3 - self.inner**3) / 3.0
+        """Solid angle times a third of the difference of the cubes, less the holes, mm³."""
+        seen = math.fsum(r.area for r in self.regions)
+        bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
+        return seen * (self.outer**3 - self.inner**3) / 3.0 - bored
+
+    @property
+    def centroid(self) -> Vector:
+        """Where the mass of an even shell stands, mm."""
+        seen = np.sum([r.moments[0] for r in self.regions], axis=0)
+        first = seen * (self.outer**4 - self.inner**4) / 4.0
+        for hole in self.holes:
+            first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
+        x, y, z = (first / self.volume).tolist()
+        return x, y, z
+
+    def reach(self, way: Vector) -> float:
+        """How far it comes in a direction, mm from the centre."""
+        if any(Arcs(r.boundary).signed(np.array([way]))[0][0] < 0.0 for r in self.regions):
+            return self.outer
+        most = max(arc.reach(way) for region in self.regions for arc in region.boundary)
+        return most * (self.outer if most > 0.0 else self.inner)
 
     def inertia(self, axis: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵.
@@ -55,7 +83,8 @@ class Shell(NamedTuple):
         40.0
         """
         seen = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
-        return seen * (self.outer**5 - self.inner**5) / 5.0
+        bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
+        return seen * (self.outer**5 - self.inner**5) / 5.0 - bored
 
 
 class Group(NamedTuple):
@@ -71,6 +100,7 @@ class Member(NamedTuple):
     part: Part
     at: Point = (0.0, 0.0)
     turn: float = 0.0  # counterclockwise
+    frame: Rotation | None = None  # in place of a turn: where its x, y and z point
 
 
 Part: TypeAlias = Plate | Shell | Group

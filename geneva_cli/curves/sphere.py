@@ -48,6 +48,15 @@ class SphereArc(NamedTuple):
         points = math.cos(self.angle) * np.array(self.axis) + flat * (c * x + s * y)
         return points, flat * (c * y - s * x)
 
+    def reach(self, way: Vector) -> float:
+        """How far along a direction it comes, of 1."""
+        x, y = self._frame()
+        flat = math.sin(self.angle)
+        along, aside = flat * dot(x, way), flat * dot(y, way)
+        if math.atan2(aside, along) % math.tau <= self.sweep:
+            return math.cos(self.angle) * dot(self.axis, way) + math.hypot(along, aside)
+        return max(dot(self.start, way), dot(self.end, way))
+
     def way(self, point: Vector) -> Vector:
         """The direction in which it passes one of its points."""
         return unit(cross(self.axis, point))
@@ -159,6 +168,18 @@ def unit(v: Vector) -> Vector:
     """A vector's direction."""
     length = math.hypot(*v)
     return v[0] / length, v[1] / length, v[2] / length
+
+
+def square_to(v: Vector) -> Vector:
+    """A unit vector square to another."""
+    least = min(range(3), key=lambda k: abs(v[k]))
+    return unit(cross(v, (float(least == 0), float(least == 1), float(least == 2))))
+
+
+def axis_frame(axis: Vector) -> Rotation:
+    """A rotation that takes z to an axis."""
+    x = square_to(axis)
+    return Rotation(x, cross(axis, x), axis)
 
 
 def opposite(v: Vector) -> Vector:

@@ -3,7 +3,7 @@
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
 axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
 turns on: the wheel's, the crank's, a roller's own, a link's first joint. z is along the axis, from
-the wheel's lower face: the stack.
+the wheel's lower face: the stack; on a sphere from the wheel's outer face inwards.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def parts_list(proof: Proof) -> Table:
         else:
             found += [] if mechanism.spec.wheel.FLAT else shell_rows(proof)
             found += link_rows(proof)
-    found += [*_pivots(mechanism), *_dimensions(mechanism)]
+    found += [*_pivots(mechanism), *_dimensions(proof)]
     rows = [[row.get(name) for name in NAMES] for row in found]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
 
@@ -121,7 +121,8 @@ def _pivots(mechanism: Mechanism) -> Iterator[dict[str, object]]:
         yield {"row": "pivot", **one._asdict()}
 
 
-def _dimensions(mechanism: Mechanism) -> Iterator[dict[str, object]]:
+def _dimensions(proof: Proof) -> Iterator[dict[str, object]]:
+    mechanism = proof.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
     found = [
@@ -135,7 +136,7 @@ def _dimensions(mechanism: Mechanism) -> Iterator[dict[str, object]]:
     found += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
         with suppress(GenevaError):
-            found += dimensions(mechanism)
+            found += dimensions(proof)
     if mechanism.law is None and spec.drive.CRANKED:
         found += _straight(mechanism)
     elif spec.drive.CRANKED:

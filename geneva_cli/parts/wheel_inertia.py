@@ -18,12 +18,17 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     """Mass and inertia of the wheel, and of a hub that is given; None without a thickness.
 
     J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem:
-    exact for lines and arcs; what a curved slot takes is right to some millionths of it. Raises
-    GenevaError where the machine has no flat parts, or its sizes leave none.
+    exact for lines and arcs; what a curved slot takes is right to some millionths of it. Of a
+    sphere its shell and the hub in it. Raises GenevaError where the machine has no parts, or its
+    sizes leave none.
     """
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
+    if spec.wheel.SHELLS:
+        from geneva_cli.parts.sphere.body import wheel_body as of_shell  # flat wheels do without
+
+        return of_shell(mechanism)
     where = assembly(mechanism)
     size = sizes(where)
     circles = wheel_circles(where, size)

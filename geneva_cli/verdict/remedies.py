@@ -190,6 +190,8 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "beside_shafts_mm": (
         scaled("size", "wheel_hub_mm", 0.5),
         scaled("size", "crank_hub_mm", 0.5),
+        scaled("size", "wheel_bore_mm", 0.5),
+        scaled("size", "arm_eye_mm", 0.5),
         *(
             left_out("size", f"{part}_{what}_mm")
             for part in ("wheel", "crank")
@@ -202,6 +204,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "arm_bore_mm", 0.3),
     ),
     "wheel_bore_wall_mm": (
+        scaled("size", "wheel_hub_mm", 0.2),
         scaled("size", "wheel_bore_mm", 0.2),
         replaced("size", "wheel_bore_mm", 0.0),
     ),

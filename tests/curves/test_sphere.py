@@ -2,11 +2,15 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 
 from geneva_cli.curves.plates import Shell
+from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, place, unit
+from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_belt import Cap, belt
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi
@@ -87,3 +91,76 @@ def test_a_shell():
     assert ball.volume == pytest.approx(4.0 / 3.0 * math.pi * (125.0 - 27.0), rel=1e-14)
     wanted = 0.4 * ball.volume * (5.0**5 - 3.0**5) / (5.0**3 - 3.0**3)
     assert ball.inertia(place(1.0, 2.0)) == pytest.approx(wanted, rel=1e-14)
+
+
+def test_round_holes_take_what_integrals_say():
+    """Of a cylinder between two spheres, about an axis askew to it; mpmath, to 1e-13."""
+    axis, about, q, low, high = place(0.7, 0.4), place(1.3, -0.9), 3.0, 20.0, 26.0
+    hole = RoundHole(axis, q)
+
+    def over(f):
+        """The integral over the cylinder of f, of the distance from the axis and the height."""
+
+        def along(s):
+            ends = [mpmath.sqrt(R * R - s * s) for R in (low, high)]
+            return 2 * mpmath.pi * s * mpmath.quad(lambda h: f(s, h), ends)
+
+        return float(mpmath.quad(along, [0, q]))
+
+    cosine = sum(a * b for a, b in zip(axis, about, strict=True))
+    assert hole.volume(low, high) == pytest.approx(over(lambda s, h: 1), rel=1e-13)
+    assert hole.first(low, high) == pytest.approx(over(lambda s, h: h), rel=1e-13)
+    # r² less the square along the axis asked for, whose mean about the cylinder's own is this
+    askew = over(lambda s, h: s**2 + h**2 - (h * cosine) ** 2 - s**2 * (1 - cosine**2) / 2)
+    assert hole.inertia(low, high, about) == pytest.approx(askew, rel=1e-13)
+
+
+def test_a_bored_shell_has_its_mass_where_sampling_finds_it():
+    """A cap with two holes: volume, centroid, inertia and size, by a grid's points."""
+    low, high = 8.0, 10.0
+    holes = RoundHole(place(0.0, 0.0), 1.5), RoundHole(place(0.5, 1.0), 1.0)
+    one = Shell("", "ARM", (cap(0.8),), low, high, holes)
+    step = 0.1
+    side = np.arange(-8.0, 8.0, step) + 0.5 * step
+    x, y, z = (v.ravel() for v in np.meshgrid(side, side, np.arange(5.0, 10.0, step) + 0.5 * step))
+    r = np.sqrt(x * x + y * y + z * z)
+    inside = (r > low) & (r < high) & (z > r * math.cos(0.8))
+    for (a, b, c), q in holes:
+        inside &= r * r - (a * x + b * y + c * z) ** 2 > q * q
+    x, y, z = x[inside], y[inside], z[inside]
+    # the surface's cells are in or out: some step² of each of its mm²
+    assert one.volume == pytest.approx(len(x) * step**3, rel=3e-3)
+    assert one.centroid == pytest.approx((x.mean(), y.mean(), z.mean()), abs=1e-2)
+    wanted = (x * x + y * y).sum() * step**3
+    assert one.inertia((0.0, 0.0, 1.0)) == pytest.approx(wanted, rel=3e-3)
+    assert one.reach((0.0, 0.0, 1.0)) == high
+    assert one.reach((0.0, 1.0, 0.0)) == pytest.approx(high * math.sin(0.8), rel=1e-14)
+    assert one.reach((0.0, 0.0, -1.0)) == pytest.approx(-low * math.cos(0.8), rel=1e-14)
+
+
+BELTS = {
+    "an arm": [Cap((0.0, 0.0, 1.0), 0.2), Cap(place(0.5, 0.3), 0.06)],
+    "a plate": [Cap((0.0, 0.0, 1.0), 0.1), *(Cap(place(0.6, 2.1 * k), 0.05) for k in range(3))],
+    "a disc with noses": [Cap((0.0, 0.0, 1.0), 0.5), *(Cap(place(0.6, k), 0.05) for k in (0, 3))],
+    "in a row": [Cap(place(0.5, a), 0.05) for a in (0.0, math.pi)] + [Cap((0.0, 0.0, 1.0), 0.05)],
+    "one in another": [Cap((0.0, 0.0, 1.0), 0.5), Cap(place(0.3, 1.0), 0.1)],
+}
+
+
+@pytest.mark.parametrize("name", BELTS)
+def test_a_belt_holds_its_caps_and_no_more(name):
+    """All rims are within; it never turns to the right, nor at a corner; its arcs are of rims, and
+    its great circles touch two. There is one such boundary: the hull."""
+    caps, found = BELTS[name], belt(BELTS[name])
+    edge = Arcs(found.boundary)
+    for one in caps:
+        rim = one.region.boundary[0].at(np.linspace(0.0, math.tau, 100))[0]
+        assert edge.signed(rim)[0].max() < 1e-9  # of a square root at a tangent's touch
+    assert np.abs(edge.first).max() < 1e-9
+    for arc, after in zip(found.boundary, (*found.boundary[1:], found.boundary[0]), strict=True):
+        assert arc.end == after.start
+        if arc.angle < 1.5:
+            assert any(arc.axis == one.middle and arc.angle == one.angle for one in caps)
+            continue
+        off = [float(np.dot(arc.axis, one.middle)) - math.sin(one.angle) for one in caps]
+        assert sum(abs(d) < 1e-12 for d in off) >= 2

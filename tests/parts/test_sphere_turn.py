@@ -9,11 +9,14 @@ from scipy.spatial import cKDTree
 from geneva_cli import Crank, Design, External, Size, Spherical
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sphere.beside import beside_shafts
+from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.gaps import BallGaps
 from geneva_cli.parts.sphere.shells import shells
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import all_pass, checks
+from geneva_cli.verdict.checks.registry import shell_checks
 
 CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
 
@@ -144,17 +147,57 @@ def test_a_roller_that_leaves_room_is_named():
 
 
 def test_shafts_and_arm_have_room_or_not():
+    """Arcs between cones: at the sphere where both are, a hub's surface is at an arc sine."""
     given = Size(80.0, 5.0, wheel_hub_mm=30.0, arm_eye_mm=20.0, wheel_bore_mm=20.0)
     design = Design(Spherical(6, axes_deg=75), size=given)
-    rows = {c.name: c for c in checks(design.mechanism)}
+
+    def row(name, of=design):
+        return next(c for c in shell_checks(shells(of.mechanism)) if c.name == name)
+
     ball = shells(design.mechanism).ball
-    hub = math.asin(15.0 / 80.0)
-    eye = math.radians(75.0) - ball.arm - 10.0 / 80.0
-    assert rows["arm_to_hub_mm"].value == pytest.approx(80.0 * (eye - hub), rel=1e-12)
-    deepest = ball.bottom - ball.half_width
-    assert rows["wheel_shaft_mm"].value == pytest.approx(80.0 * (deepest - hub), rel=1e-12)
-    assert not next(
-        c
-        for c in checks(design.with_("size.arm_eye_mm", 110.0).mechanism)
-        if c.name == "arm_to_hub_mm"
-    ).passes
+    # the arm is a shell from 84 mm on, and the wheel's one from 76
+    eye = math.radians(75.0) - ball.arm - 10.0 / 80.0 - math.asin(15.0 / 84.0)
+    assert row("beside_shafts_mm").value == pytest.approx(84.0 * eye, rel=1e-12)
+    deepest = ball.bottom - ball.half_width - math.asin(15.0 / 76.0)
+    assert row("wheel_bore_wall_mm").value == pytest.approx(80.0 * deepest, rel=1e-12)
+    assert row("beside_shafts_mm", design.with_("size.arm_eye_mm", 110.0)).passes is False
+    # round the pin: the eye is 10/80 wide, its hole 2.5 mm at 84; more than the hub's wall
+    assert row("arm_wall_mm").value == pytest.approx(2.0, rel=1e-12)
+
+
+def least_beside(**given):
+    axes = given.pop("axes")
+    found = shells(Design(Spherical(6, axes_deg=axes), size=Size(80.0, 3.0, **given)).mechanism)
+    return found.ball, beside_shafts(found, built(found))
+
+
+def test_a_shaft_through_the_centre_to_where_the_crank_comes_round():
+    """The rollers are nearest to the centre, from 76 mm on, where the shaft is widest."""
+    ball, least = least_beside(axes=168.0, wheel_shaft_high_mm=200.0)
+    apart = math.radians(12.0) - ball.arm - ball.roller - math.asin(0.5 * 13.0 / 76.0)
+    assert ball.bore_mm == 6.5
+    assert (least.shaft, least.part) == ("wheel's shaft", "roller")
+    assert least.gap == pytest.approx(76.0 * apart, rel=1e-12)
+    assert least.gap < 0.0
+    # both shafts through the centre: they meet where nothing else is
+    _, least = least_beside(axes=60.0, wheel_shaft_high_mm=90.0, crank_shaft_high_mm=90.0)
+    assert (least.shaft, least.part) == ("wheel's shaft", "crank's shaft")
+    assert least.gap < -10.0
+
+
+def test_a_crank_shaft_through_the_wheels_shell():
+    """At a right angle the rim passes over the crank's axis, and half of the shaft is within."""
+    ball, least = least_beside(axes=90.0, crank_bore_mm=8.0)
+    assert ball.rim == pytest.approx(math.pi / 2.0, abs=1e-12)
+    assert (least.shaft, least.part) == ("crank's shaft", "wheel")
+    assert least.gap == pytest.approx(-76.0 * math.asin(4.0 / 76.0), rel=1e-2)
+
+
+def test_by_default_all_has_its_room():
+    """Hubs, shafts, arm and walls of machines all over the family."""
+    for z in (3, 5, 12):
+        for axes in (10.0, 60.0, 120.0, 165.0):
+            design = Design(Spherical(z, axes_deg=axes), size=Size(100.0, 1.0))
+            rows = list(shell_checks(shells(design.mechanism)))
+            assert all(c.passes for c in rows), rows
+            assert {"beside_shafts_mm", "arm_wall_mm"} <= {c.name for c in rows}

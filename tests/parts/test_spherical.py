@@ -15,10 +15,11 @@ from geneva_cli.curves.plates import solids
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.step import chunks
+from geneva_cli.parts.sphere.built import wheel_shell
 from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.sizes import ball
-from geneva_cli.parts.sphere.wheel import edge_points, wheel_regions
+from geneva_cli.parts.sphere.wheel import POLE, edge_points, wheel_regions
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
 MACHINES = {
@@ -105,7 +106,7 @@ def test_the_boundary_is_that_of_the_definition(machine):
 
 
 @pytest.mark.parametrize("name", ["90", "60, two rollers", "no lock"])
-def test_the_solid_angle_is_that_of_an_integral(name):
+def test_solid_angle_and_inertia_are_those_of_integrals(name):
     """Over azimuths, of what the definition leaves of each meridian; mpmath, to 1e-12."""
     found = sizes(MACHINES[name])
     b, S, w = math.pi / found.z, found.axes, found.half_width
@@ -119,12 +120,12 @@ def test_the_solid_angle_is_that_of_an_integral(name):
         middle = mpmath.atan2(B, A)
         return middle - mpmath.acos(reach), middle + mpmath.acos(reach)
 
-    def left(azimuth):
+    def left(azimuth, to):
         high = found.rim
         recess = circle(S, found.recess, azimuth - b) if found.recess else None
         if recess:
             high = min(high, recess[0])
-        kept = mpmath.cos(found.inner) - mpmath.cos(high)
+        kept = to(high) - to(found.inner)
         slot = circle(found.bottom, w, azimuth)
         if slot:
             out = mpmath.sin(w) / mpmath.sin(azimuth) if azimuth else 2
@@ -132,15 +133,28 @@ def test_the_solid_angle_is_that_of_an_integral(name):
             top = found.rim if out >= mpmath.sin(found.rim) else mpmath.asin(out)
             foot = mpmath.atan(mpmath.tan(found.bottom) / mpmath.cos(azimuth))
             top = slot[1] if top < foot else top
-            kept -= mpmath.cos(slot[0]) - mpmath.cos(top)
+            kept -= to(top) - to(slot[0])
         return kept
 
     corner, foot = found.corner(), math.atan2(math.tan(w), math.sin(found.bottom))
     widest = math.asin(math.sin(w) / math.sin(found.bottom))
     breaks = sorted({0.0, corner, foot, widest, b - found.opened(), b})
-    whole = 2 * mpmath.quad(left, breaks)
+
+    def squares(polar):  # the integral of sin², over the sphere
+        return mpmath.cos(polar) ** 3 / 3 - mpmath.cos(polar)
+
+    whole = 2 * mpmath.quad(lambda a: left(a, lambda polar: -mpmath.cos(polar)), breaks)
     for region in wheel_regions(found):
         assert region.area == pytest.approx(float(whole), rel=1e-12)
+    seen = found.z * 2 * mpmath.quad(lambda a: left(a, squares), breaks)
+    seen += 2 * mpmath.pi * (squares(found.inner) - squares(0.0))  # closed down to the hub's hole
+    low, high = found.span_mm
+    hole = mpmath.quad(
+        lambda s: s**3 * (mpmath.sqrt(high**2 - s * s) - mpmath.sqrt(low**2 - s * s)),
+        [0, found.hub_mm],
+    )
+    wanted = seen * (high**5 - low**5) / 5 - 2 * mpmath.pi * hole
+    assert wheel_shell(found).inertia(POLE) == pytest.approx(float(wanted), rel=1e-12)
 
 
 def turned(u, angle):
@@ -264,7 +278,7 @@ def test_solids_are_closed(machine):
     drawing = machine.drawing("assembly", 0.05)
     file = File("".join(chunks(drawing, "mm")))
     bodies, shells = file.all("MANIFOLD_SOLID_BREP"), solids(drawing.shells)
-    assert len(bodies) == len({(s.name, s.regions) for s in shells})
+    assert len(bodies) == len(set(shells))
     used = Counter()
     for face in file.all("ADVANCED_FACE"):
         bounds = file.values(face)[1]
@@ -292,8 +306,15 @@ def test_solids_are_closed(machine):
         (Size(80.0, 20.0, lock_clearance_mm=2.0), 12, "no room for a locking sector"),
         (Size(80.0, 20.6, lock_radius_mm=0.0), 12, "the slots meet"),
         (Size(80.0, 5.0, lock_radius_mm=39.0), 6, "lock_radius_mm = 39: it must be above"),
-        (Size(80.0, 5.0, wheel_bore_mm=140.0), 6, "wheel_bore_mm must be above 0 and below"),
+        (
+            Size(80.0, 5.0, wheel_bore_mm=140.0),
+            6,
+            "wheel_bore_mm = 140: the slots reach down to it",
+        ),
         (Size(80.0, 5.0, wheel_thickness_mm=90.0), 6, "it must be below 80"),
+        (Size(80.0, 5.0, wheel_hub_mm=130.0), 6, "wheel_hub_mm = 130: the slots reach down to it"),
+        (Size(80.0, 5.0, lock_thickness_mm=84.0), 6, "lock_thickness_mm = 84: the locking sectors"),
+        (Size(80.0, 5.0, pin_mm=9.6), 6, "pin_mm = 9.6: it must be below 9.49"),
     ],
 )
 def test_refused(size, z, said):

@@ -28,6 +28,7 @@ from geneva_cli.curves.mass import MassProperties
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.parts_list import parts_table
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.parts.walls.rings import taken
 from geneva_cli.verdict.carried_cautions import carried_cautions
@@ -129,10 +130,18 @@ def test_a_wheel_that_hardly_counts_is_not_mentioned():
     assert not told(Spec(External(6)), MassProperties(2.0, (0.0, 0.0), 0.005))
 
 
-def test_without_a_thickness_or_flat_parts_nothing_is_known():
+def test_without_a_thickness_nothing_is_known():
     assert Design(Internal(6)).wheel_plate is None
     sphere = load(str(repo.DESIGNS / "spherical-z6.toml"))
-    assert sphere.with_("size.face_width_mm", 20.0).wheel_plate is None
+    assert sphere.wheel_plate is None
+    # its shell and its hub, as the list of parts has them
+    thick = sphere.with_("size.wheel_thickness_mm", 8.0)
+    rows = [r for r in parts_table(thick.mechanism, 0.1, None).to_rows() if r["row"] == "part"]
+    own = [r for r in rows if r["name"] in ("wheel", "wheel's hub")]
+    assert len(own) == 2
+    found = thick.wheel_plate
+    assert found.mass_kg == pytest.approx(sum(r["mass_kg"] for r in own), rel=1e-14)
+    assert found.inertia_kgm2 == pytest.approx(sum(r["inertia_kgm2"] for r in own), rel=1e-14)
 
 
 def test_a_weight_to_one_side_of_a_horizontal_axis():

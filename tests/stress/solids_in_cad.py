@@ -55,15 +55,18 @@ NEARLY = 1e-5
 SPLINED = 1e-7
 
 
-def placed(part, x=0.0, y=0.0, turn=0.0):
-    """Each plate with where its origin is and how it is turned; shells are where they are."""
+def placed(part, at=(0.0, 0.0, 0.0), turn=((1, 0, 0), (0, 1, 0), (0, 0, 1))):
+    """Each solid with where its origin is, and a matrix that turns it to how it stands there."""
+    at, turn = np.array(at), np.array(turn)
     if not isinstance(part, Group):
-        yield part, x, y, turn
+        yield part, at, turn
         return
-    c, s = math.cos(turn), math.sin(turn)
     for member in part.members:
-        a, b = member.at
-        yield from placed(member.part, x + c * a - s * b, y + s * a + c * b, turn + member.turn)
+        c, s = math.cos(member.turn), math.sin(member.turn)
+        own = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
+        if member.frame:
+            own = np.column_stack(member.frame)
+        yield from placed(member.part, at + turn @ (*member.at, 0.0), turn @ own)
 
 
 def read(path):
@@ -111,45 +114,36 @@ def name_of(label):
     return name.Get().ToExtString()
 
 
-def differs(plate, x, y, turn, name, colour, body):
+def differs(one, at, turn, name, colour, body):
     """Relative errors of volume, centroid and inertia; raises where more is wrong."""
-    assert name == plate.name, name
+    assert name == one.name, name
     srgb = "#" + "".join(
         f"{round(255 * _srgb(c)):02x}" for c in (colour.Red(), colour.Green(), colour.Blue())
     )
-    assert srgb == INKS[plate.layer].rgb, srgb
+    assert srgb == INKS[one.layer].rgb, srgb
     assert BRepCheck_Analyzer(body).IsValid()
     found = GProp_GProps()
     # in steps, as the quick integral runs across a spline's knots, and is 1e-4 off
     BRepGProp.VolumeProperties_s(body, found, STEPS, False)
-    if not isinstance(plate, Plate):
-        return of_shell(plate, found)
-    face, h = mass.face(plate), plate.thickness
-    c, s = math.cos(turn), math.sin(turn)
-    cx, cy = face.centroid
-    wanted = (x + c * cx - s * cy, y + s * cx + c * cy, 0.5 * (plate.low + plate.high))
+    volume, own, polar, reach = properties(one)
     centre = found.CentreOfMass()
-    inertia = found.MomentOfInertia(gp_Ax1(gp_Pnt(x, y, 0.0), gp_Dir(0.0, 0.0, 1.0)))
-    box = bounds(plate.outline)
-    reach = max(map(abs, box)) + math.hypot(x, y)
+    axis = gp_Ax1(gp_Pnt(*at.tolist()), gp_Dir(*turn[:, 2].tolist()))
     return (
-        abs(found.Mass() / (face.area * h) - 1.0),
-        math.dist((centre.X(), centre.Y(), centre.Z()), wanted) / reach,
-        abs(inertia / (face.polar * h) - 1.0),
+        abs(found.Mass() / volume - 1.0),
+        math.dist((centre.X(), centre.Y(), centre.Z()), at + turn @ own)
+        / (reach + math.hypot(*at)),
+        abs(found.MomentOfInertia(axis) / polar - 1.0),
     )
 
 
-def of_shell(shell, found):
-    """The same errors, of a shell of a sphere."""
-    first = sum(region.moments[0] for region in shell.regions)
-    wanted = first * (shell.outer**4 - shell.inner**4) / 4.0 / shell.volume
-    centre = found.CentreOfMass()
-    inertia = found.MomentOfInertia(gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(0.0, 0.0, 1.0)))
-    return (
-        abs(found.Mass() / shell.volume - 1.0),
-        math.dist((centre.X(), centre.Y(), centre.Z()), wanted) / shell.outer,
-        abs(inertia / shell.inertia((0.0, 0.0, 1.0)) - 1.0),
-    )
+def properties(one):
+    """Volume, centroid and polar moment of a solid in its own frame, and how far it reaches."""
+    if not isinstance(one, Plate):
+        return one.volume, one.centroid, one.inertia((0.0, 0.0, 1.0)), one.outer
+    face, h = mass.face(one), one.thickness
+    centre = (*face.centroid, 0.5 * (one.low + one.high))
+    reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))
+    return face.area * h, centre, face.polar * h, reach
 
 
 def _srgb(linear):

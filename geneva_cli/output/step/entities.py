@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.curves.shapes import Point
 
 LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a float has
 SHARE = 16  # decimals of directions, which act through a length
+
+
+class WallFace(NamedTuple):
+    """The face over one piece of a contour, and its edges in the solid's lower and upper face."""
+
+    face: str
+    low: str
+    high: str
+    along: bool  # whether the edges run as the contour does
 
 
 class Entities:

@@ -81,6 +81,9 @@ class Products:
         return made
 
     def _place(self, member: Member) -> str:
+        if member.frame:
+            axis, ahead = (self.file.direction(*way) for way in (member.frame.z, member.frame.x))
+            return self.file.placement(member.at, 0.0, axis, ahead)
         c, s = math.cos(member.turn), math.sin(member.turn)
         return self.file.placement(member.at, 0.0, ahead=self.file.direction(c, s))
 

@@ -1,8 +1,9 @@
-"""A shell of a sphere as a closed solid: parts of two spheres, and cones between them.
+"""A shell of a sphere as a closed solid: parts of two spheres, cones between them, round holes.
 
 A region lies to the left of its arcs, seen from outside, so that its face on the outer sphere is
 bounded by them as they run. Over each arc that is the edge of one region alone stands a wall, a
-cone with its apex in the centre; arcs that two regions share are edges within a sphere.
+cone with its apex in the centre; arcs that two regions share are edges within a sphere. A round
+hole is a cylinder about a line through the centre, which meets both spheres in circles.
 """
 
 from __future__ import annotations
@@ -11,9 +12,18 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.curves.plates import Shell
-from geneva_cli.curves.sphere import SphereArc, Vector, cross, opposite, unit
+from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.curves.sphere import SphereArc, Vector, cross, opposite, square_to, unit
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.step.entities import Entities, closed_solid, edge, face, loop, real
+from geneva_cli.output.step.entities import (
+    Entities,
+    WallFace,
+    closed_solid,
+    edge,
+    face,
+    loop,
+    real,
+)
 
 ANGLE = 16  # decimals of a cone's angle, radians
 FLAT = 1e-12  # cosine of a cone's angle below which it is a plane
@@ -22,11 +32,10 @@ AHEAD = (1.0, 0.0, 0.0)
 
 
 class ShellCorner(NamedTuple):
-    """Where arcs meet: a vertex on either sphere, and the edge between them."""
+    """Where arcs meet: a vertex on either sphere."""
 
     low: str
     high: str
-    edge: str
 
 
 class ShellEdges(NamedTuple):
@@ -55,23 +64,50 @@ class _Shell:
     def __init__(self, file: Entities, shell: Shell) -> None:
         self.file, self.shell = file, shell
         self.corners: dict[Vector, ShellCorner] = {}
+        self.rises: dict[Vector, str] = {}
         self.sides: dict[tuple[Vector, Vector, Vector], ShellEdges] = {}
 
     def faces(self) -> list[str]:
         arcs = {_key(arc) for region in self.shell.regions for arc in region.boundary}
-        found = []
+        bored, found = [self._hole(hole) for hole in self.shell.holes], []
         for region in self.shell.regions:
             sides = [self._side(arc) for arc in region.boundary]
+            holes = bored if region is self.shell.regions[-1] else []
             for high, radius in ((False, self.shell.inner), (True, self.shell.outer)):
                 way = [((side.low, side.high)[high], side.along is high) for side in sides]
-                bound = loop(self.file, way if high else way[::-1])
-                found.append(face(self.file, [bound], self._sphere(region.middle, radius), high))
+                bounds = [loop(self.file, way if high else way[::-1])]
+                bounds += [loop(self.file, [((h.low, h.high)[high], high)]) for h in holes]
+                found.append(face(self.file, bounds, self._sphere(region.middle, radius), high))
             found += [
                 self._wall(arc, side)
                 for arc, side in zip(region.boundary, sides, strict=True)
                 if _key(_back(arc)) not in arcs
             ]
-        return found
+        return [*found, *(hole.face for hole in bored)]
+
+    def _hole(self, hole: RoundHole) -> WallFace:
+        """Its wall, and its edges, which run clockwise about its axis: the material is left."""
+        file, q, axis = self.file, hole.radius, hole.axis
+        back, ahead = opposite(axis), square_to(axis)
+        heights = [math.sqrt((r - q) * (r + q)) for r in (self.shell.inner, self.shell.outer)]
+        points = [self._point(_ahead(axis, h, ahead, q), 1.0) for h in heights]
+        ends = [file.add(f"VERTEX_POINT('',{point})") for point in points]
+        way = file.shared(f"VECTOR('',{file.direction(*axis)},1.)")
+        rise = edge(file, ends[0], ends[1], f"LINE('',{points[0]},{way})", True)
+        low, high = (
+            edge(
+                file,
+                end,
+                end,
+                f"CIRCLE('',{self._frame(_times(axis, h), back, ahead)},{real(q)})",
+                True,
+            )
+            for end, h in zip(ends, heights, strict=True)
+        )
+        bound = loop(file, [(low, True), (rise, True), (high, False), (rise, False)])
+        frame = self._frame(_times(axis, heights[0]), axis, ahead)
+        surface = file.add(f"CYLINDRICAL_SURFACE('',{frame},{real(q)})")
+        return WallFace(face(file, [bound], surface, False), low, high, True)
 
     def _side(self, arc: SphereArc) -> ShellEdges:
         """The edges over an arc, which may be there already, from the region beside it."""
@@ -80,7 +116,9 @@ class _Shell:
             return back._replace(along=False)
         ends = self._corner(arc.start), self._corner(arc.end)
         low, high = (
-            edge(self.file, ends[0][upper], ends[1][upper], self._circle(arc, radius), True)
+            edge(
+                self.file, ends[0][upper], ends[1][upper], self._circle(arc, radius), not _wide(arc)
+            )
             for upper, radius in ((0, self.shell.inner), (1, self.shell.outer))
         )
         self.sides[_key(arc)] = made = ShellEdges(low, high, True)
@@ -90,39 +128,43 @@ class _Shell:
         if at not in self.corners:
             low, high = (self._point(at, r) for r in (self.shell.inner, self.shell.outer))
             ends = [self.file.add(f"VERTEX_POINT('',{point})") for point in (low, high)]
-            way = self.file.shared(f"VECTOR('',{self.file.direction(*at)},1.)")
-            rise = edge(self.file, ends[0], ends[1], f"LINE('',{low},{way})", True)
-            self.corners[at] = ShellCorner(ends[0], ends[1], rise)
+            self.corners[at] = ShellCorner(*ends)
         return self.corners[at]
+
+    def _rise(self, at: Vector) -> str:
+        """The edge between a corner's vertices, where walls meet."""
+        if at not in self.rises:
+            corner, low = self.corners[at], self._point(at, self.shell.inner)
+            way = self.file.shared(f"VECTOR('',{self.file.direction(*at)},1.)")
+            self.rises[at] = edge(self.file, *corner, f"LINE('',{low},{way})", True)
+        return self.rises[at]
 
     def _wall(self, arc: SphereArc, side: ShellEdges) -> str:
         """Bounded, from outside, by the inner edge, up at its end, the outer one back, and down."""
-        start, end = self.corners[arc.start], self.corners[arc.end]
         bound = loop(
             self.file,
             [
                 (side.low, side.along),
-                (end.edge, True),
+                (self._rise(arc.end), True),
                 (side.high, not side.along),
-                (start.edge, False),
+                (self._rise(arc.start), False),
             ],
         )
         # a cone's own normal leads away from its axis, which lies on the material's side or not
-        inward = math.cos(arc.angle)
-        if abs(inward) < FLAT:
+        axis, angle = (opposite(arc.axis), math.pi - arc.angle) if _wide(arc) else arc[:2]
+        if math.cos(angle) < FLAT:
             frame = self._frame((0.0, 0.0, 0.0), opposite(arc.axis), arc.ahead)
             return face(self.file, [bound], self.file.add(f"PLANE('',{frame})"), True)
-        axis = arc.axis if inward > 0.0 else opposite(arc.axis)
-        height, radius = abs(inward) * self.shell.inner, math.sin(arc.angle) * self.shell.inner
+        height, radius = math.cos(angle) * self.shell.inner, math.sin(angle) * self.shell.inner
         frame = self._frame(_times(axis, height), axis, arc.ahead)
-        angle = math.atan2(radius, height)
-        surface = self.file.add(f"CONICAL_SURFACE('',{frame},{real(radius)},{real(angle, ANGLE)})")
-        return face(self.file, [bound], surface, inward > 0.0)
+        surface = f"CONICAL_SURFACE('',{frame},{real(radius)},{real(angle, ANGLE)})"
+        return face(self.file, [bound], self.file.add(surface), not _wide(arc))
 
     def _circle(self, arc: SphereArc, radius: float) -> str:
-        centre = _times(arc.axis, radius * math.cos(arc.angle))
-        frame = self._frame(centre, arc.axis, arc.ahead)
-        return f"CIRCLE('',{frame},{real(radius * math.sin(arc.angle))})"
+        """About the axis that its cone has, which is the nearer one."""
+        axis, angle = (opposite(arc.axis), math.pi - arc.angle) if _wide(arc) else arc[:2]
+        frame = self._frame(_times(axis, radius * math.cos(angle)), axis, arc.ahead)
+        return f"CIRCLE('',{frame},{real(radius * math.sin(angle))})"
 
     def _sphere(self, middle: Vector, radius: float) -> str:
         """A sphere whose poles and seam are away from a region about its middle."""
@@ -142,6 +184,16 @@ class _Shell:
 
 def _times(v: Vector, length: float) -> Vector:
     return v[0] * length, v[1] * length, v[2] * length
+
+
+def _ahead(v: Vector, length: float, aside: Vector, by: float) -> Vector:
+    x, y, z = (length * p + by * q for p, q in zip(v, aside, strict=True))
+    return x, y, z
+
+
+def _wide(arc: SphereArc) -> bool:
+    """Whether its circle's middle is nearer to the other end of its axis."""
+    return math.cos(arc.angle) < 0.0
 
 
 def _back(arc: SphereArc) -> SphereArc:

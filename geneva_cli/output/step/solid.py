@@ -18,6 +18,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.output.step.entities import (
     SHARE,
     Entities,
+    WallFace,
     closed_solid,
     edge,
     face,
@@ -26,15 +27,6 @@ from geneva_cli.output.step.entities import (
     real,
 )
 from geneva_cli.output.step.splines import Piece, Spline, pieces
-
-
-class WallFace(NamedTuple):
-    """The face over one piece of a contour, and its edges in the plate's lower and upper face."""
-
-    face: str
-    low: str
-    high: str
-    along: bool  # whether the edges run as the contour does
 
 
 class SolidCorner(NamedTuple):

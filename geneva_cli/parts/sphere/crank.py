@@ -1,4 +1,4 @@
-"""A spherical crank as regions of its sphere: locking sectors and rollers.
+"""A spherical crank as regions of its sphere: locking sectors and rollers, which its arm carries.
 
 In the crank's frame: its axis z, the first roller on the azimuth 0, the others where they are.
 """
@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves.sphere import Region, Rotation, SphereArc, Vector, cross, opposite, place
+from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
+from geneva_cli.curves.sphere_belt import Cap
 from geneva_cli.parts.sphere.sizes import Ball, NoRoom
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
@@ -33,12 +34,15 @@ def sectors(found: Ball) -> list[Region]:
     Raises NoRoom where nothing is left of them.
     """
     spare = min(0.25 * (found.recess - found.lock) + 0.1 * found.roller, 0.1 * found.lock)
+    # what is about the axis fills a cone up to where it ends
+    about = math.asin(min(1.0, found.about_crank_mm / found.lock_span_mm[0]))
+    least = max(POINTED * found.lock, about)
     regions = []
     for start, end in locked(found):
         middle, whole = 0.5 * (start + end), 0.5 * (end - start)
         reached = _reached(found, middle)
         for share in SHARES:
-            low = max(reached(share * whole) + spare, POINTED * found.lock)
+            low = max(reached(share * whole) + spare, least)
             if low <= (1.0 - THIN) * found.lock:
                 half = share * whole
                 regions.append(_sector(found.lock, low, middle - half, middle + half))
@@ -77,19 +81,9 @@ def _sector(high: float, low: float, start: float, end: float) -> Region:
     return Region(boundary, POLE)
 
 
-def cap(middle: Vector, angle: float) -> Region:
-    """What is within an angle of a point."""
-    aside = cross(middle, POLE)
-    x, y, z = (
-        math.cos(angle) * p + math.sin(angle) * q / math.hypot(*aside)
-        for p, q in zip(middle, aside, strict=True)
-    )
-    return Region((SphereArc(middle, angle, (x, y, z), (x, y, z)),), middle)
-
-
 def rollers(found: Ball) -> list[Region]:
     """The rollers' cones."""
-    return [cap(place(found.arm, azimuth), found.roller) for azimuth in found.rollers]
+    return [Cap(place(found.arm, azimuth), found.roller).region for azimuth in found.rollers]
 
 
 def at_mid_motion(found: Ball) -> Rotation:

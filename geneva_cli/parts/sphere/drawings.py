@@ -9,15 +9,16 @@ import math
 
 from geneva_cli.curves.drawing import Annotations, Drawing
 from geneva_cli.curves.measure import bounds, mapped
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
+from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
-from geneva_cli.curves.sphere import Region, Rotation
+from geneva_cli.curves.sphere import Region
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sphere.crank import at_mid_motion, locked, rollers
+from geneva_cli.parts.sphere.built import built, wheel_group
+from geneva_cli.parts.sphere.crank import locked, rollers
 from geneva_cli.parts.sphere.laid_flat import Cone
 from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.sphere.wheel import edge, wheel_regions
+from geneva_cli.parts.sphere.wheel import edge
 
 APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
 PITCH = "PITCH"
@@ -30,7 +31,8 @@ def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
     cone = wheel_cone(found)
     title = f"{titled(proof.mechanism)}: wheel, flat: {cone.said('wheel')}"
     shapes = wheel_flat(found, cone, tolerance, curves)
-    return _drawing(found, title, shapes, wheel_shell(found))
+    solid = wheel_group(proof.mechanism.spec.size, found)
+    return _drawing(found, title, shapes, solid)
 
 
 def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
@@ -39,7 +41,7 @@ def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
     cone = crank_cone(found)
     title = f"{titled(proof.mechanism)}: crank, flat: {cone.said('crank')}"
     shapes = crank_flat(found, locks, cone, tolerance, curves)
-    return _drawing(found, title, shapes, _crank(crank_shells(found, locks)))
+    return _drawing(found, title, shapes, built(proof.shells).crank.part)
 
 
 def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
@@ -51,15 +53,15 @@ def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
     shift = APART * found.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     beside = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
-    carried = _crank(crank_shells(found, locks, at_mid_motion(found)))
-    whole = Group(title, (Member(wheel_shell(found)), Member(carried)))
+    whole = Group(title, built(proof.shells).members)
     return _drawing(found, title, [*left, *beside], whole)._replace(look=Annotations((), ()))
 
 
 def _drawing(found: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
     """What is laid flat as plates of sheet, and the shells that it becomes."""
+    inner, outer = found.span_mm
     plates = [
-        Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, found.thickness_mm))
+        Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
         for s in shapes
         if s.layer in CUT
     ]
@@ -129,22 +131,3 @@ def _contour(
     for arc in region.boundary:
         found += cone.segments(arc, about, tolerance, curves)
     return closed(layer, found)
-
-
-def wheel_shell(found: Ball) -> Shell:
-    """The wheel, its axis z."""
-    return Shell("wheel", "WHEEL", tuple(wheel_regions(found)), *found.span_mm)
-
-
-def crank_shells(found: Ball, locks: list[Region], turn: Rotation | None = None) -> list[Shell]:
-    """Locking sectors and rollers in the crank's frame, or turned out of it."""
-    parts = [("locking sector", "CRANK", region) for region in locks]
-    parts += [("roller", "ROLLER", region) for region in rollers(found)]
-    return [
-        Shell(name, layer, (region.turned(turn) if turn else region,), *found.span_mm)
-        for name, layer, region in parts
-    ]
-
-
-def _crank(shells: list[Shell]) -> Group:
-    return Group("crank", tuple(Member(one) for one in shells))

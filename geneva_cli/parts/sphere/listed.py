@@ -1,57 +1,86 @@
-"""A spherical machine's part of the list of parts: shells, and the angles to make them by."""
+"""A spherical machine's part of the list of parts: its solids, and the angles to make them by."""
 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 
-from geneva_cli.curves.mass import MM
-from geneva_cli.curves.plates import Shell
-from geneva_cli.curves.sphere import Vector
+from geneva_cli.curves.mass import MM, mass_properties
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Group, Member, Plate, Shell, solids
+from geneva_cli.curves.sphere import Region, opposite
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension
-from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sphere.crank import rollers
-from geneva_cli.parts.sphere.drawings import crank_cone, crank_shells, wheel_cone, wheel_shell
-from geneva_cli.parts.sphere.sizes import Ball, ball
+from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
+from geneva_cli.parts.sphere.built import ROLLER, built, crank_group, wheel_shell
+from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
+from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.wheel import POLE
+
+ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 
 
 def shell_rows(proof: Proof) -> Iterator[dict[str, object]]:
-    """Wheel, locking sectors and rollers, each kind once; inertia about the axis each turns on.
+    """All solids of a machine, each kind once with its count; inertia about its own axis.
 
-    Raises GenevaError where the sizes leave none.
+    That is the wheel's or the crank's, or of a roller and its pin its own. They are wheel and crank
+    alone where the sizes leave no arm or hub; a check says why. Raises GenevaError where there are
+    none.
     """
-    mechanism = proof.mechanism
-    spec, found, locks = mechanism.spec, proof.shells.ball, proof.shells.crank
-    yield _row(wheel_shell(found), POLE, 1, "wheel", spec.material_wheel.density_kgm3)
-    shells = crank_shells(found, locks)
-    for count, name, axis in (
-        (len(locks), "wheel", POLE),
-        (len(found.rollers), "roller", rollers(found)[0].middle),
-    ):
-        material = spec.material_wheel if name == "wheel" else spec.material_roller
-        if count:
-            yield _row(shells[0], axis, count, name, material.density_kgm3)
-        shells = shells[count:]
+    found = proof.shells
+    try:
+        members = built(found).members
+    except GenevaError:
+        members = Member(wheel_shell(found.ball)), Member(crank_group(found, None))
+    counted = Counter(map(_alike, solids(Group("", members))))
+    kinds = {_alike(one): one for one in solids(Group("", members))}
+    for alike, count in counted.items():
+        yield _row(proof.mechanism.spec, found.ball, kinds[alike], count)
 
 
-def _row(one: Shell, axis: Vector, count: int, name: str, density: float) -> dict[str, object]:
+def _alike(one: Plate | Shell) -> tuple[str, str]:
+    """What two solids have in common that differ by their place alone."""
+    size = one.thickness if isinstance(one, Plate) else one.volume
+    return one.name, f"{size:.9g}"
+
+
+def _row(spec: Spec, ball: Ball, one: Plate | Shell, count: int) -> dict[str, object]:
+    name, of = (
+        ("roller", spec.material_roller) if one.layer == ROLLER else ("wheel", spec.material_wheel)
+    )
+    density = of.density_kgm3
+    if isinstance(one, Plate):
+        made, box = mass_properties(one, density), bounds(one.outline)
+        inner, outer, mass, inertia = one.low, one.high, made.mass_kg, made.inertia_kgm2
+        wide, deep = box.x1 - box.x0, box.y1 - box.y0
+    else:
+        inner, outer, mass = one.inner, one.outer, density * one.volume * MM**3
+        inertia = density * one.inertia(POLE) * MM**5
+        wide, deep = (one.reach(way) + one.reach(opposite(way)) for way in ACROSS)
     return {
         "row": "part",
         "name": one.name,
         "count": count,
         "material": f"material.{name}",
         "density_kgm3": density,
-        "thickness_mm": one.outer - one.inner,
-        "mass_kg": density * one.volume * MM**3,
-        "inertia_kgm2": density * one.inertia(axis) * MM**5,
+        "thickness_mm": outer - inner,
+        "z_low_mm": ball.span_mm[1] - outer,
+        "z_high_mm": ball.span_mm[1] - inner,
+        "mass_kg": mass,
+        "inertia_kgm2": inertia,
+        "size_x_mm": wide,
+        "size_y_mm": deep,
     }
 
 
-def dimensions(mechanism: Mechanism) -> Iterator[Dimension]:
-    """What the shells are turned and cut by. Raises GenevaError where the sizes leave none."""
-    found = ball(mechanism)
+def dimensions(proof: Proof) -> Iterator[Dimension]:
+    """What all is turned and cut by. Raises GenevaError where the sizes leave none."""
+    shells = proof.shells
+    found = shells.ball
     inner, outer = found.span_mm
     yield Dimension("shells' inner radius", inner, "mm")
     yield Dimension("shells' outer radius", outer, "mm")
@@ -59,11 +88,50 @@ def dimensions(mechanism: Mechanism) -> Iterator[Dimension]:
     yield Dimension("slot, between its walls", found.slot_width_deg, "deg")
     yield Dimension("slot's last round, from the wheel's axis", math.degrees(found.bottom), "deg")
     yield Dimension("rim, from the wheel's axis", math.degrees(found.rim), "deg")
-    yield Dimension("wheel's inner edge, from its axis", math.degrees(found.inner), "deg")
+    yield Dimension("slotted ring's inner edge, from its axis", math.degrees(found.inner), "deg")
+    yield from _axle("wheel", found.bore_mm, found.hub_mm)
     if found.lock:
         yield Dimension("lock, from the crank's axis", math.degrees(found.lock), "deg")
         yield Dimension("recess, from the crank's axis", math.degrees(found.recess), "deg")
+        yield Dimension("locking sectors' inner radius", found.lock_span_mm[0], "mm")
+    for k, region in enumerate(shells.crank):
+        yield from _sector(f"locking sector {k + 1}", region)
+    if has_arm(shells):
+        with suppress(GenevaError):  # a check says why
+            yield from _arm(found, crank_arm(shells))
     yield from _cones(found)
+
+
+def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
+    """Diameters of a bore, and of the hub that it is in."""
+    if bore:
+        yield Dimension(f"{part}'s bore", 2.0 * bore, "mm")
+    if hub > bore:
+        yield Dimension(f"{part}'s hub", 2.0 * hub, "mm")
+
+
+def _sector(name: str, region: Region) -> Iterator[Dimension]:
+    rim, _, inner, _ = region.boundary
+    start = math.atan2(rim.start[1], rim.start[0]) % math.tau
+    yield Dimension(f"{name}: inner edge", 180.0 - math.degrees(inner.angle), "deg")
+    yield Dimension(f"{name}: begins", math.degrees(start), "deg")
+    yield Dimension(f"{name}: width", math.degrees(rim.sweep), "deg")
+
+
+def _arm(found: Ball, arm: CapArm) -> Iterator[Dimension]:
+    inner, outer = found.arm_span_mm
+    yield Dimension("arm's inner radius", inner, "mm")
+    yield Dimension("arm's outer radius", outer, "mm")
+    yield from _axle("arm", arm.bore, arm.hub)
+    yield Dimension("arm's cap, from the crank's axis", math.degrees(arm.cap), "deg")
+    yield Dimension("arm's eyes, half angle", math.degrees(arm.eye), "deg")
+    yield Dimension("pins", 2.0 * found.pin_mm, "mm")
+    yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
+    for k, bolt in enumerate(arm.bolts):
+        polar, azimuth = math.acos(bolt.axis[2]), math.atan2(bolt.axis[1], bolt.axis[0])
+        yield Dimension(f"bolt {k + 1}: hole", 2.0 * bolt.radius, "mm")
+        yield Dimension(f"bolt {k + 1}: from the crank's axis", math.degrees(polar), "deg")
+        yield Dimension(f"bolt {k + 1}: behind the first roller", math.degrees(azimuth), "deg")
 
 
 def _cones(found: Ball) -> Iterator[Dimension]:

@@ -56,7 +56,7 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     crank = crank_flat(found, locks, crank_cone(found), tolerance, curves)
     rows = [
         (d.name, number(d.value, DECIMALS), d.unit)
-        for d in dimensions(proof.mechanism)
+        for d in dimensions(proof)
         if isinstance(d.value, (int, float))
     ]
     fixed = [

@@ -1,8 +1,9 @@
 """The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
 
 All walls lead to the centre, and so does the roller, a cone. Its radius, slots and clearances are
-arcs of the sphere, of the radius ``center_distance_mm``; radii of the lock and the bore are from
-their axes.
+arcs of the sphere, of the radius ``center_distance_mm``; radii of the lock and of bores are from
+their axes. What lies below the wheel on a plane is outside of it here: a height above the wheel's
+lower face is a distance inwards from its outer sphere.
 """
 
 from __future__ import annotations
@@ -14,8 +15,15 @@ from geneva_cli.curves.sphere import Vector, place
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
-from geneva_cli.parts.sizes import lock_between, require_lock_between, thicknesses
-from geneva_cli.spec.tables import Z_DRAWN
+from geneva_cli.parts.sizes import (
+    Thicknesses,
+    lock_between,
+    pin_radius,
+    require_lock_between,
+    thicknesses,
+)
+from geneva_cli.parts.sphere.axles import about_crank, wheel_axle
+from geneva_cli.spec.tables import Z_DRAWN, Size
 
 LEAST_HORN = 1e-3  # of the roller's angle: a horn at the rim thinner than this is none
 
@@ -41,10 +49,16 @@ class Ball(NamedTuple):
     bottom: float  # of the slot's last round, its polar angle
     mouth: float  # where a roller enters
     rim: float  # the wheel's edge
-    inner: float  # where its shell ends towards its axis
+    inner: float  # where its slotted ring ends towards its axis
     lock: float  # of the locking sectors, 0 for none
     recess: float  # the same in the wheel
-    thickness_mm: float  # of the shells, half of it within the sphere
+    span_mm: tuple[float, float]  # radii of the wheel's inner and outer face, and the rollers'
+    lock_span_mm: tuple[float, float]  # of the locking sectors'
+    arm_span_mm: tuple[float, float]  # of the crank arm's
+    bore_mm: float  # radius of the wheel's bore, 0 for none
+    hub_mm: float  # of its hub, likewise
+    pin_mm: float  # of the rollers' pins, likewise
+    about_crank_mm: float  # of what of the crank's shaft and hub is beside the wheel
 
     @property
     def half_step(self) -> float:
@@ -52,10 +66,13 @@ class Ball(NamedTuple):
         return math.pi / self.z
 
     @property
-    def span_mm(self) -> tuple[float, float]:
-        """Radii of the shells' inner and outer face."""
-        half = 0.5 * self.thickness_mm
-        return self.radius_mm - half, self.radius_mm + half
+    def opening_mm(self) -> float:
+        """The radius of the round hole about the wheel's axis; 0 where its ring stays open."""
+        return max(self.bore_mm, self.hub_mm)
+
+    def out(self, height_mm: float) -> float:
+        """The distance from the centre of a height above the wheel's lower face."""
+        return self.span_mm[1] - height_mm
 
     @property
     def slot_width_deg(self) -> float:
@@ -100,8 +117,15 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     bottom = deepest - (usual if gap is None else gap) / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
-    bore = size.wheel_bore_mm
-    inner = math.asin(min(1.0, 0.5 * bore / L)) if bore else bottom - w - roller
+    _refuse_slots(bottom, w, z)
+    thick, pin = thicknesses(size, L), pin_radius(size, radius_mm)
+    _refuse_thick(thick, size, L, roller, pin)
+    inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
+    under = outside + size.pin_gap_mm  # the arm's inner face, on which the sectors stand
+    room = bottom - w
+    bore, hub = wheel_axle(size, L, inside, room)
+    hole = math.asin(max(bore, hub) / inside)
+    inner = room - roller if room - roller > hole else 0.5 * (room + hole)
     lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
     many = spec.drive.rollers
     turns = [p.crank_deg for p in (first, *others)]
@@ -122,7 +146,13 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         inner=inner,
         lock=lock,
         recess=lock + size.allowances.lock_clearance_mm / L if lock else 0.0,
-        thickness_mm=thicknesses(size, L).wheel,
+        span_mm=(inside, outside),
+        lock_span_mm=(under - thick.lock, under),
+        arm_span_mm=(under, under + thick.arm),
+        bore_mm=bore,
+        hub_mm=hub,
+        pin_mm=pin,
+        about_crank_mm=about_crank(size),
     )
     _refuse(found)
     return found
@@ -151,30 +181,48 @@ def _lock(mechanism: Mechanism, room: float, least: float, roller: float) -> flo
     return math.asin(size.lock_radius_mm / L)
 
 
-def _refuse(found: Ball) -> None:
-    L, b = found.radius_mm, found.half_step
-    if found.bottom <= 0.0 or math.sin(found.bottom) * math.sin(b) <= math.sin(found.half_width):
+def _refuse_slots(bottom: float, w: float, z: int) -> None:
+    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
         raise NoRoom(
             "the slots meet beside their ends: roller_radius_mm, slot_clearance_mm and "
             "slot_bottom_clearance_mm are too large for so many slots",
             ("size", "roller_radius_mm"),
         )
-    if not 0.0 < found.inner < found.bottom - found.half_width:
-        most = 2.0 * L * math.sin(max(0.0, found.bottom - found.half_width))
-        raise GenevaError(
-            "the wheel's shell must have an opening about its axis, and the slots reach down to "
-            f"it: wheel_bore_mm must be above 0 and below {most:.6g}, or the roller smaller",
+
+
+def _refuse(found: Ball) -> None:
+    if found.inner <= 0.0:
+        raise NoRoom(
+            "the wheel has no bore, and no opening about its axis: the slots' ends are no farther "
+            "from it than a roller's width; a wheel_bore_mm, or a smaller roller, is needed",
             ("size", "wheel_bore_mm"),
         )
-    if found.opened() + found.corner() > (1.0 - LEAST_HORN) * b:
+    if found.opened() + found.corner() > (1.0 - LEAST_HORN) * found.half_step:
         raise NoRoom(
             "no horn is left between slot and recess at the rim: a smaller lock_radius_mm may "
             "leave one",
             ("size", "roller_radius_mm"),
         )
-    if found.thickness_mm >= L:
+
+
+def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:
+    if thick.wheel >= L:
         raise GenevaError(
-            f"wheel_thickness_mm = {found.thickness_mm:g}: half of it lies within the sphere of "
+            f"wheel_thickness_mm = {thick.wheel:g}: half of it lies within the sphere of "
             f"{L:g} mm; it must be below {L:g}",
             ("size", "wheel_thickness_mm"),
+        )
+    most = L + 0.5 * thick.wheel + size.pin_gap_mm
+    if thick.lock >= most:
+        raise GenevaError(
+            f"lock_thickness_mm = {thick.lock:g}: the locking sectors reach inwards from the arm, "
+            f"{most:g} mm from the sphere's centre; it must be below that",
+            ("size", "lock_thickness_mm"),
+        )
+    thin = (L - 0.5 * thick.wheel) * math.sin(roller)
+    if pin_mm >= thin:
+        raise GenevaError(
+            f"pin_mm = {2.0 * pin_mm:g}: it must be below {2.0 * thin:.6g}, the diameter of the "
+            "roller's cone where it is thinnest",
+            ("size", "pin_mm"),
         )

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 QUARTER = 0.5 * math.pi
 POLE = (0.0, 0.0, 1.0)
+WEB = 1.0  # radians: as far from the axis a cap is one region
 
 
 def wheel_regions(found: Ball) -> list[Region]:
@@ -31,6 +32,31 @@ def wheel_regions(found: Ball) -> list[Region]:
         for k in range(found.z)
         for after in ((k + 1) % found.z,)
     ]
+
+
+def web_regions(found: Ball) -> list[Region]:
+    """What closes the wheel from its slotted ring to its axis; the last one is about that.
+
+    A cap, and where the ring is far from the axis, a ring in pieces between the two.
+    """
+    b, z, low = found.half_step, found.z, min(found.inner, WEB)
+    azimuths = [(2 * k - 1) * b for k in range(z)]
+    near = [place(low, a) for a in azimuths]
+    pieces = []
+    if low < found.inner:
+        far = [place(found.inner, a) for a in azimuths]
+        for k, azimuth in enumerate(azimuths):
+            after = (k + 1) % z
+            sides = [(-math.sin(a), math.cos(a), 0.0) for a in (azimuth, azimuths[after])]
+            boundary = (
+                SphereArc(POLE, found.inner, far[k], far[after]),
+                SphereArc(opposite(sides[1]), QUARTER, far[after], near[after]),
+                SphereArc(opposite(POLE), math.pi - low, near[after], near[k]),
+                SphereArc(sides[0], QUARTER, near[k], far[k]),
+            )
+            pieces.append(Region(boundary, place(0.5 * (low + found.inner), azimuth + b)))
+    rim = [SphereArc(POLE, low, near[k], near[(k + 1) % z]) for k in range(z)]
+    return [*pieces, Region(tuple(rim), POLE)]
 
 
 def edge(found: Ball, at: float = 0.0) -> list[SphereArc]:

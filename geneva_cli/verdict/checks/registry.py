@@ -80,8 +80,8 @@ SPHERE: Checks = {
     "horn_mm": "sphere:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
-    "wheel_shaft_mm": "sphere:wheel_shaft",
-    "arm_to_hub_mm": "sphere:arm_to_hub",
+    "beside_shafts_mm": "sphere:beside",
+    "arm_wall_mm": "sphere:arm_wall",
 }
 # Of plates or shells in a whole turn.
 TURNING: Checks = {

@@ -1,15 +1,19 @@
-"""Walls and shafts of a spherical machine, mm along the sphere.
-
-A shaft is round about its axis, with its surface as far from it as a plate's would be: seen from
-the sphere's centre it fills a cone.
-"""
+"""Walls, arm and shafts of a spherical machine, mm along the sphere."""
 
 from __future__ import annotations
 
 import math
 
+from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.sphere.arm import crank_arm, has_arm
+from geneva_cli.parts.sphere.beside import beside_shafts
+from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, compared
+
+ROUNDING = 1e-12  # of the sphere's radius
 
 
 def between_slots(name: str, found: Shells) -> Check:
@@ -31,48 +35,43 @@ def horn(name: str, found: Shells) -> Check | None:
 
 
 def wheel_bore(name: str, found: Shells) -> Check:
-    """Between the opening about the wheel's axis and the ends of its slots."""
+    """Between the ends of the slots and the round hole about the wheel's axis, where its bore or
+    hub is; or where the wheel stays open about it."""
     ball = found.ball
-    return _wall(name, ball.bottom - ball.half_width - ball.inner, found)
+    opening = RoundHole(POLE, ball.opening_mm).angle(ball.span_mm[0]) or ball.inner
+    return _wall(name, ball.bottom - ball.half_width - opening, found)
 
 
 def crank_shaft(name: str, found: Shells) -> Check | None:
-    """The crank's shaft or hub, whichever is thicker, and the wheel's rim."""
-    size, ball = found.assembly.given.spec.size, found.ball
-    if not size.crank_bore_mm:
+    """The crank's shaft or hub within the arm, whichever is thicker, and the wheel's rim."""
+    ball = found.ball
+    if not ball.about_crank_mm:
         return None
-    shaft = _cone(max(size.crank_bore_mm, size.crank_hub_mm or 0.0), found)
+    shaft = RoundHole(POLE, ball.about_crank_mm).angle(ball.span_mm[0])
     # a rim that lies beyond the crank's axis sweeps over it, and there is no room at all
     room = max(ball.axes - ball.rim, 0.0)
-    return _room(name, room - shaft, found)
+    return compared(name, (room - shaft) * ball.radius_mm, "at least", 0.0)
 
 
-def wheel_shaft(name: str, found: Shells) -> Check | None:
-    """The wheel's shaft or hub and a roller at the end of its slot."""
-    size, ball = found.assembly.given.spec.size, found.ball
-    widest = max(size.wheel_bore_mm or 0.0, size.wheel_hub_mm or 0.0)
-    if not widest:
+def arm_wall(name: str, found: Shells) -> Check | None:
+    """The least wall round the holes of the crank arm, and of bolts in the locking sectors."""
+    if not has_arm(found):
         return None
-    return _room(name, ball.bottom - ball.half_width - _cone(widest, found), found)
+    try:
+        made = crank_arm(found)
+    except GenevaError as error:
+        return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
+    return compared(name, made.wall, "at least", found.sizes.wall_min)
 
 
-def arm_to_hub(name: str, found: Shells) -> Check | None:
-    """Between the arm's end, as it passes the wheel on its own shell, and the wheel's hub."""
-    size, ball = found.assembly.given.spec.size, found.ball
-    if size.arm_eye_mm is None:
-        return None
-    hub = _cone(max(size.wheel_hub_mm or 0.0, size.wheel_bore_mm or 0.0), found)
-    eye = 0.5 * size.arm_eye_mm / ball.radius_mm
-    return _room(name, ball.axes - ball.arm - eye - hub, found)
-
-
-def _cone(diameter_mm: float, found: Shells) -> float:
-    """The half angle under which a round shaft is seen where it passes the sphere."""
-    return math.asin(min(1.0, 0.5 * diameter_mm / found.ball.radius_mm))
-
-
-def _room(name: str, angle: float, found: Shells) -> Check:
-    return compared(name, angle * found.ball.radius_mm, "at least", 0.0)
+def beside(name: str, found: Shells) -> Check | None:
+    """Between hubs and shafts and what turns about the other axis."""
+    try:
+        least = beside_shafts(found, built(found))
+    except GenevaError as error:
+        return Check(name, None, "at least", 0.0, False, str(error))
+    noise = ROUNDING * found.ball.radius_mm
+    return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
 
 
 def _wall(name: str, angle: float, found: Shells) -> Check:

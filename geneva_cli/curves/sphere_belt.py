@@ -1,0 +1,107 @@
+"""The belt round some caps of a sphere: the shortest boundary that holds them all.
+
+As on a plane (``belt``): arcs of the caps' rims, and great circles that touch two of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from geneva_cli.curves.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
+
+SAME = 1e-9  # of a cap's rim: two that reach as far
+
+
+class Cap(NamedTuple):
+    """What is within an angle of a point."""
+
+    middle: Vector
+    angle: float
+
+    @property
+    def region(self) -> Region:
+        """The same as a region."""
+        aside = square_to(self.middle)
+        rim = _sum(self.middle, math.cos(self.angle), aside, math.sin(self.angle))
+        return Region((SphereArc(self.middle, self.angle, rim, rim),), self.middle)
+
+
+class Tangent(NamedTuple):
+    """A great circle from one cap to another, with all caps on its left."""
+
+    pole: Vector
+    to: int
+    start: Vector
+    end: Vector
+
+
+def belt(caps: Sequence[Cap]) -> Region:
+    """The convex hull of caps that lie within a quarter of the sphere of the first one's middle.
+
+    >>> from geneva_cli.curves.sphere import place
+    >>> two = belt([Cap((0.0, 0.0, 1.0), 0.2), Cap(place(0.6, 0.0), 0.1)])
+    >>> [round(arc.angle, 3) for arc in two.boundary]
+    [1.571, 0.1, 1.571, 0.2]
+    """
+    leaving = [list(_tangents(i, caps)) for i in range(len(caps))]
+    first = next((found[0] for found in leaving if found), None)
+    if first is None:  # one holds all others
+        return max(caps, key=lambda cap: cap.angle).region
+    boundary: list[SphereArc] = []
+    here = first
+    while True:
+        middle, angle = caps[here.to]
+        after = min(leaving[here.to], key=lambda t: _turn(middle, here.end, t.start))
+        boundary.append(SphereArc(here.pole, 0.5 * math.pi, here.start, here.end))
+        boundary.append(SphereArc(middle, angle, here.end, after.start))
+        if after is first:
+            return Region(tuple(boundary), caps[0].middle)
+        here = after
+
+
+def _tangents(i: int, caps: Sequence[Cap]) -> Iterator[Tangent]:
+    """Those that leave a cap; of some on one great circle the one to the farthest cap."""
+    found: list[tuple[float, Tangent]] = []
+    for j in range(len(caps)):
+        pole = _pole(caps[i], caps[j]) if j != i else None
+        if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME for c in caps):
+            continue
+        ends = [unit(_sum(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
+        found.append((dot(*ends), Tangent(pole, j, *ends)))
+    for near, one in found:
+        if not any(far < near and _same(one.pole, other.pole) for far, other in found):
+            yield one
+
+
+def _pole(one: Cap, other: Cap) -> Vector | None:
+    """The pole of the great circle from one cap to another that has both on its left, or None.
+
+    It is as far from each middle as a quarter of the sphere less the cap's angle.
+    """
+    g = dot(one.middle, other.middle)
+    square = 1.0 - g * g
+    s, t = math.sin(one.angle), math.sin(other.angle)
+    if square <= 0.0:
+        return None
+    a, b = (s - g * t) / square, (t - g * s) / square
+    left = (1.0 - (a * s + b * t)) / square
+    if left <= SAME * SAME:
+        return None  # one holds the other
+    both = _sum(one.middle, a, other.middle, b)
+    return unit(_sum(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
+
+
+def _turn(middle: Vector, start: Vector, end: Vector) -> float:
+    """How far it is about a middle from one point of a rim to another, counterclockwise."""
+    return SphereArc(middle, 0.0, start, end).sweep
+
+
+def _same(one: Vector, other: Vector) -> bool:
+    return math.dist(one, other) < SAME
+
+
+def _sum(one: Vector, a: float, other: Vector, b: float) -> Vector:
+    x, y, z = (a * p + b * q for p, q in zip(one, other, strict=True))
+    return x, y, z

@@ -1,0 +1,215 @@
+"""The crank arm of a spherical machine: a cap outside of the wheel, which carries all of the crank.
+
+All that turns about axes through one centre stays at its distance from there: a shell outside of
+the wheel's never meets it. The arm's boundary is the belt round the locking sectors, which stand on
+its inner face, its hub, and an eye about each pin and bolt. Pins and bolts point at the centre. The
+hub, with flat faces and the bore, is in a round hole about the crank's axis.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.curves.sphere import Region, dot, place
+from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_belt import Cap, belt
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.keyways import ParallelKey, key
+from geneva_cli.parts.sizes import even
+from geneva_cli.parts.sphere.axles import HUB, refuse_wide
+from geneva_cli.parts.sphere.crank import locked
+from geneva_cli.parts.sphere.wheel import POLE
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.shells import Shells
+
+EYE = 2.0  # of a hole: how wide the arm is round it, where there is room
+
+
+class CapArm(NamedTuple):
+    """The arm in the crank's frame; radii in mm, angles in radians."""
+
+    boundary: Region
+    bore: float
+    fitted: ParallelKey | None
+    keyway: float  # its direction about the crank's axis
+    hub: float
+    pins: tuple[RoundHole, ...]
+    bolts: tuple[RoundHole, ...]
+    cap: float  # angle from the crank's axis, but for the eyes
+    eye: float  # angle
+    reach: float  # angle from the crank's axis of its farthest
+    wall: float  # the least between two holes, or a hole and the boundary, on its inner face, mm
+
+    @property
+    def holes(self) -> tuple[RoundHole, ...]:
+        """All round holes: the hub's, the pins' and the bolts'."""
+        return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
+
+
+def has_arm(found: Shells) -> bool:
+    """Whether there is an arm: rollers on pins in a crank."""
+    return found.assembly.given.spec.drive.CRANKED and found.ball.pin_mm > 0.0
+
+
+def crank_arm(found: Shells) -> CapArm:
+    """The arm of a machine.
+
+    Raises GenevaError, naming the key, where the sizes leave no arm round the holes.
+    """
+    spec, ball = found.assembly.given.spec, found.ball
+    if not has_arm(found):
+        raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
+    size, wall, under = spec.size, found.sizes.wall_min, ball.arm_span_mm[0]
+    hole = ball.pin_mm - 0.5 * size.allowances.press_fit_mm
+    if hole <= 0.0:
+        raise GenevaError(
+            f"there is no hole for a pin of pin_mm = {2.0 * ball.pin_mm:g} with press_fit_mm = "
+            f"{size.allowances.press_fit_mm:g}; the pin must be the larger",
+            ("size", "press_fit_mm"),
+        )
+    radius = shaft_bore(found, hole)
+    fitted = key(size.crank_keyway, radius)
+    deep = radius + (fitted.in_hub if fitted else 0.0)
+    hub = max(even(HUB * radius), deep + wall)
+    hub = hub if size.arm_hub_mm is None else 0.5 * size.arm_hub_mm
+    eye = (
+        0.5 * size.arm_eye_mm if size.arm_eye_mm else max(min(EYE * hole, most(found)), hole + wall)
+    )
+    _refuse(found, deep, hub, hole, eye)
+    pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
+    screwed = bolts(found)
+    round_hub = RoundHole(POLE, hub + max(hub - deep, wall)).angle(under)
+    cap = max(ball.lock, round_hub)
+    about = [Cap(POLE, cap)]
+    about += [Cap(pin.axis, eye / ball.radius_mm) for pin in pins]
+    about += [Cap(b.axis, max(EYE * b.radius, b.radius + wall) / under) for b in screwed]
+    boundary = belt(about)
+    middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
+    made = CapArm(
+        boundary=boundary,
+        bore=radius,
+        fitted=fitted,
+        keyway=middle,
+        hub=hub,
+        pins=pins,
+        bolts=screwed,
+        cap=cap,
+        eye=eye / ball.radius_mm,
+        reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in about),
+        wall=0.0,
+    )
+    return made._replace(wall=min(hub - deep, _walls(made, found)))
+
+
+def most(found: Shells) -> float:
+    """The widest half of an eye that passes the wheel's hub, mm along the sphere."""
+    ball = found.ball
+    aside = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
+    return ball.radius_mm * (ball.axes - ball.arm - aside)
+
+
+def shaft_bore(found: Shells, hole: float) -> float:
+    """The radius of the shaft's bore: as on a plane."""
+    spec, ball = found.assembly.given.spec, found.ball
+    for given in (spec.size.arm_bore_mm, spec.size.crank_bore_mm, spec.shaft.crank_diameter_mm):
+        if given:
+            return 0.5 * given
+    room = ball.radius_mm * ball.arm - hole
+    return even(min(ball.radius_mm / 20.0, 0.35 * room))
+
+
+def bolts(found: Shells) -> tuple[RoundHole, ...]:
+    """The holes of the bolts that fix the locking sectors to the arm, evenly in each.
+
+    Raises GenevaError where there are no sectors to fix.
+    """
+    size, ball = found.assembly.given.spec.size, found.ball
+    if not size.lock_bolts:
+        return ()
+    if not found.crank:
+        raise GenevaError(
+            "lock_bolts: there is no locking sector to fix; remove it", ("size", "lock_bolts")
+        )
+    r = ball.radius_mm / 80.0 if size.lock_bolt_mm is None else 0.5 * size.lock_bolt_mm
+    made = []
+    for sector in found.crank:
+        rim, _, inner, _ = sector.boundary
+        low = math.pi - inner.angle
+        far = 0.5 * (low + rim.angle)
+        if size.lock_bolt_circle_mm is not None:
+            far = math.asin(min(1.0, 0.5 * size.lock_bolt_circle_mm / ball.radius_mm))
+        start = math.atan2(rim.start[1], rim.start[0])
+        for k in range(size.lock_bolts):
+            made.append(RoundHole(place(far, start + rim.sweep * (k + 0.5) / size.lock_bolts), r))
+    return tuple(made)
+
+
+def _refuse(found: Shells, deep: float, hub: float, hole: float, eye: float) -> None:
+    """Raise GenevaError, naming the key, for sizes that leave no arm round a hole."""
+    ball = found.ball
+    under, over = ball.arm_span_mm
+    if hub <= deep:
+        raise GenevaError(
+            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, its bore and "
+            "keyway",
+            ("size", "arm_hub_mm"),
+        )
+    refuse_wide("arm_hub_mm", hub, under, over)
+    if eye <= hole:
+        raise GenevaError(
+            f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
+            ("size", "arm_eye_mm"),
+        )
+    if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
+        raise GenevaError(
+            f"arm_eye_mm = {2.0 * eye:g}: the arm would reach over half of the sphere; it must be "
+            f"below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
+            ("size", "arm_eye_mm"),
+        )
+    room = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
+    if hub >= room:
+        key_ = "arm_hub_mm" if found.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
+        raise GenevaError(
+            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm wide, runs into the pin's hole; "
+            f"it must be below {2.0 * room:.6g}",
+            ("size", key_),
+        )
+
+
+def _walls(made: CapArm, found: Shells) -> float:
+    """The least wall on the arm's inner face, and round bolts in the sectors, where it is least.
+
+    Raises GenevaError where holes run into each other, or out of what they are in.
+    """
+    ball = found.ball
+    least = _least(made.boundary, made.holes, ball.arm_span_mm[0])
+    each = len(made.bolts) // max(1, len(found.crank))
+    for k, sector in enumerate(found.crank if each else []):
+        own = made.bolts[k * each : (k + 1) * each]
+        least = min(least, _least(sector, own, ball.lock_span_mm[0]))
+    if least <= 0.0:
+        raise GenevaError(
+            "the round holes of the crank arm run into each other, or out of the arm or its "
+            "locking sectors: smaller ones of lock_bolt_mm, arm_hub_mm or pin_mm, fewer lock_bolts "
+            "or another lock_bolt_circle_mm leave a wall",
+            ("size", "lock_bolts" if made.bolts else "arm_hub_mm"),
+        )
+    return least
+
+
+def _least(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
+    """The least wall between holes, and between them and a boundary, on a sphere, mm."""
+    angles = [hole.angle(sphere) for hole in holes]
+    away, _ = Arcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
+    least = float((-away - angles).min())
+    for (one, a), (other, b) in combinations(zip(holes, angles, strict=True), 2):
+        apart = 2.0 * math.asin(min(1.0, 0.5 * math.dist(one.axis, other.axis)))
+        least = min(least, apart - a - b)
+    return sphere * least

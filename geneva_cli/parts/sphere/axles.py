@@ -1,0 +1,67 @@
+"""Bores, hubs and shafts of a spherical machine: how wide they are, and how far they reach.
+
+A shell's faces are round: what sits on a shaft is a hub with flat faces, in a round hole of the
+shell. Heights are as on a plane (``parts.shafts``), from the wheel's lower face, which is its outer
+sphere here, inwards.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.sizes import even, wall_min
+from geneva_cli.spec.tables import Size
+
+HUB = 1.6  # of the bore: how wide a hub is
+
+
+def wheel_axle(size: Size, L: float, inside: float, room: float) -> tuple[float, float]:
+    """Radii of the wheel's bore and its hub, mm, 0 for none.
+
+    ``inside`` is the radius of the wheel's inner sphere, ``room`` the angle from its axis to its
+    slots' ends. Raises GenevaError, naming the key, where one of them runs into the slots.
+    """
+    end = inside * math.sin(min(room, 0.5 * math.pi))
+    if size.wheel_bore_mm is not None:
+        bore = 0.5 * size.wheel_bore_mm
+    else:
+        within = 0.4 * size.wheel_hub_mm if size.wheel_hub_mm else math.inf
+        bore = even(min(L / 12.0, 0.4 * end, end - wall_min(size, L), within))
+    if size.wheel_hub_mm is not None:
+        hub = 0.5 * size.wheel_hub_mm
+    else:
+        hub = max(bore, even(min(HUB * bore, 0.75 * end))) if bore else 0.0
+    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
+        if radius >= end:
+            raise GenevaError(
+                f"{key} = {2.0 * radius:g}: the slots reach down to it; it must be below "
+                f"{2.0 * end:.6g}, or the roller smaller",
+                ("size", key),
+            )
+    return bore, hub
+
+
+def about_crank(size: Size) -> float:
+    """The radius of what of the crank's shaft and hub is within the arm, 0 for none."""
+    return max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size))
+
+
+def crank_hub(size: Size) -> float:
+    """The radius of the crank's hub within the arm, where the spec gives one, 0 for none."""
+    bore = 0.5 * (size.crank_bore_mm or 0.0)
+    if size.crank_hub_mm is None and size.crank_hub_length_mm is None:
+        return 0.0
+    hub = even(1.5 * bore) if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
+    return hub if hub > bore else 0.0
+
+
+def refuse_wide(key_: str, radius: float, inner: float, outer: float) -> None:
+    """Raise GenevaError for a flat-faced hub so wide that its shell curves away from it."""
+    flat = math.sqrt((outer - inner) * (outer + inner))
+    if radius >= flat:
+        raise GenevaError(
+            f"{key_} = {2.0 * radius:g}: so wide a hub with flat faces does not meet its shell, "
+            f"{outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
+            ("size", key_),
+        )

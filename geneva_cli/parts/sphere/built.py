@@ -1,0 +1,179 @@
+"""A spherical machine as it is built: all its parts as solids, at input angle 0.
+
+The sphere's centre is the origin, the wheel's axis z; the crank's parts are in its own frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.curves.plates import Group, Member, Plate, Shell
+from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.curves.sphere import axis_frame, place
+from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.errors import GenevaError
+from geneva_cli.parts.keyways import bore, key
+from geneva_cli.parts.shafts import SHAFT
+from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
+from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
+from geneva_cli.parts.sphere.crank import at_mid_motion
+from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.wheel import POLE, web_regions, wheel_regions
+from geneva_cli.parts.wheel_hub import AXIS, HUB
+from geneva_cli.spec.tables import Size
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.shells import Shells
+
+ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
+
+
+class BuiltBall(NamedTuple):
+    """The parts of a machine where they are."""
+
+    wheel: Member
+    crank: Member
+    arm: CapArm | None
+    shafts: tuple[Member, ...]
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """All of them."""
+        return self.wheel, self.crank, *self.shafts
+
+
+def built(found: Shells) -> BuiltBall:
+    """All parts of a machine.
+
+    Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
+    """
+    arm = crank_arm(found) if has_arm(found) else None
+    size, ball = found.assembly.given.spec.size, found.ball
+    return BuiltBall(
+        Member(wheel_group(size, ball)),
+        Member(crank_group(found, arm), frame=at_mid_motion(ball)),
+        arm,
+        tuple(_shafts(found, arm)),
+    )
+
+
+def wheel_group(size: Size, ball: Ball) -> Group:
+    """The wheel's shell with its hub. Raises GenevaError for a keyway or hub that cannot be."""
+    hub = wheel_hub(size, ball)
+    return Group("wheel", (Member(wheel_shell(ball)), *([Member(hub)] if hub else [])))
+
+
+def wheel_shell(ball: Ball) -> Shell:
+    """The wheel's shell, down to the round hole about its axis, if there is one."""
+    hole = (RoundHole(POLE, ball.opening_mm),) if ball.opening_mm else ()
+    regions = *wheel_regions(ball), *(web_regions(ball) if hole else [])
+    return Shell("wheel", "WHEEL", regions, *ball.span_mm, hole)
+
+
+def wheel_hub(size: Size, ball: Ball) -> Plate | None:
+    """The wheel's hub in its shell and outside of it, by default out to the arm's outer face."""
+    wide = ball.hub_mm > ball.bore_mm
+    if size.wheel_keyway and not (wide and ball.bore_mm):
+        raise GenevaError(
+            "wheel_keyway: the shell of a sphere has none in its bore, but its hub has; give "
+            "wheel_bore_mm and wheel_hub_mm, or remove the keyway",
+            ("size", "wheel_keyway"),
+        )
+    if not wide:
+        return None
+    inside, outside = ball.span_mm
+    refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
+    fitted = key(size.wheel_keyway, ball.bore_mm, "wheel")
+    deep = ball.bore_mm + (fitted.in_hub if fitted else 0.0)
+    if ball.hub_mm <= deep:
+        raise GenevaError(
+            f"wheel_hub_mm = {2.0 * ball.hub_mm:g}: the hub must be above {2.0 * deep:.6g}, its "
+            "bore and keyway",
+            ("size", "wheel_hub_mm"),
+        )
+    length = size.wheel_hub_length_mm
+    long = ball.arm_span_mm[1] if length is None else outside + length
+    bored = (bore("BORE", ball.bore_mm, fitted, ball.half_step),) if ball.bore_mm else ()
+    return Plate("wheel's hub", HUB, Circle(HUB, AXIS, ball.hub_mm), bored, inside, long)
+
+
+def crank_group(found: Shells, arm: CapArm | None) -> Group:
+    """What the crank carries, in its frame, and its arm, if there is one."""
+    ball, size = found.ball, found.assembly.given.spec.size
+    each = len(arm.bolts) // max(1, len(found.crank)) if arm else 0
+    members = []
+    for k, region in enumerate(found.crank):
+        screwed = arm.bolts[k * each : (k + 1) * each] if arm else ()
+        sector = Shell("locking sector", CRANK, (region,), *ball.lock_span_mm, screwed)
+        members.append(Member(sector))
+    members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]
+    inner, outer = ball.span_mm
+    hole = (RoundHole(POLE, ball.pin_mm),) if arm else ()
+    roller = Shell("roller", ROLLER, (Cap(POLE, ball.roller).region,), inner, outer, hole)
+    long = Circle(ROLLER, AXIS, ball.pin_mm)
+    pin = Plate("pin", ROLLER, long, (), inner, ball.arm_span_mm[1])
+    for azimuth in ball.rollers:
+        frame = axis_frame(place(ball.arm, azimuth))
+        members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
+    hub = _inner_hub(size, ball, arm)
+    return Group("crank", (*members, *([Member(hub)] if hub else [])))
+
+
+def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
+    """The arm's cap and its hub, which has flat faces and the bore."""
+    cap = Shell("arm", ARM, (arm.boundary,), *ball.arm_span_mm, arm.holes)
+    bored = bore("BORE", arm.bore, arm.fitted, arm.keyway)
+    return cap, Plate("arm's hub", ARM, Circle(ARM, AXIS, arm.hub), (bored,), *ball.arm_span_mm)
+
+
+def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
+    """The crank's hub on the arm's inner face, where the spec gives one."""
+    radius = crank_hub(size)
+    if not (radius and arm):
+        return None
+    long = size.crank_hub_length_mm
+    high = ball.arm_span_mm[0]
+    low = ball.span_mm[0] if long is None else high - long
+    bored: tuple[Shape, ...] = ()
+    if size.crank_bore_mm:
+        fitted = key(size.crank_keyway, 0.5 * size.crank_bore_mm)
+        bored = (bore("BORE", 0.5 * size.crank_bore_mm, fitted, arm.keyway),)
+    return Plate("crank's hub", HUB, Circle(HUB, AXIS, radius), bored, low, high)
+
+
+def _shafts(found: Shells, arm: CapArm | None) -> Iterator[Member]:
+    """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
+
+    There is no frame: they end the arm's thickness beyond what they carry.
+    """
+    ball, size = found.ball, found.assembly.given.spec.size
+    under, over = ball.arm_span_mm
+    length = size.wheel_hub_length_mm
+    hubs = max(over, ball.span_mm[1] + (length or 0.0) if ball.hub_mm else 0.0)
+    lowest = ball.out(hubs + size.washer_mm + over - under)
+    if ball.bore_mm:
+        low, high = size.wheel_shaft_low_mm, size.wheel_shaft_high_mm
+        low = (lowest if ball.hub_mm > ball.bore_mm else 0.0) if low is None else low
+        yield Member(_shaft("wheel", ball, ball.bore_mm, low, ball.span_mm[0], high))
+    if arm:
+        low = lowest if size.crank_shaft_low_mm is None else size.crank_shaft_low_mm
+        hub = _inner_hub(size, ball, arm)
+        end = (hub.low if hub else ball.lock_span_mm[0]) if size.crank_bore_mm else under
+        shaft = _shaft("crank", ball, arm.bore, low, end, size.crank_shaft_high_mm)
+        yield Member(shaft, frame=at_mid_motion(ball))
+
+
+def _shaft(
+    part: str, ball: Ball, radius: float, low: float, end: float, high: float | None
+) -> Plate:
+    """A shaft from a height up to another, or as far inwards as ``end`` where none is given."""
+    inner, outer = end if high is None else ball.out(high), ball.out(low)
+    if not inner < outer:
+        raise GenevaError(
+            f"{part}_shaft_low_mm: the {part}'s shaft would reach from {outer:g} to {inner:g} mm "
+            f"from the sphere's centre; its lower end must be below, or {part}_shaft_high_mm above",
+            ("size", f"{part}_shaft_low_mm"),
+        )
+    return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), inner, outer)
