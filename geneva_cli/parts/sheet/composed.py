@@ -74,7 +74,7 @@ def _composed(
     materials = [_material(spec.material_wheel), _material(spec.material_roller)]
     fields = {
         "scale": scale_name(scale),
-        "mass": f"{_rounded(sum(r['mass_kg'] * r['count'] for r in rows))} kg",
+        "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
         "material": materials[0] if len(set(materials)) == 1 else "see list",
         "tolerances": GENERAL,
         "units": "mm, degrees",
@@ -130,6 +130,11 @@ def _material(of: Material) -> str:
         usual.density_kgm3,
     )
     return "steel" if same else f"{of.density_kgm3:g} kg/m³"
+
+
+def _mass(kg: float) -> str:
+    """With its unit, which is less where a kilogram has too many zeros for its field."""
+    return f"{_rounded(kg)} kg" if kg >= 1e-3 else f"{_rounded(1e6 * kg)} mg"
 
 
 def _rounded(mass: float) -> str:

@@ -47,8 +47,8 @@ def scale_name(scale: float) -> str:
 
 
 def smaller(scale: float, times: float) -> float:
-    """The next scale of the standard that is smaller by a factor, at least."""
-    return max(s for s in SCALES if s <= scale / times * (1.0 + 1e-9))
+    """The next scale of the standard that is smaller by a factor, at least; or its smallest."""
+    return max((s for s in SCALES if s <= scale / times * (1.0 + 1e-9)), default=SCALES[-1])
 
 
 def frame(paper: PaperSize) -> list[Shape]:

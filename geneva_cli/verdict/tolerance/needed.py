@@ -12,7 +12,8 @@ whole turn.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.analysis.blows import arm_mm
 from geneva_cli.errors import GenevaError
@@ -21,9 +22,12 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.verdict.checks.registry import turn_checks
 
 WORDS = "largest roller and locking disc, narrowest slot and recess"
+# What the lock needs, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
+Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
 LOOSE = "smallest roller and locking disc, widest slot and recess"
 
 
@@ -51,14 +55,16 @@ def needed(
     spec = mechanism.spec
     fit = 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"])
     slot = fit + max(_across(mechanism, e, sizes, least_play) for e in mechanism.engagements)
-    ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
-    if not spec.is_flat:
-        return Needed(slot, None, None, "only flat parts are turned with their deviations")
+    if not spec.has_parts:
+        return Needed(slot, None, None, "no parts are drawn, which could be turned")
     try:
-        found = proof.found
+        lock, corner = (
+            _flat(spec, proof.found, sizes, slot)
+            if spec.wheel.FLAT
+            else _on_sphere(spec, proof.shells.ball, sizes, slot)
+        )
     except GenevaError as error:
         return Needed(slot, None, None, str(error))
-    lock = ring + sizes["center_distance_mm"] if found.crank else None
     short = []
     if spec.size.allowances.slot_clearance_mm < slot * (1.0 - 1e-12):
         short.append(f"slot_clearance_mm must be at least {slot:.6g}")
@@ -67,7 +73,7 @@ def needed(
     if short:
         return Needed(slot, lock, False, " and ".join(short))
     for sign, words in ((-1.0, WORDS), (1.0, LOOSE)):
-        failed = _fails(corner(spec, found, sizes, sign, slot, lock or 0.0))
+        failed = _fails(corner(sign))
         if failed:
             return Needed(slot, lock, failed[0], f"with the {words}: {failed[1]}")
     return Needed(slot, lock, True, "")
@@ -93,6 +99,13 @@ def _across(
         of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(least_play))
         most = max(most, of_arm + of_distance + of_angle)
     return most
+
+
+def _flat(spec: Spec, found: Outlines, sizes: dict[str, float], slot: float) -> Corners:
+    """The clearance that the lock needs, and the specs of the tightest and the loosest machine."""
+    ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
+    lock = ring + sizes["center_distance_mm"] if found.crank else None
+    return lock, lambda sign: corner(spec, found, sizes, sign, slot, lock or 0.0)
 
 
 def corner(
@@ -123,11 +136,45 @@ def corner(
     return spec.replace(size=changed)
 
 
+def _on_sphere(spec: Spec, found: Ball, sizes: dict[str, float], slot: float) -> Corners:
+    """The same on a sphere, whose radius is no distance of shafts: the lock's clearance is an arc.
+
+    The radii that deviate are from the crank's axis, L times the sine of the angle from there.
+    """
+    given, L = spec.size, found.radius_mm
+    least = _wider(found.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
+
+    def corner(sign: float) -> Spec:
+        roller = L * found.roller - sign * 0.5 * sizes["roller_diameter_mm"]
+        clearance = max(given.allowances.slot_clearance_mm + sign * slot, 0.0)
+        beyond = L * (found.half_width - found.bottom) - roller - clearance
+        disc = L * math.sin(found.lock) - sign * sizes["lock_radius_mm"]
+        changed = given.replace(
+            roller_radius_mm=roller,
+            slot_clearance_mm=clearance,
+            slot_bottom_clearance_mm=max(beyond + L * (found.axes - found.arm), 0.0),
+            lock_radius_mm=disc,
+        )
+        if found.lock:
+            recess = found.recess + _wider(found.recess, sign * sizes["recess_radius_mm"], L) / L
+            changed = changed.replace(
+                lock_clearance_mm=max(L * (recess - math.asin(disc / L)), 0.0)
+            )
+        return spec.replace(size=changed)
+
+    return least if found.lock else None, corner
+
+
+def _wider(angle: float, by: float, L: float) -> float:
+    """The arc, mm, by which an angle from an axis grows where its radius L sin(angle) does."""
+    return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)
+
+
 def _fails(spec: Spec) -> tuple[bool | None, str] | None:
     """Which check of a whole turn fails; None where all pass."""
     try:
         proof = Proof(build(spec))
-        rows = list(turn_checks(proof.found, proof.turn))
+        rows = list(turn_checks(proof.turned, proof.turn))
     except GenevaError as error:
         return None, f"not proved: {error}"
     for row in rows:
