@@ -66,6 +66,16 @@ def test_together_as_alone(spec, vary, some):
             assert a == b or a == pytest.approx(b, rel=CLOSE)
 
 
+def test_what_no_design_has_is_had_at_once():
+    """Without a face width there is no contact stress: no design need be asked for it alone."""
+    _, alone, found = rows(
+        "internal-z6.toml", ["drive.n_rpm=10:50:10"], ["loads.contact_stress_MPa.max"]
+    )
+    every = found.plan.rows(0, len(alone))
+    known = batch.table(every, ["drive.n_rpm"], found.pick.names, found._spec)
+    assert [*known.values()] == [[None]] * 5 == [row[1:-1] for row in alone]
+
+
 @pytest.mark.parametrize(
     ("spec", "vary"),
     [

@@ -101,7 +101,12 @@ def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
     sized = dict.fromkeys(q for q in sized if SIZED[q] in there)
     summed = dict.fromkeys(a[1] for a in asked if a[-1] in SUMMED)
     summed = dict.fromkeys(q for q in summed if lent.get(q, q) in there)
-    values: Columns = {}
+    # what no design of this machine has, as a contact stress without a width, is had at once
+    values: Columns = {
+        f"loads.{a[1]}.{a[-1]}": np.inf
+        for a in asked
+        if a[-1] in ("max", "at_deg") and SIZED[a[1]] not in there
+    }
     if sized:
         greatest = greatest_of_many(machine, [SIZED[q] for q in sized])
         for q in sized:
