@@ -61,8 +61,11 @@ def cores() -> int:
 
 
 def _attend() -> None:
-    """Make a worker end with the program that started it, and silently by Ctrl-C."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    """Make a worker end with the program that started it, and silently by Ctrl-C where that ends
+    the program: one in the background of a script is told to ignore it.
+    """
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     threading.Thread(target=_leave, daemon=True).start()
 
 

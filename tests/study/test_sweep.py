@@ -18,6 +18,7 @@ from typer.testing import CliRunner
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
 from geneva_cli.specfile.reader import read
+from geneva_cli.study.pool import mapped
 from geneva_cli.study.sweep.plan import Shard, plan
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import blocks, sweep
@@ -142,6 +143,20 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
     assert [float(line.split(",")[0]) for line in file.read_text().splitlines()[1:]] == [
         i / 400 for i in range(201)
     ]
+
+
+def interrupted(x):
+    os.kill(os.getpid(), signal.SIGINT)
+    return x
+
+
+def test_a_run_that_ignores_ctrl_c_goes_on():
+    """As one in the background of a script, where Ctrl-C reaches the processes that it began."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        assert [*mapped(interrupted, range(3), 2)] == [0, 1, 2]
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_other_formats_hold_the_same():
