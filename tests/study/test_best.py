@@ -1,6 +1,8 @@
 """The best of a sweep: against closed forms, brute force and the built design itself."""
 
+import math
 import os
+import re
 
 import numpy as np
 import pytest
@@ -103,6 +105,23 @@ def test_a_front_within_bounds():
     found = [row for block in asked.chosen(asked.blocks()) for row in block]
     assert found == [r for r in kept if not beaten(r)]
     assert len(found) > 3
+
+
+def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_path):
+    """A motion of 200 deg and a velocity of 0.8, which is at most 0.575 there."""
+    bounds = ["motion_deg >= 200", "velocity.max >= 0.8"]
+    with pytest.raises(GenevaError) as error:
+        best(tmp_path, "drive.A=-0.5:0.9", best="jerk.max", subject_to=bounds)
+    said = str(error.value)
+    assert re.search(r"motion_deg >= 200 is kept by [\d,]+; velocity.max >= 0.8 is kept by", said)
+    near = re.search(r"nearest to all has timing.motion_deg (\S+), velocity.max (\S+)$", said)
+    motion, velocity = float(near[1]), float(near[2])
+    # of z = 6: A = sin((motion - 120)/2) / sin 60, and a peak velocity of 1/(1 + A)
+    A = math.sin(math.radians(0.5 * (motion - 120.0))) / math.sin(math.pi / 3.0)
+    assert velocity == pytest.approx(1.0 / (1.0 + A), rel=1e-5)
+    # no more broken than where one of both is just kept: A = 0.742, or 0.25 and 145 deg
+    broken = (200.0 - motion) / 200.0 + (0.8 - velocity) / 0.8
+    assert broken <= min(1.0 - 1.0 / 1.7422 / 0.8, 1.0 - 145.0 / 200.0) * (1 + 1e-3)
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner
     places = closer(search, tally.places.best()) if search.free else tally.places.best()
     starts = [row for row in places if search.keeps(row)][:STARTS]
     if not starts:
-        raise GenevaError(tally.none())
+        raise GenevaError(tally.none(places[0]))
     best = min((search.refined(row) for row in starts), key=search.cost)
     best = search.refined(best, CLOSE)  # onto the bounds that bind
     best = found.row(search.keys(best))  # built alone, which is what counts
@@ -91,7 +91,11 @@ class Tally:
         self.places.add(rows)
         self.nearness.add(rows)
 
-    def none(self) -> str:
-        """What to say where no design keeps the bounds."""
-        why = "; ".join(self.nearness.said()) or f"{self.search.name} is known of none"
-        return f"--best: none of {self.tried:,} designs will do: {why}"
+    def none(self, near: Row) -> str:
+        """What to say where no design keeps the bounds; ``near`` breaks them least."""
+        why = self.nearness.said() or [f"{self.search.name} is known of none"]
+        values = [(c.name, near[i]) for i, c in self.search.bounds]
+        if len(values) > 1 and all(is_number(value) for _, value in values):
+            told = dict.fromkeys(f"{name} {value:.6g}" for name, value in values)
+            why.append(f"the design nearest to all has {', '.join(told)}")
+        return f"--best: none of {self.tried:,} designs will do: {'; '.join(why)}"

@@ -68,8 +68,8 @@ def constraint(text: str) -> Constraint:
 class Nearness:
     """How near the designs of a sweep come to keeping some bounds, as their rows go by.
 
-    ``kept`` and ``nearest`` are of each bound: how many designs keep it, and the value of the one
-    that is nearest to keeping it, or farthest inside; None where none has the quantity.
+    ``kept`` and ``nearest`` are of each bound: how many designs keep it, and where none does the
+    value of the one that is nearest to it; None where none has the quantity.
     """
 
     def __init__(self, bounds: Sequence[tuple[int, Constraint]]) -> None:
@@ -92,7 +92,8 @@ class Nearness:
         return [
             f"{c.name} is known of none"
             if nearest is None
-            else f"{c} is kept by {count:,}, the nearest being {nearest:.6g}"
+            else f"{c} is kept by {count:,}"
+            + (f", the nearest being {nearest:.6g}" if not count else "")
             for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True)
         ]
 
