@@ -193,6 +193,34 @@ def test_each_bearing_of_a_shaft():
 # The command
 
 
+def test_a_row_at_mid_motion_has_the_limits_of_the_way_in():
+    """A pin that crosses the radius there has no lever, and without resistance no torque.
+
+    Its force is I w^2 psi3 over the lever's rate (v^2 + (1 - l) c) / v, with v = l - psi1 (1 - l)
+    and c = l + 2 psi1 l - psi1^2 (1 - l): 209.674322308232641534 N by mpmath. There was none, and
+    of which wall the sliding was told hung on a rounding.
+    """
+    spec = Spec(
+        Wheel(6),
+        motion=Motion("cycloidal", alpha0_deg=10.0),
+        size=Size(100.0, face_width_mm=10.0),
+        load=Load(1.0),
+    )
+    x = np.array([-1e-5, 0.0])
+    for friction in (0.0, 0.05):
+        cycle = Cycle(build(spec.with_("load.friction", friction)))
+        here = cycle.moving(cycle.mechanism.engagements[0], x)
+        assert here.sliding_m_s[1] == pytest.approx(here.sliding_m_s[0], rel=1e-9)
+        force = 0.0 if friction else 209.674322308232641534
+        # beside a ten-thousandth of the motion a rounding is 1e-12 of the force
+        assert here.pin_force_N[1] == pytest.approx(force, rel=1e-11, abs=1e-10)
+        assert np.isfinite(here.stress_squared).all()
+    pushed = Cycle(build(spec.with_("load.torque_Nm", 2.0)))
+    there = pushed.moving(pushed.mechanism.engagements[0], x)
+    assert there.pin_force_N[1] == math.inf  # a torque without a lever
+    assert there.sliding_m_s[1] == pytest.approx(here.sliding_m_s[0], rel=1e-9)
+
+
 def run(*arguments, text):
     return CliRunner().invoke(app, ["loads", "-", *arguments], input=text)
 

@@ -211,8 +211,17 @@ def _middle(engagement: Engagement) -> list[Number]:
 
 
 def _crossing(engagement: Engagement) -> list[Number]:
-    values = [jet.c[0] for jet in _beside(engagement, 0.0, 0, reactions=False)[:-1]]
-    values[Contact._fields.index("lever")] = 0.0
+    """The lever is 0, and so it is rounding which way the tangent points; beside it, it is not."""
+    values, before = (
+        [jet.c[0] for jet in _beside(engagement, x, 0, reactions=False)[:-1]]
+        for x in (0.0, NEAR * engagement.entry_deg)
+    )
+    lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
+    turned = values[along] * before[along] < 0.0
+    for name in ("aside", "along", "curvature"):
+        i = Contact._fields.index(name)
+        values[i] = choose(turned, -values[i], values[i])
+    values[lever] = 0.0
     return values
 
 

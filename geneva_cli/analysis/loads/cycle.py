@@ -17,6 +17,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import NAMES, Instant, bounded, values
+from geneva_cli.analysis.loads.mid_motion import at_crossing
 from geneva_cli.analysis.loads.peaks import looked
 from geneva_cli.analysis.loads.stretches import Stretch, cusps, stretches, whole
 from geneva_cli.analysis.motion import local_deg, spans
@@ -109,7 +110,15 @@ class Cycle:
         slides = np.copysign(1.0, sliding(at, drives, given.radius))
         feeds = np.copysign(1.0, drives * gain(given, at, drives, slides))
         with np.errstate(all="ignore"):
-            return bounded(Instant(given, at, drives, slides, feeds))
+            found = bounded(Instant(given, at, drives, slides, feeds))
+        middle = input_deg == 0.0
+        limits = at_crossing(engagement, given) if middle.any() else None
+        if limits is None:
+            return found
+        every = dict[str, object](found.quantities())
+        for name, limit in limits.items():
+            every[name] = np.where(middle, limit, getattr(found, name))
+        return Instant.known(every)
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.

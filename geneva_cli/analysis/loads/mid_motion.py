@@ -12,6 +12,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact
 from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
+from geneva_cli.analysis.loads.instant import Instant, bounded, values
 from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
@@ -20,6 +21,7 @@ from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
 STEPS = 2  # of Newton's, from a chord of a ten-thousandth of the motion: what is left is rounding
@@ -49,8 +51,7 @@ def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1
     with np.errstate(all="ignore"):
         at = contact(engagement, np.zeros((n, 1)))
         torque = value(wheel_torque(given, at))
-        common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
-        loaded = np.abs(torque) > ZERO * (common + given.resists_Nm)
+        loaded = _is_loaded(engagement, given, torque)
         beside = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
         limits = [_limits(engagement, given, rows, x) for x in beside]
         # The tangent points away from the axis on the way in and out; at a cusp they are one.
@@ -77,6 +78,42 @@ def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1
     return out
 
 
+def at_crossing(engagement: Engagement, given: Setting) -> dict[str, Array] | None:
+    """What ``Instant`` knows, at mid-motion of a slot that the pin crosses there without a torque:
+    arrays of one, the limits of the way in. None elsewhere.
+    """
+    if not engagement.slot.curved or retraces(engagement):
+        return None
+    with np.errstate(all="ignore"):
+        middle, near = np.zeros(1), np.array([NEAR * engagement.entry_deg])
+        at, before, h = contact(engagement, middle), contact(engagement, near, 2), np.radians(near)
+        if np.any(_is_loaded(engagement, given, value(wheel_torque(given, at)))):
+            return None
+        # the torque's own sign is rounding, and where friction leaves no lever its force is 0/0
+        here, jets = (Instant(given, x, *_signs(given, before)) for x in (at, before))
+        open_ = np.abs(value(here.grip)) <= ZERO
+        known, beside = bounded(values(here)), bounded(values(jets))
+        out = {}
+        for name, jet in jets.quantities().items():
+            if isinstance(jet, Jet):
+                one, other = getattr(known, name), getattr(beside, name)
+                limit = np.where(np.isfinite(other), _limit(jet, h), other)
+                out[name] = np.where(open_ & ~np.isfinite(one), limit, one)
+        return out
+
+
+def _limit(jet: Jet, h: Array) -> Array:
+    """At mid-motion, of a quantity h radians after it."""
+    return array(jet.c[0] - h * (jet.c[1] - h * jet.c[2]))
+
+
+def _is_loaded(engagement: Engagement, given: Setting, torque: Number) -> Mask:
+    """Whether the wheel's torque at mid-motion is more than rounding."""
+    common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
+    loaded: Mask = np.abs(torque) > ZERO * (common + given.resists_Nm)
+    return loaded
+
+
 def _signs(given: Setting, at: Contact[Jet]) -> tuple[Array, Array, Array]:
     """Of the wheel's torque, the sliding and the input's torque."""
     drives = np.copysign(1.0, value(wheel_torque(given, at)))
@@ -86,9 +123,8 @@ def _signs(given: Setting, at: Contact[Jet]) -> tuple[Array, Array, Array]:
 
 def _limits(engagement: Engagement, given: Setting, rows: Rows, x: Array) -> list[Array]:
     """The limits of 0/0 at mid-motion, from beside it."""
-    at, h = contact(engagement, x, 2), np.radians(x)
-    every = [row.value.c for row in rows(at, *_signs(given, at))]
-    return [c[0] - h * (c[1] - h * c[2]) for c in every]
+    at = contact(engagement, x, 2)
+    return [_limit(row.value, np.radians(x)) for row in rows(at, *_signs(given, at))]
 
 
 def _without_torque(
