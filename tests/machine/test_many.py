@@ -9,6 +9,11 @@ from witness import SIGN, Geneva
 from geneva_cli.analysis.peaks import acceleration_peak as acceleration_search
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.wheels.side_crank_formulas import (
+    acceleration,
+    acceleration_at_end,
+    wheel_of,
+)
 from geneva_cli.machine.wheels.side_crank_peaks import (
     acceleration_peak,
     acceleration_peaks,
@@ -56,6 +61,18 @@ def test_a_finer_scan_finds_no_more(monkeypatch):
     monkeypatch.setattr("geneva_cli.machine.wheels.side_crank_peaks.SCAN", 33)
     finer, _ = acceleration_peaks(z, internal, A)
     assert np.abs(size / finer - 1.0).max() <= 2 * EXACT
+
+
+@pytest.mark.parametrize("z", [3, 4, 6, 24, 1000])
+def test_inside_a_slow_crank_never_passes_its_jump(z):
+    """What is not searched for: inside and A >= 0, on a grid of A up to 1 - 1e-6 and of f."""
+    A = np.concatenate((np.linspace(0.0, 0.9, 40), 1.0 - np.logspace(-1, -6, 60)))[:, None]
+    b = np.pi / z
+    l, cos_b = np.sin(b), np.cos(b)
+    w = wheel_of(-1.0 + 0.0 * A, l, 1.0 - l, cos_b, np.pi / 2 + b, A)
+    jump = acceleration_at_end(np, w)[0]
+    inner = acceleration(np, w, np.linspace(0.0, 1.0, 2001)[None, :-1] * w.half)[0]
+    assert (inner <= jump).all()
 
 
 @pytest.mark.parametrize("part", range(4))

@@ -19,6 +19,20 @@ at mid-motion: there D <= 1 - l² and c - l <= c for c >= l, and C² >= 1 - A²,
 h >= (1-l²) (1-A²) (rho - A c) > 0 for A > 0; for A < 0 it is a sum of positive terms. Inside it
 has none for A <= 0.
 
+Outside, and inside for A <= 0, the acceleration is so below zero for f > 0, and greatest in size at
+an end or where its slope rises through zero.
+
+Inside, for A >= 0, it is greatest in its jump at the ends, l (C/rho)² / sqrt(1-l²) with c = -l.
+Where h >= 0 it is at most l (1-l²) (s/D²) (C/rho)², of which both factors are greatest at c = -l.
+Where h < 0 it is below l s (c + l) A (1-A²) / (D rho³). With u = A/rho, (1-A²)/rho² = 1 - 2 c u and
+C/rho = 1 - c u; that at the end is at least 1 + l u, as rho is least there. Over the jump it is so
+below the product of
+
+    s sqrt(1-l²) / D    and    (c + l) u (1 - 2 c u) / (1 + l u)²
+
+For c >= 0 the first is at most 1, and the second below 1/2; for c < 0 the second is below 1/2 too,
+and the first at most 1/sqrt(1-l²), which is 2 or less from three slots on.
+
 Every function takes the library (``math`` or ``numpy``) and runs on one design's floats or on
 arrays of designs.
 
@@ -33,7 +47,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 from geneva_cli.numerics.arrays import choose
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Library
+    from geneva_cli.numerics.arrays import Array, Library, Truth
 
 K = TypeVar("K", float, "Array")
 
@@ -109,6 +123,16 @@ def acceleration_at_end(m: Library, w: Wheel[K]) -> tuple[K, K]:
     C, rho = _front(m, w, s, c)
     f1 = C / rho
     return w.tan * f1 * f1, _input(m, w, s, c, C, rho)
+
+
+def may_pass_the_jump(w: Wheel[K]) -> Truth:
+    """Whether the acceleration may be greater within than at its ends."""
+    return (w.sign > 0.0) | (w.A < 0.0)
+
+
+def may_peak_aside(w: Wheel[K]) -> Truth:
+    """Whether the velocity may be greatest elsewhere than at mid-motion."""
+    return (w.sign < 0.0) & (w.A > 0.0)
 
 
 def acceleration_slope_sign(m: Library, w: Wheel[K], c: K) -> K:

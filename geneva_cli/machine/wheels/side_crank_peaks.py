@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
@@ -20,6 +21,8 @@ from geneva_cli.machine.wheels.side_crank_formulas import (
     acceleration_at_end,
     acceleration_slope_sign,
     acceleration_slopes,
+    may_pass_the_jump,
+    may_peak_aside,
     velocity,
     velocity_fall,
     velocity_fall_slope,
@@ -31,7 +34,7 @@ from geneva_cli.numerics.roots import root
 from geneva_cli.spec.rules import Z_MAX
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Library, Mask, Number, Truth, Which, Whole
+    from geneva_cli.numerics.arrays import Array, Library, Number, Truth, Which, Whole
 
 SCAN = 10  # intervals of the scan; 8 miss none of a million designs, 6 miss twelve
 SCAN_ONE = 16  # of one design
@@ -53,9 +56,9 @@ def acceleration_peak(z: int, sign: float, A: float) -> tuple[float, float]:
     best = acceleration_at_end(PLAIN, w)
     step = half / SCAN_ONE
     before = 0.0
-    for i in range(SCAN_ONE + 1):
+    for i in range(SCAN_ONE + 1 if may_pass_the_jump(w) else 0):
         here = acceleration_slope_sign(PLAIN, w, math.cos(i * step) if i < SCAN_ONE else w.end[1])
-        if before * here < 0.0:
+        if before < 0.0 <= here:
             f = root(lambda f: acceleration_slopes(PLAIN, w, f), (i - 1) * step, i * step, before)
             best = max(best, acceleration(PLAIN, w, f))
         before = here
@@ -75,10 +78,9 @@ def acceleration_peaks(
     The peak's relative error is at most 4e-15, its angle's as a double allows. Raises GenevaError
     where a value is out of its range.
     """
-
     w, shape = _designs(z, internal, A)
     size, at = acceleration_at_end(library(w.l), w)
-    _compete(w, size, at, ACCELERATION)
+    _compete(w, size, at, ACCELERATION, may_pass_the_jump(w))
     at /= -DEGREE
     return size.reshape(shape), at.reshape(shape)
 
@@ -98,10 +100,7 @@ def velocity_peaks(
     w, shape = _designs(z, internal, A)
     size = w.l / (np.where(w.sign > 0.0, w.rest, 1.0 + w.l) * (1.0 + w.A))
     at = np.zeros(len(size))
-    several = np.flatnonzero((w.sign < 0.0) & (w.A > 0.0))
-    some, best, place = _take(w, several), size[several], at[several]
-    _compete(some, best, place, VELOCITY)
-    size[several], at[several] = best, place
+    _compete(w, size, at, VELOCITY, may_peak_aside(w))
     at /= -DEGREE
     return size.reshape(shape), (at + 0.0).reshape(shape)
 
@@ -111,15 +110,14 @@ def _designs(
 ) -> tuple[Wheel[Array], tuple[int, ...]]:
     import numpy as np
 
-    slots, inside, offset = np.broadcast_arrays(
-        np.atleast_1d(z), np.asarray(internal), np.asarray(A, dtype=float)
-    )
+    slots, inside, offset = np.atleast_1d(z), np.asarray(internal), np.asarray(A, dtype=float)
     _refuse(
         bool(((slots >= 3) & (slots <= Z_MAX) & (slots == np.floor(slots))).all()),
         inside.dtype == bool,
         bool((np.abs(offset) < 1.0).all()),
     )
-    return _wheels(slots.ravel(), inside.ravel(), offset.ravel()), slots.shape
+    numbers = np.broadcast_arrays(*_gearings(slots, np.where(inside, -1.0, 1.0)), offset)
+    return wheel_of(*(number.ravel() for number in numbers)), numbers[0].shape
 
 
 def _refuse(z: bool, gearing: bool, A: bool) -> None:
@@ -131,18 +129,25 @@ def _refuse(z: bool, gearing: bool, A: bool) -> None:
         raise GenevaError("A must be above -1 and below 1")
 
 
-def _wheels(z: Array, internal: Mask, A: Array) -> Wheel[Array]:
+def _gearings(z: Array, sign: Array) -> tuple[Array, ...]:
+    """Sign, l, 1 - l, cos b and half the motion of plain wheels."""
     import numpy as np
 
     b = np.pi / z
     l, cos_b = np.sin(b), np.cos(b)
     rest = 1.0 - l
-    few = np.arange(3, EXACT_Z)
-    exact = np.array([(*sin_cos_pi(1, int(n)), one_minus_sin_pi(1, int(n))) for n in few])
-    small = np.flatnonzero(z < EXACT_Z)
-    l[small], cos_b[small], rest[small] = exact[z[small].astype(int) - 3].T
-    sign = np.where(internal, -1.0, 1.0)
-    return wheel_of(sign, l, rest, cos_b, 0.5 * np.pi - sign * b, A)
+    small = np.nonzero(z < EXACT_Z)
+    l[small], cos_b[small], rest[small] = _exact()[z[small].astype(int) - 3].T
+    return sign, l, rest, cos_b, 0.5 * np.pi - sign * b
+
+
+@cache
+def _exact() -> Array:
+    """sin b, cos b and 1 - sin b of few slots, from three on."""
+    import numpy as np
+
+    few = range(3, EXACT_Z)
+    return np.array([(*sin_cos_pi(1, z), one_minus_sin_pi(1, z)) for z in few])
 
 
 # of the crank angle f
@@ -156,44 +161,43 @@ class PeakSearch(NamedTuple):
     slopes: OfAngle
     value: OfAngle  # size and input angle
     close: float = CLOSE  # h may be all but flat where it is zero
-    only_rising: bool = False  # where it falls through zero, the quantity is least
 
 
 ACCELERATION = PeakSearch(acceleration_slope_sign, acceleration_slopes, acceleration)
-VELOCITY = PeakSearch(velocity_fall, velocity_fall_slope, velocity, 1e-11, True)
+VELOCITY = PeakSearch(velocity_fall, velocity_fall_slope, velocity, 1e-11)
 
 
 class Brackets(NamedTuple):
-    """Where a search's function changes sign: designs, the places beside it, a guess between."""
+    """Where a search's function rises through zero: designs, the places beside it, a guess."""
 
     which: Whole
     low: Array
     guess: Array
     high: Array
-    falling: Mask
 
 
-def _compete(w: Wheel[Array], size: Array, at: Array, search: PeakSearch) -> None:
+def _compete(w: Wheel[Array], size: Array, at: Array, search: PeakSearch, where: Truth) -> None:
     """Puts greater sizes, with their places, where ``size`` and ``at`` have less.
 
-    Designs go through in blocks; the few that Newton is not soon done with wait for each other.
+    Designs, of those ``where``, go through in blocks; the few that Newton is not soon done with
+    wait for each other.
     """
     import numpy as np
 
-    late = []
-    for first in range(0, len(size), BLOCK):
-        block = slice(first, first + BLOCK)
-        part = _take(w, block)
-        found = _scanned(part, search)
-        left = _refined(part, (size[block], at[block]), search, found, SOON)
-        late.append(left._replace(which=left.which + first))
+    which, late = np.flatnonzero(where), []
+    for first in range(0, len(which), BLOCK):
+        block = which[first : first + BLOCK]
+        part, best = _take(w, block), (size[block], at[block])
+        left = _refined(part, best, search, _scanned(part, search), SOON)
+        size[block], at[block] = best
+        late.append(left._replace(which=block[left.which]))
     if late:
         joined = Brackets(*(np.concatenate(parts) for parts in zip(*late, strict=True)))
         _refined(w, (size, at), search, joined, STEPS)
 
 
 def _scanned(w: Wheel[Array], search: PeakSearch) -> Brackets:
-    """The changes of sign between the places of a scan."""
+    """The rises through zero between the places of a scan."""
     import numpy as np
 
     step = w.half / SCAN
@@ -203,13 +207,12 @@ def _scanned(w: Wheel[Array], search: PeakSearch) -> Brackets:
     brackets = []
     for i in range(SCAN + 1):
         here = search.zero(library(w.l), w, c if i < SCAN else w.end[1])
-        turned = before * here < 0.0
-        which = np.flatnonzero(turned & (here > 0.0) if search.only_rising else turned)
+        which = np.flatnonzero((before < 0.0) & (here >= 0.0))
         left, right, near = before[which], here[which], step[which]
         # a straight line through the first two, a parabola through three
         share = _crossing(last[which] if i > 1 else 2.0 * left - right, left, right)
         low = (i - 1.0) * near
-        brackets.append((which, low, low + share * near, low + near, left > 0.0))
+        brackets.append((which, low, low + share * near, low + near))
         last, before = before, here
         c, c_next = c_next, turn * c_next - c
     return Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
@@ -241,11 +244,11 @@ def _refined(
     import numpy as np
 
     some = _take(w, found.which)
-    _, a, x, b, falling = found
+    _, a, x, b = found
     out, live, part = np.full(len(x), np.nan), np.arange(len(x)), some
     for _ in range(steps):
         slope, bend = search.slopes(library(part.l), part, x)
-        left = (slope > 0.0) == falling
+        left = slope < 0.0
         a, b = np.where(left, x, a), np.where(left, b, x)
         with np.errstate(divide="ignore", invalid="ignore"):
             new = x - slope / bend
@@ -254,7 +257,7 @@ def _refined(
         out[live] = np.where(apart, np.nan, new)
         far = np.flatnonzero(apart)
         if len(far) < len(live):
-            part, a, b, falling, live = _take(part, far), a[far], b[far], falling[far], live[far]
+            part, a, b, live = _take(part, far), a[far], b[far], live[far]
         x = new[far]
         if not len(far):
             break
@@ -264,4 +267,4 @@ def _refined(
     # A design may have several roots: the greatest is written last.
     order = more[np.argsort(value[more])]
     size[found.which[order]], at[found.which[order]] = value[order], where[order]
-    return Brackets(found.which[live], a, x, b, falling)
+    return Brackets(found.which[live], a, x, b)
