@@ -185,6 +185,35 @@ def size(x: N) -> N:
     return x.__abs__()
 
 
+def plus(total: Number, more: Number) -> Number:
+    """The sum of two numbers, of which the first is nobody else's: an array is added to in place.
+
+    That takes half the time.
+    """
+    if _are_alike(total, more):
+        total += more
+        return total
+    return total + more
+
+
+def minus(total: Number, less: Number) -> Number:
+    """Their difference, in place too."""
+    if _are_alike(total, less):
+        total -= less
+        return total
+    return total - less
+
+
+def _are_alike(one: Number, other: Number) -> bool:
+    """Whether both are arrays of one shape and kind."""
+    if isinstance(one, _PLAIN) or isinstance(other, _PLAIN):
+        return False
+    import numpy
+
+    both = isinstance(one, numpy.ndarray) and isinstance(other, numpy.ndarray)
+    return both and one.shape == other.shape and one.dtype == other.dtype
+
+
 def parameter(x: Number) -> float:
     """A machine's number that comes of a jet: to the type checker a float, as all of them are."""
     return cast(float, x)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
-from geneva_cli.numerics.arrays import library, size
+from geneva_cli.numerics.arrays import library, minus, plus, size
 
 if TYPE_CHECKING:
     import numpy as np
@@ -63,11 +63,11 @@ class Jet:
 
     def derivative(self) -> Jet:
         """The jet of the derivative, one order lower."""
-        return Jet([k * c for k, c in enumerate(self.c) if k])
+        return Jet([k * c if k > 1 else c for k, c in enumerate(self.c) if k])
 
     def __add__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
-            return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
+            return Jet([_sum(a, b) for a, b in zip(self.c, other.c, strict=True)])
         return Jet((self.c[0] + other, *self.c[1:]))
 
     __radd__ = __add__
@@ -91,6 +91,8 @@ class Jet:
             return Jet(_scaled(a, b[0]))
         if _is_constant(a):
             return Jet(_scaled(b, a[0]))
+        if a is b:
+            return Jet([_square(a, k, 0) for k in range(len(a))])
         return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
 
     __rmul__ = __mul__
@@ -103,11 +105,11 @@ class Jet:
             return Jet([a / b[0] for a in self.c])
         q: list[Number] = []
         for k, a in enumerate(self.c):
-            q.append((a - sum(q[i] * b[k - i] for i in range(k))) / b[0])
+            q.append((a - _convolve(q, b, k, 0, k) if k else a) / b[0])
         return Jet(q)
 
     def __rtruediv__(self, other: Number) -> Jet:
-        return Jet((other, *[0.0] * self.order)) / self
+        return Jet((other, *[0] * self.order)) / self  # from 0.0 no Decimal can be subtracted
 
 
 # What a formula of jets says of their values alone, too.
@@ -119,16 +121,42 @@ def _is_constant(c: Sequence[Number]) -> bool:
     return len(c) > 1 and all(isinstance(a, float) and not a for a in c[1:])
 
 
+def _is_zero(x: Number) -> bool:
+    """Whether it is the number 0: no array is looked at."""
+    return isinstance(x, float) and not x
+
+
+def _sum(a: Number, b: Number) -> Number:
+    """a + b; what is added to the number 0 stays as it is."""
+    return b if _is_zero(a) else a if _is_zero(b) else a + b
+
+
 def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
     """Coefficients times a number; those that are the number 0 stay it."""
-    return [c[0] * factor, *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]]]
+    none = _is_zero(factor)
+    return [c[0] * factor, *[0.0 if none or _is_zero(a) else a * factor for a in c[1:]]]
 
 
-def _convolve(a: Sequence[Number], b: Sequence[Number], k: int, first: int) -> Number:
+def _convolve(
+    a: Sequence[Number], b: Sequence[Number], k: int, first: int, last: int | None = None
+) -> Number:
+    """The sum of a[i] b[k - i] from the first i on, to k or before the last."""
     total = a[first] * b[k - first]
-    for i in range(first + 1, k + 1):
-        total = total + a[i] * b[k - i]
+    for i in range(first + 1, k + 1 if last is None else last):
+        total = plus(total, a[i] * b[k - i])
     return total
+
+
+def _square(a: Sequence[Number], k: int, first: int) -> Number:
+    """The sum of a[i] a[k - i] from the first i to k - first."""
+    half = (k + 1) // 2
+    if first == half:
+        return a[half] * a[half]
+    total = a[first] * a[k - first]
+    for i in range(first + 1, half):
+        total = plus(total, a[i] * a[k - i])
+    total = plus(total, total)
+    return total if k % 2 else plus(total, a[half] * a[half])
 
 
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
@@ -142,7 +170,8 @@ def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet,
     s, c = [sine], [cosine]
     if all(isinstance(a, float) and not a for a in slope[2:]):  # an even turn, as the input's own
         for k in range(1, len(slope)):
-            s, c = [*s, slope[1] * c[-1] / k], [*c, -(slope[1] * s[-1]) / k]
+            step = slope[1] / k
+            s, c = [*s, c[-1] * step], [*c, s[-1] * -step]
         return Jet(s), Jet(c)
     for k in range(1, len(slope)):
         s.append(_convolve(slope, c, k, 1) / k)
@@ -172,8 +201,9 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
 def sqrt(x: Jet) -> Jet:
     """Square root of a positive jet."""
     q = [library(x.c[0]).sqrt(x.c[0])]
+    twice = 2 * q[0]
     for k in range(1, len(x.c)):
-        q.append((x.c[k] - sum(q[i] * q[k - i] for i in range(1, k))) / (2 * q[0]))
+        q.append((x.c[k] - _square(q, k, 1) if k > 1 else x.c[k]) / twice)
     return Jet(q)
 
 
@@ -193,7 +223,23 @@ def atan2(y: Jet, x: Jet) -> Jet:
 def turning(x: Jet, y: Jet) -> Jet:
     """The rate at which the vector (x, y) turns, one order lower."""
     low_x, low_y = Jet(x.c[:-1]), Jet(y.c[:-1])
-    return (low_x * y.derivative() - low_y * x.derivative()) / (low_x * low_x + low_y * low_y)
+    return moment(x, y) / (low_x * low_x + low_y * low_y)
+
+
+def moment(x: Jet, y: Jet) -> Jet:
+    """x y' - y x', one order lower."""
+    return Jet([_moment(x.c, y.c, k) for k in range(1, len(x.c))])
+
+
+def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
+    """The sum of (k - 2 i) (x[i] y[k - i] - y[i] x[k - i]) for i below k/2."""
+    total = minus(x[0] * y[k], y[0] * x[k])
+    if k > 1:
+        total = total * k
+    for i in range(1, (k + 1) // 2):
+        more = minus(x[i] * y[k - i], y[i] * x[k - i])
+        total = plus(total, more * (k - 2 * i) if k - 2 * i > 1 else more)
+    return total
 
 
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:

@@ -130,10 +130,12 @@ class CouplerPath(RodPath):
         """The coupler's unit vector e, from A towards B."""
         a, g, b, c, _, _ = self.exact if exact else self.rough
         dx, dy = g - cosine * a, sine * -a
-        D = dx * dx + dy * dy
-        along = (D + (b - c) * (b + c)) / (D * (2 * b))
+        x, y = dx.c[0], dy.c[0]
+        D = Jet((x * x + y * y, *(cosine * (-2 * g * a)).c[1:]))  # as a² is constant
+        share = 1 / (D * (2 * b))
+        along = share * ((b - c) * (b + c)) + 1 / (2 * b)
         # N² as a product (Heron)
-        across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2 * b)) * self.side
+        across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * share * self.side
         return dx * along - dy * across, dy * along + dx * across
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:

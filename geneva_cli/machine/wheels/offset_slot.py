@@ -9,7 +9,7 @@ from geneva_cli.machine.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import are_designs, chosen, library
-from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -120,6 +120,4 @@ def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
     """A wheel's rate, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
     if not x.order:
         return Jet(())
-    low_x, low_y, low_rho2 = Jet(x.c[:-1]), Jet(y.c[:-1]), Jet(rho2.c[:-1])
-    across = low_x * y.derivative() - low_y * x.derivative()
-    return (across - lever.derivative()) / low_rho2
+    return (moment(x, y) - lever.derivative()) / Jet(rho2.c[:-1])
