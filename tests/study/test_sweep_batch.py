@@ -206,3 +206,17 @@ def test_where_a_torque_alone_resists():
     assert len(batch.table(every, ["drive.A", "load.torque_Nm"], picks, found._spec)) == 2
     for one, other in zip(together, alone, strict=True):
         assert one[:-1] == pytest.approx(other[:-1], rel=1e-12)
+
+
+def test_beside_a_pole_what_wears_has_no_value():
+    """A torque across the roller's way takes a force without a bound: no work, pressure or wear.
+
+    With friction there may be one.
+    """
+    picks = [f"life.{name}" for name in ("friction_work_J", "pv_max_W_m2", "roller_life_h")]
+    vary = ["motion.alpha0_deg=-5,5", "load.friction=0,0.1", "load.torque_Nm=10"]
+    together, alone, _ = rows("modified-sine-matched.toml", [*vary, "motion.ratio=0.5"], picks)
+    assert [row[4:] for row in together[::2]] == [[None] * 4] * 2
+    for one, other in zip(together, alone, strict=True):
+        for a, b in zip(one, other, strict=True):
+            assert a == b or a == pytest.approx(b, rel=1e-12)

@@ -49,7 +49,8 @@ def _life(of: Designs, asked: Collection[str]) -> Columns:
     ways = passages_of_many(machine)
     lasts, worn = roller.lives(machine, ways), roller.wears_mm(machine, ways)
     force = cast("Array", lasts.equivalent_force_N)
-    work = np.ravel(given.friction) * sum(way.work for way in ways) / len(ways)
+    with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
+        work = np.ravel(given.friction) * sum(way.work for way in ways) / len(ways)
     out["slot_travel_m"] = sum(way.travel_m for way in ways) / len(ways)
     under: dict[str, Number | None] = {
         "roller_turns_per_motion": lasts.turns_per_motion,
