@@ -67,8 +67,10 @@ def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
     """The fixed groove of a cam-Geneva, both flanks all round, about the crank's axis."""
     guide = found.assembly.rollers[0][0].groove
     if guide is None:
-        kind = found.assembly.mechanism.spec.drive.NAME
-        raise GenevaError(f'--part groove: kind = "{kind}" has none; kind = "cam" has')
+        kind = found.assembly.given.spec.drive.NAME
+        raise GenevaError(
+            f'--part groove, groove-plate: kind = "{kind}" has none; kind = "cam" has'
+        )
     from geneva_cli.parts.groove import groove_curve
 
     motion = guide.motion

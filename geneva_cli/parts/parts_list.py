@@ -2,7 +2,8 @@
 
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
 axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
-turns on: the wheel's, the crank's, a roller's own, a link's first joint. z is along the axis, from
+turns on: the wheel's, the crank's, a roller's own, a link's first joint, from where the centroid is
+given too, in the part's own frame. z is along the axis, from
 the wheel's lower face: the stack; on a sphere from the wheel's outer face inwards.
 """
 
@@ -28,6 +29,7 @@ from geneva_cli.parts.sphere.listed import dimensions, shell_rows
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Table, rows_table
 
+ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
 # what a row of each kind has
 KINDS = {
     "part": (
@@ -40,6 +42,8 @@ KINDS = {
         "z_high_mm",
         "mass_kg",
         "inertia_kgm2",
+        "centroid_x_mm",
+        "centroid_y_mm",
         "size_x_mm",
         "size_y_mm",
     ),
@@ -95,6 +99,8 @@ def plate_rows(spec: Spec, group: Group) -> Iterator[dict[str, object]]:
             else ("wheel", spec.material_wheel)
         )
         made, box = mass_properties(plate, of.density_kgm3), bounds(plate.outline)
+        near = ROUNDING * max(box.x1 - box.x0, box.y1 - box.y0)
+        x, y = (at if abs(at) > near else 0.0 for at in made.centroid_mm)
         yield {
             "row": "part",
             "name": plate.name,
@@ -106,6 +112,8 @@ def plate_rows(spec: Spec, group: Group) -> Iterator[dict[str, object]]:
             "z_high_mm": plate.high,
             "mass_kg": made.mass_kg,
             "inertia_kgm2": made.inertia_kgm2,
+            "centroid_x_mm": x,
+            "centroid_y_mm": y,
             "size_x_mm": box.x1 - box.x0,
             "size_y_mm": box.y1 - box.y0,
         }

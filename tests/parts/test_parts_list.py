@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from drawing_witness import vertices
 from scipy.integrate import quad
 from scipy.interpolate import make_interp_spline
+from shapely.geometry import Polygon
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
@@ -311,6 +313,21 @@ def test_masses_are_those_of_the_drawings():
     roller, pin = parts["roller"], parts["pin"]
     assert float(roller["mass_kg"]) == pytest.approx(7850 * 12e-3 * math.pi * (8**2 - 4**2) * 1e-6)
     assert float(pin["inertia_kgm2"]) == pytest.approx(0.5 * float(pin["mass_kg"]) * 16e-6)
+
+
+def test_centroids_are_those_of_fine_polygons():
+    """Of a locking disc and an arm with their holes, by shapely; a wheel's is on its axis."""
+    path = next(p for p in DESIGNS if p.stem == "limits")
+    design, (parts, _, _) = load(str(path)), printed(path)
+    for name, part in (("locking disc", "crank"), ("arm", "arm")):
+        shapes = [s for s in design.drawing(part).shapes if s.layer not in ("ROLLER", "CENTER")]
+        whole, *holes = (Polygon(vertices(s, 1e-4)) for s in shapes)
+        for hole in holes:
+            whole = whole.difference(hole)
+        shown = [float(parts[name][f"centroid_{axis}_mm"]) for axis in "xy"]
+        # chords of 0.1 um, and seven digits that are printed
+        assert shown == pytest.approx([whole.centroid.x, whole.centroid.y], abs=1e-4)
+    assert [float(parts["wheel"][f"centroid_{axis}_mm"]) for axis in "xy"] == [0.0, 0.0]
 
 
 def test_every_part_has_its_count_and_mass():
