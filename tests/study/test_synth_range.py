@@ -233,6 +233,20 @@ def test_what_no_array_has_is_asked_of_each_machine():
     assert row.asked[0] == pytest.approx(greatest, rel=1e-12)
 
 
+def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
+    """The crank of curved slots grows as their motion falls: R/L = V/(1 + V), V = C_v 60/motion.
+
+    The gentlest, of 200 deg, have 34.5 mm of 100. The modified sine's C_v is 4 pi/(4 + pi).
+    """
+    wish = {"motion_deg": "100..200", "z": "6", "external": True, "rollers": 1}
+    found = rows(**wish, subject_to=["sizes.crank_radius_mm >= 48"])
+    (slots,) = [r.candidate for r in found if r.candidate.law and r.candidate.drive == "crank"]
+    V = 4.0 * math.pi / (4.0 + math.pi) * 60.0 / slots.motion_deg
+    assert slots.motion_deg >= 100.0 and V / (1.0 + V) >= 0.48
+    kinds = [(r.candidate.drive, r.candidate.law, r.candidate.fixed) for r in found]
+    assert len(set(kinds)) == len(kinds)  # the best of each
+
+
 def test_a_frame_and_an_order():
     """Sizes, loads and speed of a spec in every row; each quantity is the built design's own."""
     frame = os.path.join(DESIGNS, "press-345.toml")

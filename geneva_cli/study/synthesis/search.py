@@ -18,13 +18,14 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import Kind, families, kinds
-from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg
+from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg, pieces
 from geneva_cli.study.synthesis.families.straight import plain
 from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 
+LOOKED_INTO = 120  # machines of a kind that are asked for what is not known of many together
 WHEELS = 6  # times laws: a search of fewer is done before a second process has begun
 
 
@@ -63,7 +64,24 @@ def search(wish: Wish) -> FoundRows:
     if wanted.pick:
         found = bounded(wanted, found)
     found.sort(key=lambda row: _rank(wish, wanted, row))
+    if not _known_together(wish):
+        found = [*{_family(row): row for row in reversed(found)}.values()]
+        found.sort(key=lambda row: _rank(wish, wanted, row))
     return FoundRows(found, wanted.names)
+
+
+def _known_together(wish: Wish) -> bool:
+    """Whether what the wish sorts by and its bounds are known of many machines together. Where not,
+    of each family several machines are asked for them, and the best of these is shown.
+    """
+    return in_arrays([*filter(None, [wish.sort.lstrip("-")]), *(b.name for b in wish.limits)])
+
+
+def _family(row: Row) -> tuple[object, ...]:
+    """What machines of one family have in common."""
+    candidate, wheel = row.candidate, row.spec.wheel
+    own = candidate.drive, candidate.law, candidate.fixed, candidate.rollers
+    return (type(wheel), wheel.z, *own)
 
 
 def _parts(wish: Wish, how_near: bool = False) -> list[_Part]:
@@ -82,6 +100,8 @@ def _part(task: tuple[Kind, Wish], how_near: bool) -> _Part:
     bounds = [b for b in wish.limits if in_arrays([b.name])]
     least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
     of_kind = [*families(kind, wish, reached)]
+    if not _known_together(wish):
+        of_kind = pieces(of_kind, LOOKED_INTO)
     one_each, near = best(of_kind, bounds, wish.any_motion, least, how_near)
     keeps, kept, broken = _apart(bounds, [*dict.fromkeys(one_each)])
     shown = [*kept, *broken, *near] if how_near else kept

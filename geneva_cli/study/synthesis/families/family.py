@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from geneva_cli.machine import registry
@@ -16,6 +17,7 @@ from geneva_cli.study.synthesis.wish import Wish
 
 EXACT = 1e-6  # share of the motion angle by which the plain crank may miss the wish
 SHORTEST = 0.01  # share of a turn over m that an open end of a wish leaves to motion and to dwell
+PIECES = 8  # of a family, each with a best machine of its own
 BARE = Spec(registry.gearing("external")(3))  # the tables of a machine that has no frame
 
 
@@ -31,6 +33,24 @@ class Family(NamedTuple):
     high: float = 0.0
     known: float = math.nan
     plain: float = math.nan
+
+
+def pieces(families: Sequence[Family], most: int) -> list[Family]:
+    """The families, each with a free number cut into so many of even spans that there are about
+    ``most``, and no more than ``PIECES`` each.
+    """
+    free = sum(f.low < f.high for f in families)
+    count = max(1, min(PIECES, most // max(free, 1)))
+    return [part for f in families for part in (_cut(f, count) if f.low < f.high else [f])]
+
+
+def _cut(family: Family, count: int) -> list[Family]:
+    ends = [family.low + (family.high - family.low) * k / count for k in range(count)]
+    return [
+        family._replace(low=low, high=high)
+        for low, high in pairwise([*ends, family.high])
+        if low < high
+    ]
 
 
 def only(spec: Spec) -> Family:

@@ -96,7 +96,7 @@ def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth)
         inside = least * (1.0 - 1e-6), l / (c * c - 1.0) * (1.0 - 1e-9)
-        yield Family(lambda rp, fixed=fixed: make(rp, fixed), *inside)  # type: ignore[misc]
+        yield Family(lambda rp, fixed=fixed: make(rp, fixed), *inside, known=0.0)  # type: ignore[misc]
 
 
 def driven(wish: Wish, wheel: Gearing) -> Iterator[Family]:
