@@ -128,9 +128,9 @@ def assembly(mechanism: Mechanism) -> Assembly:
         )
     if not spec.drive.OUTLINED:
         raise GenevaError(
-            f'kind = "{spec.drive.NAME}": its toothed sectors are no outline to cut; `--part gears` '
-            "draws their blanks, `sheet` all but the wheel, and `slot` writes its slots as a table "
-            "(-o FILE.csv)",
+            f'kind = "{spec.drive.NAME}": its toothed sectors are no outline to cut; '
+            "`--part gears` draws their blanks, `sheet` all but the wheel, and `slot` writes its "
+            "slots as a table (-o FILE.csv)",
             ("drive", "kind"),
         )
     if spec.wheel.z > Z_DRAWN:
