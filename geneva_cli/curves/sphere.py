@@ -57,6 +57,23 @@ class SphereArc(NamedTuple):
             return math.cos(self.angle) * dot(self.axis, way) + math.hypot(along, aside)
         return max(dot(self.start, way), dot(self.end, way))
 
+    def crossings(self, azimuth: float) -> list[float]:
+        """Angles from z at which it crosses the half-plane of an azimuth about z."""
+        x, y = self._frame()
+        a, b, c = self.axis
+        ahead = a * math.cos(azimuth) + b * math.sin(azimuth)
+        reach = math.cos(self.angle) / math.hypot(ahead, c)
+        if abs(reach) > 1.0:
+            return []
+        middle, off = math.atan2(ahead, c), math.acos(reach)
+        found = []
+        for polar in {middle - off, middle + off}:
+            at = place(polar, azimuth)
+            turn = math.atan2(dot(at, y), dot(at, x)) % math.tau
+            if 0.0 < polar < math.pi and turn <= self.sweep:
+                found.append(polar)
+        return found
+
     def way(self, point: Vector) -> Vector:
         """The direction in which it passes one of its points."""
         return unit(cross(self.axis, point))

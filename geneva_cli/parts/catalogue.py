@@ -41,7 +41,7 @@ PARTS = {
         flat="sphere.drawings:wheel",
     ),
     "crank": Part(drawing="drawings:crank", cut=True, flat="sphere.drawings:crank"),
-    "arm": Part(drawing="drawings:arm", cut=True),
+    "arm": Part(drawing="drawings:arm", cut=True, flat="sphere.arm_drawing:arm"),
     "links": Part(drawing="link_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings:crank", cut=True, in_front=True),

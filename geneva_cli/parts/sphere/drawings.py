@@ -116,17 +116,18 @@ def crank_flat(
     """Locking sectors and rollers on the crank's cone laid flat, and the rollers' circle."""
     shapes: list[Shape] = []
     for region, (a, b) in zip(locks, locked(found), strict=True):
-        shapes.append(_contour("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))
+        shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))
     for region, about in zip(rollers(found), found.rollers, strict=True):
-        shapes.append(_contour("ROLLER", region, cone, about, tolerance, curves))
+        shapes.append(flat_region("ROLLER", region, cone, about, tolerance, curves))
     ends = cone.point(found.arm, 0.0), cone.point(found.arm, math.tau)
     shapes.append(Contour(PITCH, (cone.level(*ends, math.tau),), closed=False))
     return shapes
 
 
-def _contour(
+def flat_region(
     layer: str, region: Region, cone: Cone, about: float, tolerance: float, curves: str
 ) -> Contour:
+    """A region laid flat, whose azimuths are within half a turn of one."""
     found: list[Segment] = []
     for arc in region.boundary:
         found += cone.segments(arc, about, tolerance, curves)

@@ -8,21 +8,26 @@ where it is near.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.measure import at, mapped
-from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape, about, closed
-from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, Sheet, polar
-from geneva_cli.curves.sphere import Region
+from geneva_cli.curves.plates import Group, plates
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
+from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.bores import bored, radius_of
 from geneva_cli.parts.sheet.composed import on_paper
 from geneva_cli.parts.sheet.paper import table
 from geneva_cli.parts.sheet.points import COARSE, MIRRORED, point_table, polyline
+from geneva_cli.parts.sheet.standing import draw_hub, draw_shaft
 from geneva_cli.parts.sheet.view import Block, View, number, times
+from geneva_cli.parts.sphere.arm import CapArm
+from geneva_cli.parts.sphere.arm_drawing import arm_cone, arm_flat
+from geneva_cli.parts.sphere.built import ROLLER, BuiltBall, built
 from geneva_cli.parts.sphere.drawings import (
     PITCH,
     crank_cone,
@@ -33,6 +38,7 @@ from geneva_cli.parts.sphere.drawings import (
 )
 from geneva_cli.parts.sphere.laid_flat import CYLINDER, Cone
 from geneva_cli.parts.sphere.listed import dimensions, shell_rows
+from geneva_cli.parts.sphere.section import degrees, section
 from geneva_cli.parts.sphere.sizes import Ball
 
 if TYPE_CHECKING:
@@ -54,6 +60,8 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     found, locks = proof.shells.ball, proof.shells.crank
     wheel = wheel_flat(found, wheel_cone(found), tolerance, curves)
     crank = crank_flat(found, locks, crank_cone(found), tolerance, curves)
+    whole = built(proof.shells)
+    arm = arm_flat(found, whole.arm, tolerance, curves) if whole.arm else []
     rows = [
         (d.name, number(d.value, DECIMALS), d.unit)
         for d in dimensions(proof)
@@ -65,57 +73,56 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
-        views = (
-            _section(found, locks, scale),
+        views = [
+            section(proof.shells, whole, scale),
             _flat("wheel", found, wheel_cone(found), wheel, scale),
             _flat("crank", found, crank_cone(found), crank, scale),
-        )
+        ]
+        if whole.arm:
+            views.append(_arm(proof, found, whole.arm, arm, scale))
+        views += _axles(proof, whole, scale)
         yield [*(view.block() for view in views), *fixed]
 
     items = list(shell_rows(proof))
     return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)
 
 
-def _section(found: Ball, locks: list[Region], scale: float) -> View:
-    """The shells as the plane of the shafts cuts them, and angles from the wheel's axis."""
-    view = View("section through both shafts", scale)
-    inner, outer = found.span_mm
-    end = found.bottom - found.half_width
-    # across the wheel's axis there is a slot too, or what is between two
-    between = found.axes - found.recess if found.recess else found.rim
-    back = between if found.z % 2 else end
-    rings = [(found.inner, end), (-back, -found.inner)]
-    middle = found.axes - found.arm
-    rings.append((middle - found.roller, middle + found.roller))
-    reach = _reach(locks)
-    if reach:
-        rings.append((found.axes + reach[0], found.axes + reach[1]))
-    for low, high in rings:
-        view.draw(_ring(inner, outer, low, high), OUTLINE)
-    view.draw(_ring(inner, outer, end, found.rim), HIDDEN)  # the slot's wall, beyond the section
-    for angle in (0.0, found.axes, middle):
-        view.centre_line((0.0, 0.0), _at(outer + BEYOND * found.radius_mm, angle))
-    whole = Contour("", (_arc(found.radius_mm, -back, found.axes + found.lock),), closed=False)
-    view.draw(whole, CENTRE)
-    for radius in (inner, outer):
-        view.of_arcs([_arc(radius, -back, -found.inner)], sized.plain(radius, "SR "))
-    told = {"opening": found.inner, "slot's end": end, "roller": middle, "rim": found.rim}
-    told["shafts"] = found.axes
-    for name, angle in sorted(told.items(), key=lambda item: item[1]):
-        view.angular([(UP - angle, UP)], outer, outer, f"{name} {_degrees(angle)}")
-    axis = UP - found.axes
-    for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
-        view.angular([(axis - angle, axis)], outer, outer, f"{name} {_degrees(angle)}")
+def _arm(proof: Proof, found: Ball, made: CapArm, flat: list[Contour], scale: float) -> View:
+    """The arm laid flat, and what its pins are pressed into."""
+    view = _flat("crank", found, arm_cone(found), flat, scale)
+    view.title = "arm, laid flat"
+    hole, pin = made.pins[0].radius, found.pin_mm
+    text = f"{sized.pin_hole(proof.mechanism, hole)} through, to the sphere's centre"
+    view.remark(f"pins: {times(len(made.pins), text)}; pin {sized.pin(pin)}")
+    view.remark(f"hub: {sized.plain(2.0 * made.hub, 'Ø ')} through, about the crank's axis")
+    if made.bolts:
+        text = f"{sized.bore(made.bolts[0].radius)} through, to the sphere's centre"
+        view.remark(f"locking sectors: {times(len(made.bolts), text)}")
     return view
 
 
-def _reach(locks: list[Region]) -> tuple[float, ...]:
-    """The locking sectors' inner edge and their locking one, from the crank's axis."""
-    found = [math.acos(max(-1.0, min(1.0, arc.start[2]))) for one in locks for arc in one.boundary]
-    return (min(found), max(found)) if found else ()
+def _axles(proof: Proof, whole: BuiltBall, scale: float) -> Iterator[View]:
+    """Hubs along their axes, with bores and keyways, and the shafts from the side."""
+    size = proof.mechanism.spec.size
+    for part, standard in ((whole.wheel, size.wheel_keyway), (whole.crank, size.crank_keyway)):
+        for hub in plates(part.part):
+            if hub.layer == ROLLER:
+                continue
+            view = View(hub.name, scale)
+            for shape in (hub.outline, *hub.holes):
+                view.draw(shape, OUTLINE)
+            if hub.holes:
+                bored(view, hub.holes, radius_of(hub.holes[0]), standard)
+            draw_hub(view, hub)
+            view.remark(f"{number(hub.thickness)} long")
+            yield view
+    for shaft in plates(Group("", whole.shafts)):
+        view = View(shaft.name, scale)
+        draw_shaft(view, shaft)
+        yield view
 
 
-def _flat(whose: str, found: Ball, cone: Cone, shapes: list[Shape], scale: float) -> View:
+def _flat(whose: str, found: Ball, cone: Cone, shapes: Sequence[Shape], scale: float) -> View:
     """A cone laid flat: its radii from the apex, the depth of a slot, the angles between slots."""
     view = View(f"{whose}, laid flat", scale)
     view.remark(cone.said(whose))
@@ -182,26 +189,8 @@ def _sectors(view: View, locking: list[Segment], far: float) -> None:
     wide: dict[str, list[tuple[float, float]]] = {}
     for arc in arcs:
         start = math.atan2(arc.start[1], arc.start[0])
-        wide.setdefault(_degrees(arc.sweep), []).append((start, start + arc.sweep))
+        wide.setdefault(degrees(arc.sweep), []).append((start, start + arc.sweep))
     for text, pairs in wide.items():
         view.angular(pairs, arcs[0].radius, far, times(len(pairs), text))
     for start in sorted(pair[0] % math.tau for pairs in wide.values() for pair in pairs)[:1]:
-        view.angular([(0.0, start)], far, far, f"roller to sector {_degrees(start)}")
-
-
-def _ring(inner: float, outer: float, low: float, high: float) -> Contour:
-    """What a shell shows between two angles from the wheel's axis, which points up."""
-    out, back = _arc(outer, low, high), _arc(inner, high, low)
-    return closed("", [out, Line(out.end, back.start), back, Line(back.end, out.start)])
-
-
-def _arc(radius: float, low: float, high: float) -> Arc:
-    return about((0.0, 0.0), radius, UP - low, low - high)
-
-
-def _at(radius: float, angle: float) -> Point:
-    return polar((0.0, 0.0), radius, UP - angle)
-
-
-def _degrees(angle: float) -> str:
-    return f"{number(math.degrees(angle), DECIMALS)}°"
+        view.angular([(0.0, start)], far, far, f"roller to sector {degrees(start)}")

@@ -1,0 +1,188 @@
+"""The section of a spherical machine through both shafts, with a roller at the end of its slot.
+
+The sphere's centre is the origin, the wheel's axis points up, the crank's is to its right.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, TypeAlias
+
+from geneva_cli.curves.plates import Plate, plates
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
+from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
+from geneva_cli.parts.sheet import sized
+from geneva_cli.parts.sheet.view import View, number
+from geneva_cli.parts.sphere.arm import CapArm
+from geneva_cli.parts.sphere.built import ROLLER, BuiltBall
+from geneva_cli.parts.sphere.sizes import Ball
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.shells import Shells
+
+UP = 0.5 * math.pi
+BEYOND = 0.1  # of the sphere's radius: axes, over the parts
+SAME = 1e-6  # radians
+DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
+
+Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
+
+
+def section(found: Shells, whole: BuiltBall, scale: float) -> View:
+    """All parts as the plane of the shafts cuts them, and angles from the wheel's axis.
+
+    Locking sectors are turned into it.
+    """
+    ball, view = found.ball, View("section through both shafts", scale)
+    inner, outer = ball.span_mm
+    end = ball.bottom - ball.half_width
+    # across the wheel's axis there is a slot too, or what is between two
+    between = ball.axes - ball.recess if ball.recess else ball.rim
+    back = between if ball.z % 2 else end
+    opening = beside(0.0, ball.opening_mm) if ball.opening_mm else radial(ball.inner)
+    closing = beside(0.0, -ball.opening_mm) if ball.opening_mm else radial(-ball.inner)
+    for low, high in ((opening, radial(end)), (radial(-back), closing)):
+        view.draw(_ring(inner, outer, low, high), OUTLINE)
+    view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
+    for ring in _crank(found, whole):
+        view.draw(ring, OUTLINE)
+    for plate, angle in _plates(found, whole):
+        for shape in _along(plate, angle):
+            view.draw(shape, OUTLINE)
+    middle, far = ball.axes - ball.arm, max(_far(whole), outer)
+    for angle in (0.0, ball.axes, middle):
+        view.centre_line((0.0, 0.0), _at(far + BEYOND * ball.radius_mm, angle))
+    locked = Contour("", (_arc(ball.radius_mm, -back, ball.axes + ball.lock),), closed=False)
+    view.draw(locked, CENTRE)
+    for radius in (inner, outer):
+        view.of_arcs([_arc(radius, -back, -ball.inner)], sized.plain(radius, "SR "))
+    if whole.arm:
+        start = ball.axes + whole.arm.cap
+        for radius in ball.arm_span_mm:
+            arc = _arc(radius, start - 0.5 * whole.arm.cap, start)
+            view.of_arcs([arc], sized.plain(radius, "SR "))
+    _told(view, ball, end, middle, _reach(found), far)
+    return view
+
+
+def _told(
+    view: View, ball: Ball, end: float, middle: float, reach: tuple[float, ...], far: float
+) -> None:
+    """The angles."""
+    told = {"slot's end": end, "roller": middle, "rim": ball.rim, "shafts": ball.axes}
+    told |= {} if ball.opening_mm else {"opening": ball.inner}
+    for name, angle in sorted(told.items(), key=lambda item: item[1]):
+        view.angular([(UP - angle, UP)], far, far, f"{name} {degrees(angle)}")
+    axis = UP - ball.axes
+    for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
+        view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
+
+
+def _crank(found: Shells, whole: BuiltBall) -> Iterator[Contour]:
+    """Rollers, locking sector and arm."""
+    ball, arm = found.ball, whole.arm
+    for middle in _rollers(ball):
+        sides = [radial(middle - ball.roller), radial(middle + ball.roller)]
+        if arm:
+            sides[1:1] = [beside(middle, -ball.pin_mm), beside(middle, ball.pin_mm)]
+        for low, high in zip(sides[::2], sides[1::2], strict=True):
+            yield _ring(*ball.span_mm, low, high)
+    reach = _reach(found)
+    if reach:
+        yield _ring(*ball.lock_span_mm, *(radial(ball.axes + angle) for angle in reach))
+    if arm:
+        middle, hole = ball.axes - ball.arm, arm.pins[0].radius
+        sides = [radial(middle - arm.eye), beside(middle, -hole), beside(middle, hole)]
+        sides += [beside(ball.axes, -arm.hub), beside(ball.axes, arm.hub), *_behind(ball, arm)]
+        for low, high in zip(sides[::2], sides[1::2], strict=True):
+            yield _ring(*ball.arm_span_mm, low, high)
+
+
+def _rollers(ball: Ball) -> list[float]:
+    """The rollers in the plane of the shafts: the first one, and one across the crank's axis."""
+    across = any(abs(azimuth - math.pi) < SAME for azimuth in ball.rollers)
+    return [ball.axes - ball.arm, *([ball.axes + ball.arm] if across else [])]
+
+
+def _behind(ball: Ball, arm: CapArm) -> list[Side]:
+    """The arm's end across the crank's axis, and a hole that is on the way."""
+    ways = [polar for arc in arm.boundary.boundary for polar in arc.crossings(math.pi)]
+    end = radial(ball.axes + max(ways))
+    for hole in (*arm.pins, *arm.bolts):
+        x, y, z = hole.axis
+        if x < 0.0 and abs(y) < SAME:
+            at = ball.axes + math.acos(z)
+            return [beside(at, -hole.radius), beside(at, hole.radius), end]
+    return [end]
+
+
+def _plates(found: Shells, whole: BuiltBall) -> Iterator[tuple[Plate, float]]:
+    """Hubs, shafts and the pin, and the angles of their axes from the wheel's."""
+    axes = found.ball.axes
+    yield from ((plate, 0.0) for plate in plates(whole.wheel.part))
+    for plate in dict.fromkeys(plates(whole.crank.part)):
+        at = _rollers(found.ball) if plate.layer == ROLLER else [axes]
+        yield from ((plate, angle) for angle in at)
+    for member in whole.shafts:
+        assert isinstance(member.part, Plate)
+        yield member.part, axes if member.frame else 0.0
+
+
+def _along(plate: Plate, angle: float) -> Iterator[Contour]:
+    """A round plate cut along its axis: on either side of its bore, if it has one."""
+    assert isinstance(plate.outline, Circle)
+    wide = plate.outline.radius
+    bore = math.hypot(*_edge(plate)) if plate.holes else 0.0
+    for low, high in ((bore, wide), (-wide, -bore)) if bore else ((-wide, wide),):
+        corners = [(low, plate.low), (high, plate.low), (high, plate.high), (low, plate.high)]
+        c, s = math.cos(angle), math.sin(angle)
+        at = [(c * x + s * y, c * y - s * x) for x, y in corners]
+        yield closed("", [Line(p, q) for p, q in zip(at, [*at[1:], at[0]], strict=True)])
+
+
+def _edge(plate: Plate) -> Point:
+    """A point on a bore's circle."""
+    (hole,) = plate.holes
+    return (hole.radius, 0.0) if isinstance(hole, Circle) else hole.segments[0].start
+
+
+def _far(whole: BuiltBall) -> float:
+    """How far the shafts reach."""
+    return max((m.part.high for m in whole.shafts if isinstance(m.part, Plate)), default=0.0)
+
+
+def _reach(found: Shells) -> tuple[float, ...]:
+    """The locking sectors' inner edge and their locking one, from the crank's axis."""
+    arcs = [arc for one in found.crank for arc in one.boundary]
+    angles = [math.acos(max(-1.0, min(1.0, arc.start[2]))) for arc in arcs]
+    return (min(angles), max(angles)) if angles else ()
+
+
+def radial(angle: float) -> Side:
+    """A wall that leads to the centre."""
+    return lambda sphere: angle
+
+
+def beside(axis: float, off: float) -> Side:
+    """A wall beside an axis, which is parallel to it."""
+    return lambda sphere: axis + math.asin(off / sphere)
+
+
+def _ring(inner: float, outer: float, low: Side, high: Side) -> Contour:
+    """What a shell shows between two walls."""
+    out, back = _arc(outer, low(outer), high(outer)), _arc(inner, high(inner), low(inner))
+    return closed("", [out, Line(out.end, back.start), back, Line(back.end, out.start)])
+
+
+def _arc(radius: float, low: float, high: float) -> Arc:
+    return about((0.0, 0.0), radius, UP - low, low - high)
+
+
+def _at(radius: float, angle: float) -> Point:
+    return polar((0.0, 0.0), radius, UP - angle)
+
+
+def degrees(angle: float) -> str:
+    """An angle as the sheet has it."""
+    return f"{number(math.degrees(angle), DECIMALS)}°"
