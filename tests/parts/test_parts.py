@@ -521,7 +521,7 @@ def test_spherical_wheel_is_a_table_of_meridians(name, axes):
     ("name", "part", "said"),
     [
         ("spherical-z6", "slot", ["spherical-z6.toml:11: ", "not flat", ".csv"]),
-        ("spherical-60deg", "arm", ["spherical-60deg.toml:11: ", "spherical"]),
+        ("spherical-60deg", "groove", ["spherical-60deg.toml:11: ", "spherical"]),
         ("press-straight", "parts", ["--part parts", "table of points", ".csv"]),
         ("press-straight", "gears", ["--part gears", 'kind = "crank" has none']),
         *[
@@ -725,7 +725,7 @@ NOT_FLAT = ("spherical", "gear-sector")
 
 
 @pytest.mark.parametrize(
-    ("kind", "parts"), [("spherical", ("slot", "arm", "groove")), ("gear-sector", PARTS)]
+    ("kind", "parts"), [("spherical", ("slot", "groove")), ("gear-sector", PARTS)]
 )
 def test_templates_without_flat_parts_say_so(kind, parts):
     assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0

@@ -13,9 +13,13 @@ from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.curves.measure import area, segment_length
 from geneva_cli.curves.plates import solids
 from geneva_cli.curves.shapes import Contour
+from geneva_cli.curves.sphere_arcs import Arcs
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.sphere.built import wheel_shell
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sphere.arm import crank_arm
+from geneva_cli.parts.sphere.arm_drawing import arm_cone
+from geneva_cli.parts.sphere.built import built, wheel_shell
 from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.sizes import ball
@@ -257,6 +261,88 @@ def test_the_crank_laid_flat():
     wide = 80.0 * math.tan(5.0 / 80.0)  # its cone's, where its axis meets the sphere
     assert (x.min(), x.max()) == pytest.approx((-wide, wide), abs=2e-3)
     assert "sphere 30 deg from the crank's axis, 46.188 mm from its apex" in drawing.title
+
+
+@pytest.mark.parametrize("name", ["120", "3 slots", "no lock"])
+def test_the_arm_laid_flat(name):
+    """Rolled up again its edge is the arm's, but for the cut and the hub; each pin's hole is a
+    round about its place on the rollers' circle."""
+    design = MACHINES[name].with_("size.press_fit_mm", 0.01)
+    drawn = Proof(design.mechanism)
+    made, found = crank_arm(drawn.shells), drawn.shells.ball
+    outline, *holes = design.drawing("arm", 0.005).shapes
+    cone = arm_cone(found)
+    R, m, share = cone.radius_mm, cone.polar, math.cos(cone.polar)
+
+    def rolled(shape):
+        x, y = np.array(vertices(shape, 1e-3)).T
+        x = x + cone.apex_mm
+        angle, turn = m + np.arctan(np.hypot(x, y) / R - math.tan(m)), np.arctan2(y, x) / share
+        ways = np.cos(turn), np.sin(turn)
+        return np.column_stack((*(np.sin(angle) * w for w in ways), np.cos(angle)))
+
+    edge = Arcs(made.boundary.boundary)
+    away = rolled(outline)
+    assert len(holes) == len(found.rollers)
+    hub = np.arccos(away[:, 2]) - made.holes[0].angle(R)
+    off = np.minimum(np.abs(edge.signed(away)[0]), np.abs(hub))
+    # two straight lines of the cut; elsewhere 0.005 mm and the chords' 0.001
+    assert (off > 0.0065 / R).sum() <= 4
+    for hole, pin in zip(holes, made.pins, strict=True):
+        seen = np.arccos(np.clip(rolled(hole) @ np.array(pin.axis), -1.0, 1.0))
+        assert np.abs(seen - pin.angle(R)).max() < 0.0065 / R
+    assert made.pins[0].radius == found.pin_mm - 0.005
+
+
+def test_an_arm_with_bolts_keyway_and_hub_inside():
+    """Shafts at 40 degrees leave room for a crank's hub within the wheel's shell."""
+    size = Size(
+        100.0, 2.0, crank_bore_mm=8.0, crank_hub_mm=12.0, crank_keyway="DIN 6885-1", lock_bolts=2
+    )
+    design = Design(Spherical(4, axes_deg=40), size=size)
+    found = Proof(design.mechanism).shells
+    whole = built(found)
+    assert [hole.radius for hole in whole.arm.bolts] == [1.25, 1.25]
+    names = Counter(one.name for one in solids(whole.crank.part))
+    assert names["crank's hub"] == 1
+    (sector,) = (one for one in solids(whole.crank.part) if one.name == "locking sector")
+    assert sector.holes == whole.arm.bolts
+    # the sector begins beside the hub, and the shaft goes through both
+    (hub,) = (one for one in solids(whole.crank.part) if one.name == "crank's hub")
+    low = math.pi - found.crank[0].boundary[2].angle
+    assert low >= math.asin(hub.outline.radius / sector.inner) - 1e-15
+    shaft = whole.shafts[1].part
+    assert (shaft.low, hub.high) == (hub.low, found.ball.arm_span_mm[0])
+    assert isinstance(hub.holes[0], Contour)
+    list(chunks(design.drawing("assembly", 0.05), "mm"))
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        ({"arm_hub_mm": 3.0}, "arm_hub_mm = 3: the hub must be above"),
+        ({"arm_hub_mm": 90.0, "arm_thickness_mm": 2.0}, "so wide a hub .* does not meet its shell"),
+        ({"arm_eye_mm": 2.0}, "arm_eye_mm = 2: the eye must be above 5, the pin's hole"),
+        ({"arm_bore_mm": 60.0, "arm_thickness_mm": 40.0}, "runs into the pin's hole"),
+        (
+            {"lock_bolts": 9, "lock_bolt_mm": 9.0},
+            "round holes of the crank arm run into",
+        ),
+        ({"lock_bolts": 2, "lock_radius_mm": 0.0}, "no locking sector to fix"),
+        ({"wheel_bore_mm": 0.0, "wheel_keyway": "DIN 6885-1"}, "its hub has; give wheel_bore_mm"),
+        ({"wheel_shaft_low_mm": 20.0}, "the wheel's shaft would reach from 64 to 76 mm"),
+    ],
+)
+def test_no_arm_or_hub(size, said):
+    found = Proof(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).shells
+    with pytest.raises(GenevaError, match=said):
+        built(found)
+
+
+def test_a_wheel_without_a_bore_stays_a_ring():
+    found = sizes(Design(Spherical(6), size=Size(80.0, 5.0, wheel_bore_mm=0.0)))
+    assert found.opening_mm == 0.0
+    assert len(wheel_shell(found).regions) == 6
 
 
 def test_a_kerf_is_beside_the_sheet():

@@ -45,10 +45,10 @@ def arm_flat(found: Ball, made: CapArm, tolerance: float, curves: str) -> list[C
     cone = arm_cone(found)
     hub, *others = made.holes
     ways = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
-    cut = _widest_gap(ways)
+    cut = _widest_gap(ways) - math.tau  # azimuths rise from there by a whole turn, past 0
     head, *between, tail = _opened(made.boundary, cut)
     edge: list[Segment] = []
-    # azimuths rise from the cut by a whole turn; each arc's are told by one near to them
+    # each arc's azimuths are told by one near to them
     for arc, about in ((head, 0.5), *((arc, 1.0) for arc in between), (tail, 1.5)):
         edge += cone.segments(arc, cut + about * math.pi, tolerance, curves)
     angle = hub.angle(cone.radius_mm)
@@ -64,11 +64,11 @@ def arm_flat(found: Ball, made: CapArm, tolerance: float, curves: str) -> list[C
 
 
 def _widest_gap(azimuths: list[float]) -> float:
-    """An azimuth amid the widest gap between some."""
+    """An azimuth amid the widest gap between some, above 0 and below a whole turn."""
     around = sorted(a % math.tau for a in azimuths)
     after = [*around[1:], around[0] + math.tau]
     start, end = max(zip(around, after, strict=True), key=lambda pair: pair[1] - pair[0])
-    return 0.5 * (start + end)
+    return 0.5 * (start + end) % math.tau
 
 
 def _opened(region: Region, azimuth: float) -> list[SphereArc]:
