@@ -104,7 +104,7 @@ def points(regions, each=200):
 def test_the_boundary_is_that_of_the_definition(machine):
     found = sizes(machine)
     assert np.abs(in_wheel(found, edge_points(found, 40))).max() < 1e-14
-    for region in wheel_regions(found):
+    for region in wheel_regions(found, found.inner):
         ends = zip(region.boundary, (*region.boundary[1:], region.boundary[0]), strict=True)
         assert all(arc.end == after.start for arc, after in ends)
 
@@ -148,7 +148,7 @@ def test_solid_angle_and_inertia_are_those_of_integrals(name):
         return mpmath.cos(polar) ** 3 / 3 - mpmath.cos(polar)
 
     whole = 2 * mpmath.quad(lambda a: left(a, lambda polar: -mpmath.cos(polar)), breaks)
-    for region in wheel_regions(found):
+    for region in wheel_regions(found, found.inner):
         assert region.area == pytest.approx(float(whole), rel=1e-12)
     seen = found.z * 2 * mpmath.quad(lambda a: left(a, squares), breaks)
     seen += 2 * mpmath.pi * (squares(found.inner) - squares(0.0))  # closed down to the hub's hole

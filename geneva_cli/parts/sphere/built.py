@@ -20,7 +20,7 @@ from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.sphere.wheel import POLE, web_regions, wheel_regions
+from geneva_cli.parts.sphere.wheel import POLE, WEB, web_region, wheel_regions
 from geneva_cli.parts.wheel_hub import AXIS, HUB
 from geneva_cli.spec.tables import Size
 
@@ -67,9 +67,12 @@ def wheel_group(size: Size, ball: Ball) -> Group:
 
 def wheel_shell(ball: Ball) -> Shell:
     """The wheel's shell, down to the round hole about its axis, if there is one."""
-    hole = (RoundHole(POLE, ball.opening_mm),) if ball.opening_mm else ()
-    regions = *wheel_regions(ball), *(web_regions(ball) if hole else [])
-    return Shell("wheel", "WHEEL", regions, *ball.span_mm, hole)
+    if not ball.opening_mm:
+        return Shell("wheel", "WHEEL", tuple(wheel_regions(ball, ball.inner)), *ball.span_mm)
+    inner = min(ball.inner, WEB)
+    regions = *wheel_regions(ball, inner), web_region(ball, inner)
+    hole = RoundHole(POLE, ball.opening_mm)
+    return Shell("wheel", "WHEEL", regions, *ball.span_mm, (hole,))
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:

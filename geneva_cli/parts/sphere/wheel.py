@@ -19,44 +19,27 @@ if TYPE_CHECKING:
 
 QUARTER = 0.5 * math.pi
 POLE = (0.0, 0.0, 1.0)
-WEB = 1.0  # radians: as far from the axis a cap is one region
+WEB = 1.0  # radians: no farther from its axis the cap in the wheel's middle reaches
 
 
-def wheel_regions(found: Ball) -> list[Region]:
-    """The wheel: a region a slot, which share the meridians between the slots."""
-    b = found.half_step
-    between = [place(_end(found), (2 * k - 1) * b) for k in range(found.z)]
-    inner = [place(found.inner, (2 * k - 1) * b) for k in range(found.z)]
+def wheel_regions(found: Ball, inner: float) -> list[Region]:
+    """The wheel's slotted ring from an angle on: a region a slot, which share the meridians between
+    the slots."""
+    b, z = found.half_step, found.z
+    between = [place(_end(found), (2 * k - 1) * b) for k in range(z)]
+    ends = [place(inner, (2 * k - 1) * b) for k in range(z)]
     return [
-        _region(found, 2 * k * b, (between[k], between[after]), (inner[k], inner[after]))
-        for k in range(found.z)
-        for after in ((k + 1) % found.z,)
+        _region(found, 2 * k * b, (between[k], between[after]), (ends[k], ends[after]), inner)
+        for k in range(z)
+        for after in ((k + 1) % z,)
     ]
 
 
-def web_regions(found: Ball) -> list[Region]:
-    """What closes the wheel from its slotted ring to its axis; the last one is about that.
-
-    A cap, and where the ring is far from the axis, a ring in pieces between the two.
-    """
-    b, z, low = found.half_step, found.z, min(found.inner, WEB)
-    azimuths = [(2 * k - 1) * b for k in range(z)]
-    near = [place(low, a) for a in azimuths]
-    pieces = []
-    if low < found.inner:
-        far = [place(found.inner, a) for a in azimuths]
-        for k, azimuth in enumerate(azimuths):
-            after = (k + 1) % z
-            sides = [(-math.sin(a), math.cos(a), 0.0) for a in (azimuth, azimuths[after])]
-            boundary = (
-                SphereArc(POLE, found.inner, far[k], far[after]),
-                SphereArc(opposite(sides[1]), QUARTER, far[after], near[after]),
-                SphereArc(opposite(POLE), math.pi - low, near[after], near[k]),
-                SphereArc(sides[0], QUARTER, near[k], far[k]),
-            )
-            pieces.append(Region(boundary, place(0.5 * (low + found.inner), azimuth + b)))
-    rim = [SphereArc(POLE, low, near[k], near[(k + 1) % z]) for k in range(z)]
-    return [*pieces, Region(tuple(rim), POLE)]
+def web_region(found: Ball, inner: float) -> Region:
+    """The cap about the wheel's axis that closes its slotted ring."""
+    b, z = found.half_step, found.z
+    at = [place(inner, (2 * k - 1) * b) for k in range(z)]
+    return Region(tuple(SphereArc(POLE, inner, at[k], at[(k + 1) % z]) for k in range(z)), POLE)
 
 
 def edge(found: Ball, at: float = 0.0) -> list[SphereArc]:
@@ -78,14 +61,18 @@ def _end(found: Ball) -> float:
 
 
 def _region(
-    found: Ball, at: float, between: tuple[Vector, Vector], inner: tuple[Vector, Vector]
+    found: Ball,
+    at: float,
+    between: tuple[Vector, Vector],
+    ends: tuple[Vector, Vector],
+    inner: float,
 ) -> Region:
     b = found.half_step
     sides = [(-math.sin(a), math.cos(a), 0.0) for a in (at - b, at + b)]
-    up = SphereArc(sides[0], QUARTER, inner[0], between[0])
-    down = SphereArc(opposite(sides[1]), QUARTER, between[1], inner[1])
-    back = SphereArc(opposite(POLE), math.pi - found.inner, inner[1], inner[0])
-    middle = place(0.5 * (found.inner + found.rim), at)
+    up = SphereArc(sides[0], QUARTER, ends[0], between[0])
+    down = SphereArc(opposite(sides[1]), QUARTER, between[1], ends[1])
+    back = SphereArc(opposite(POLE), math.pi - inner, ends[1], ends[0])
+    middle = place(0.5 * (inner + found.rim), at)
     return Region((*_edge(found, at, *between), down, back, up), middle)
 
 

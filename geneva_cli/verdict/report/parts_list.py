@@ -9,7 +9,7 @@ from geneva_cli.verdict.report.values import Values
 
 
 def parts_list_tables(proof: Proof) -> Values:
-    """The three tables; None for one without rows, such as the parts of a spherical wheel."""
+    """The three tables; None for one without rows, such as the pivots of a spherical wheel."""
     rows = parts_list(proof).to_rows()
     values: Values = {}
     for kind, names in KINDS.items():
