@@ -128,7 +128,8 @@ def _passed(here, name, one, shape):
     most = np.where(there, value, -np.inf).max(axis=1)
     least = np.where(there, value, np.inf).min(axis=1)
     size = np.maximum(np.maximum(abs(most), abs(least)), np.finfo(float).tiny)
-    with np.errstate(invalid="ignore"):  # of designs that have no such value anywhere
+    # of designs that have no such value anywhere; or a great one where no place of the scan is
+    with np.errstate(invalid="ignore", over="ignore"):
         over = np.maximum(most - one.max, one.min - least) / size
     over = np.where(np.isnan(over), np.inf, over)  # an extreme that is no number is missed, too
     return np.where(there.any(axis=1), over, -np.inf)
