@@ -124,21 +124,15 @@ def _refuse(name: str, wall: float, what: str) -> None:
     """Raise GenevaError where a hole, or a hub, leaves nothing of a gear."""
     if wall > 0.0:
         return
-    key = {
-        "bore": "link_bore_mm",
-        "hub": "link_bore_mm",
-        "bolts": "gear_bolt_circle_mm",
-    }[what]
-    helps = {
-        "bore": "a smaller link_bore_mm, or crank_diameter_mm where it is on the crank's shaft, "
-        "leaves some",
-        "hub": "a smaller link_bore_mm, or crank_diameter_mm where it is on the crank's shaft, "
-        "leaves some",
-        "bolts": "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts "
-        "leave some",
-    }[what]
+    if what == "bolts":
+        key, reach = "gear_bolt_circle_mm", "bolts reach"
+        helps = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
+    else:
+        key, reach = "link_bore_mm", f"{what} reaches"
+        helps = (
+            "a smaller link_bore_mm, or crank_diameter_mm where it is on the crank's shaft, leaves"
+        )
     raise GenevaError(
-        f"no blank of the {name} is left within its pitch circle: its {what} "
-        f"{'are' if what == 'bolts' else 'is'} {-wall:.4g} mm too large; {helps}",
+        f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {helps} some",
         ("size", key),
     )

@@ -175,8 +175,13 @@ def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
 @pytest.mark.parametrize(
     ("z", "drive", "keys", "said"),
     [
-        (6, RING, {"gear_bolt_circle_mm": 150.0}, "fixed gear.*bolts are .*gear_bolt_circle_mm"),
-        (3, GearSector(sector_deg=60.0), {"link_bore_mm": 70.0}, "crank gear.*hub is .*link_bore"),
+        (6, RING, {"gear_bolt_circle_mm": 150.0}, "fixed gear.*bolts reach .*gear_bolt_circle_mm"),
+        (
+            3,
+            GearSector(sector_deg=60.0),
+            {"link_bore_mm": 70.0},
+            "crank gear.*hub reaches .*link_bore",
+        ),
     ],
 )
 def test_refusals(z, drive, keys, said):
