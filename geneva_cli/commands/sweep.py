@@ -105,7 +105,7 @@ def run(
         jobs=jobs,
     )
     if best:
-        _write_best(asked, output)
+        _write_best(asked, spec, output)
         return
     if resume and (asked.chooses or format not in ("", "csv")):
         raise GenevaError("--resume goes on with all rows of a sweep, as csv or parquet")
@@ -150,10 +150,14 @@ def _refuse_beside_best(output: str, format: str, resume: bool) -> None:
         raise GenevaError("--resume goes on with rows; --best has none to go on with")
 
 
-def _write_best(asked: "Request", output: str) -> None:
+def _write_best(asked: "Request", spec: str, output: str) -> None:
     from geneva_cli.output import show_text
+    from geneva_cli.study.sweep.outcome import Outcome
 
-    show_text("\n".join(asked.best(_shown(asked, 0))) + "\n", output)
+    outcome = Outcome(asked)
+    show_text("\n".join(asked.best(outcome.counted(_shown(asked, 0)))) + "\n", output)
+    for note in outcome.refused():
+        print(f"{spec}: {note}", file=sys.stderr)
 
 
 def _shown(asked: "Request", done: int) -> Iterator[Rows]:

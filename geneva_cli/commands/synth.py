@@ -180,6 +180,8 @@ def _write(wish: "Wish", number: int, output: str, format: str) -> None:
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
+    if output != "-" and not output.endswith(".toml"):
+        raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
     found, text = chosen(wish, search(wish).rows, number)
     show_text(text, output)
     path = "<stdout>" if output == "-" else output

@@ -145,6 +145,15 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
     ]
 
 
+def test_the_best_of_some_says_what_was_left_out():
+    """A word that is none would else be passed over without one."""
+    words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "jerk.max")
+    found = geneva(*words)
+    assert found.exit_code == 0 and "# The least jerk.max" in found.stdout
+    assert "1 of 2 designs cannot be built: the first: wheel.gearing=intrenal" in found.stderr
+    assert 'did you mean "internal"?' in found.stderr
+
+
 def interrupted(x):
     os.kill(os.getpid(), signal.SIGINT)
     return x
@@ -251,9 +260,7 @@ def test_where_no_row_is_left_it_says_why():
     few = geneva(*some, "--subject-to", "dwell_s >= 5", "--format", "json")
     assert (few.exit_code, json.loads(few.stdout)) == (0, {"rows": []})
     broken, none = few.stderr.splitlines()
-    assert broken.endswith(
-        "1 of 3 designs cannot be built: without bounds and --pareto column error says why"
-    )
+    assert "1 of 3 designs cannot be built: the first: drive.A=2: A = 2 must be" in broken
     assert none.endswith(
         "no row of 3 is left: timing.dwell_s >= 5 is kept by 0, the nearest being 0.666667"
     )

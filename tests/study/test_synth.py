@@ -479,6 +479,7 @@ def test_write(tmp_path):
         (["--write", "0"], "numbered from 1"),
         (["--write", "99"], "rows 1 to"),
         (["--write", "1", "--format", "csv"], "TOML"),
+        (["--write", "1", "-o", "rows.csv"], "must end in .toml"),
         (["-o", "spec.toml"], "--write N"),
     ],
 )

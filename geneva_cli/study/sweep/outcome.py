@@ -18,36 +18,41 @@ class Outcome:
     def __init__(self, asked: Request) -> None:
         self.asked = asked
         self.all = self.failed = self.left = 0
+        self._first = ""  # why the first that cannot be built cannot
         names = asked.sweep.names
         self._nearness = Nearness([(names.index(c.name), c) for c in asked.constraints])
         self._unknown = {names.index(o.name): o.name for o in asked.objectives}
 
     def rows(self, every: Iterable[Rows]) -> Iterator[Rows]:
         """The rows, or the choice of them, counted."""
-        counted = self._counted(every)
+        counted = self.counted(every)
         for block in self.asked.chosen(counted) if self.asked.chooses else counted:
             self.left += len(block)
             yield block
 
-    def _counted(self, every: Iterable[Rows]) -> Iterator[Rows]:
+    def counted(self, every: Iterable[Rows]) -> Iterator[Rows]:
+        """All rows, counted."""
         for block in every:
+            failed = [str(row[-1]) for row in block if row[-1] is not None]
             self.all += len(block)
-            self.failed += sum(row[-1] is not None for row in block)
+            self.failed += len(failed)
+            self._first = self._first or (failed[0] if failed else "")
             self._nearness.add(block)
             for i in list(self._unknown):
                 if any(is_number(row[i]) for row in block):
                     del self._unknown[i]
             yield block
 
+    def refused(self) -> Sequence[str]:
+        """How many designs cannot be built, and why, where no row says so."""
+        if not self.failed:
+            return []
+        why = f"the first: {self._first}" if self.asked.chooses else "column error says why"
+        return [f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"]
+
     def notes(self) -> Sequence[str]:
         """What a person should know besides the rows."""
-        said = []
-        if self.failed:
-            where = "without bounds and --pareto " if self.asked.chooses else ""
-            said.append(
-                f"{self.failed:,} of {self.all:,} designs cannot be built: {where}column error "
-                "says why"
-            )
+        said = [*self.refused()]
         if self.all and not self.left:
             unknown = [f"{name} is known of none" for name in self._unknown.values()]
             why = dict.fromkeys([*unknown, *self._nearness.said()])
