@@ -28,6 +28,7 @@ SUBJECTS = (
     "tolerance",
     "vibration",
     "turn",
+    "synth",
     "start",
     "export",
 )

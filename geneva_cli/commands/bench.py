@@ -15,7 +15,7 @@ def run(
         typer.Argument(
             metavar="[SUBJECT]",
             help="peaks, many, family, sweep, motion, loads, slot, tolerance, vibration, turn, "
-            "start, export or all.",
+            "synth, start, export or all.",
         ),
     ] = "all",
     plots: Annotated[

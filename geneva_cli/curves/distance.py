@@ -176,24 +176,22 @@ class Polyarc:
 
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and between them as close as asked."""
-        found = []
-        for i in range(len(self)):
-            x, y = self.x1[i] - self.x0[i], self.y1[i] - self.y0[i]
-            if not self.arc[i]:
-                count = max(1, math.ceil(math.hypot(x, y) / longest))
-                t = np.arange(count) / count
-                found.append(np.column_stack((self.x0[i] + t * x, self.y0[i] + t * y)))
-                continue
-            sweep = 2.0 * math.acos(max(-1.0, min(1.0, self.cos_half[i])))
-            step = 2.0 * math.acos(max(0.0, 1.0 - sagitta / self.radius[i]))
-            count = max(1, math.ceil(max(sweep / step, sweep * self.radius[i] / longest)))
-            from_ = math.atan2(self.y0[i] - self.cy[i], self.x0[i] - self.cx[i])
-            t = from_ + self.sense[i] * sweep * np.arange(count) / count
-            x, y = self.radius[i] * np.cos(t), self.radius[i] * np.sin(t)
-            points = np.column_stack((self.cx[i] + x, self.cy[i] + y))
-            points[0] = self.x0[i], self.y0[i]
-            found.append(points)
-        return np.concatenate(found)
+        arc, radius = self.arc, np.where(self.arc, self.radius, 1.0)
+        sweep = 2.0 * np.arccos(np.clip(self.cos_half, -1.0, 1.0))
+        step = 4.0 * np.arcsin(np.sqrt(0.5 * np.minimum(sagitta / radius, 1.0)))
+        bent = np.maximum(sweep / step, sweep * radius / longest)
+        count = np.maximum(np.ceil(np.where(arc, bent, self.length / longest)), 1.0).astype(int)
+        first = np.cumsum(count) - count
+        which = np.repeat(np.arange(len(self)), count)
+        share = (np.arange(len(which)) - first[which]) / count[which]
+        start = np.arctan2(self.y0 - self.cy, self.x0 - self.cx)
+        turn = start[which] + (self.sense * sweep)[which] * share
+        x = self.cx[which] + radius[which] * np.cos(turn)
+        y = self.cy[which] + radius[which] * np.sin(turn)
+        flat = ~arc[which] | (share == 0.0)
+        along, i = share[flat], which[flat]
+        x[flat], y[flat] = self.x0[i] + along * self.dx[i], self.y0[i] + along * self.dy[i]
+        return np.column_stack((x, y))
 
 
 def _changes(numbers: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -7,13 +7,11 @@ whole where it locks, and relieved where a roller moves the wheel.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.shapes import (
-    Arc,
     Circle,
     Contour,
     Line,
@@ -26,20 +24,12 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
+from geneva_cli.parts.locking_rings import LAYER, rings
 from geneva_cli.parts.reliefs import SAME, Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
-
-    Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
-
-LAYER = "CRANK"
-EDGE = 0.035  # radians, two degrees: how far a sector's edge reaches
-TINY = 1e-9
-THIN = 0.1  # of the disc's radius: a locking sector is no thinner
-POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
-SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
+    from geneva_cli.parts.locking_rings import Swept
 
 
 def crank_contours(
@@ -47,14 +37,13 @@ def crank_contours(
 ) -> list[Contour]:
     """The locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
-    ``swept(i)`` is where the wheel comes within the disc in the i-th motion: distances from the
-    crank's axis and directions. Where the wheel sweeps over that axis, as inside it does, what is
-    left are the locking sectors, carried by the crank beside the wheel's plane; they keep
-    ``spare`` mm more from it.
+    ``swept(i, every)`` is where the wheel comes within the disc in the i-th motion. Where the
+    wheel sweeps over the crank's axis, as inside it does, what is left are the locking sectors,
+    carried by the crank beside the wheel's plane; they keep ``spare`` mm more from it.
     """
     around = reliefs(assembly)
     if not is_whole(assembly, sizes):
-        return _rings(assembly, sizes, around, swept, spare)
+        return rings(assembly, sizes, around, swept, spare)
     if relief == "sector":
         around = merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector
@@ -79,7 +68,7 @@ def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """A relief as wide as the wheel needs it: offset slots turn their horns past its edge."""
-    _, direction = swept(one.roller)
+    _, direction = swept(one.roller, 1)
     middle = 0.5 * (one.start + one.end)
     off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
     spare = sizes.relief / sizes.lock
@@ -87,68 +76,6 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     start = middle + low - spare if low < -one.half - SAME else one.start
     end = middle + high + spare if high > one.half + SAME else one.end
     return one._replace(start=start, end=end)
-
-
-def _rings(
-    assembly: Assembly, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
-) -> list[Contour]:
-    """Locking sectors without a middle: outside of what the wheel sweeps in all motions."""
-    points = [swept(i) for i in range(len(assembly.rollers))]
-    radius = np.concatenate([p[0] for p in points])
-    direction = np.concatenate([p[1] for p in points])
-    found = []
-    for one, after in followed(around):
-        if after - one.end <= SAME:
-            continue
-        whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
-        off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
-        for share in SHARES:
-            half = share * whole
-            edge, floor = _floor(sizes, half, radius, off, spare)
-            if max(edge, floor) < (1.0 - THIN) * sizes.lock:
-                found.append(_ring(sizes, middle, half, edge, floor))
-                break
-        else:
-            raise GenevaError(
-                "the wheel sweeps over the whole locking sector: another lock_radius_mm than "
-                f"{sizes.lock:.6g}, or a smaller roller, may leave room for one; 0 leaves it out, "
-                "where the wheel is held in another way",
-                ("size", "lock_radius_mm"),
-            )
-    return found
-
-
-def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:
-    low, high = middle - half, middle + half
-    outer = about((0.0, 0.0), sizes.lock, low, 2.0 * half)
-    start = edge * math.cos(high), edge * math.sin(high)
-    end = edge * math.cos(low), edge * math.sin(low)
-    bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
-    return closed(
-        LAYER, [outer, Line(outer.end, start), Arc(start, end, bulge), Line(end, outer.start)]
-    )
-
-
-def _floor(
-    sizes: Sizes, half: float, radius: Array, off: Array, more: float
-) -> tuple[float, float]:
-    """The inner arc of a locking sector: its distance at the edges and in the middle.
-
-    ``off`` is the direction of the swept points from the sector's middle. Through each of them
-    goes one circle that meets both edges where this arc does; the farthest in the middle clears.
-    """
-    inside = np.abs(off) < half
-    radius, off = radius[inside], off[inside]
-    at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
-    spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
-    edge = max(at_edge + spare, POINTED * sizes.lock)
-    ex, ey = edge * math.cos(half), edge * math.sin(half)
-    x, y = radius * np.cos(off), radius * np.sin(off)
-    beyond = np.abs(x - ex) > TINY * edge
-    x, y = x[beyond], y[beyond]
-    centre = (x * x + y * y - edge * edge) / (2.0 * (x - ex))
-    reach = np.copysign(np.hypot(ex - centre, ey), x - ex)
-    return edge, float((centre + reach).max(initial=0.0)) + spare
 
 
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:

@@ -14,7 +14,7 @@ from geneva_cli.curves.plates import Group, Part, Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.crank import LAYER as CRANK
+from geneva_cli.parts.locking_rings import LAYER as CRANK
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.parts.wheel import LAYER as WHEEL

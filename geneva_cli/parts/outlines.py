@@ -91,8 +91,8 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     return Outlines(where, size, walls, wheel, crank, relief, gaps, close, fine)
 
 
-def _sweep(bare: Gaps) -> Callable[[int], tuple[Array, Array]]:
-    return lambda i: bare.swept(i, SWEPT_DEG)
+def _sweep(bare: Gaps) -> Callable[[int, int], tuple[Array, Array]]:
+    return lambda i, every: bare.swept(i, SWEPT_DEG, every)
 
 
 def slot_walls(
@@ -119,7 +119,7 @@ def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], 
     for kind in kinds:
         crank = crank_contours(assembly, sizes, kind, swept)
         gaps = Gaps(assembly, sizes, wheel, crank)
-        overlap = _overlap(gaps)
+        overlap = _overlap(gaps, close)
         if overlap <= close:
             return crank, kind, gaps
     spare = 0.0
@@ -128,19 +128,21 @@ def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], 
         spare += SPARE * overlap + 10.0 * close
         crank = crank_contours(assembly, sizes, kind, swept, spare)
         gaps = Gaps(assembly, sizes, wheel, crank)
-        overlap = _overlap(gaps)
+        overlap = _overlap(gaps, close)
         if overlap <= close:
             break
     return crank, kind, gaps
 
 
-def _overlap(gaps: Gaps) -> float:
-    """The greatest overlap of crank and wheel in all motions, mm."""
+def _overlap(gaps: Gaps, close: float) -> float:
+    """The greatest overlap of crank and wheel in all motions, mm; wider gaps are not told apart
+    than by ``close``.
+    """
     least = 0.0
     for engagement, behind in gaps.assembly.rollers:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)
         at = (
             behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
         )
-        least = min(least, float(gaps.locking(gaps.pose(at)).min()))
+        least = min(least, float(gaps.locking(gaps.pose(at), near=close).min()))
     return -least

@@ -13,11 +13,17 @@ from geneva_cli.parts.turn.turned import Turned
 
 
 class Proof:
-    """The outlines and the full turn of one machine, shared by all that needs them."""
+    """The outlines and the full turn of one machine, shared by all that needs them.
 
-    def __init__(self, mechanism: Mechanism, made: Outlines | None = None) -> None:
+    Without ``advice`` a refusal does not say which roller would do, which takes long to find.
+    """
+
+    def __init__(
+        self, mechanism: Mechanism, made: Outlines | None = None, advice: bool = True
+    ) -> None:
         self.mechanism = mechanism
         self.made = made
+        self.advice = advice
 
     @cached_property
     def found(self) -> Outlines:
@@ -27,7 +33,7 @@ class Proof:
     @cached_property
     def shells(self) -> Shells:
         """The shells of a machine on a sphere; raises GenevaError likewise."""
-        return shells(self.mechanism)
+        return shells(self.mechanism, self.advice)
 
     @property
     def turned(self) -> Turned:

@@ -59,6 +59,9 @@ class Field(NamedTuple):
     meaning: str
 
 
+HASH = "_hash"  # where a table keeps its own, once it was asked for
+
+
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class SpecTable:
@@ -91,7 +94,15 @@ class SpecTable:
         return self is other or self._values() == other._values()
 
     def __hash__(self) -> int:
-        return hash(tuple(self._values().values()))
+        held = vars(self)
+        if HASH not in held:
+            held[HASH] = hash(tuple(self._values().values()))
+        found: int = held[HASH]
+        return found
+
+    def __getstate__(self) -> dict[str, Any]:
+        # another process hashes words otherwise
+        return {name: value for name, value in vars(self).items() if name != HASH}
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={value!r}" for name, value in self._values().items())
@@ -186,6 +197,9 @@ def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
 
 def checked(table: str, field: Field, value: Any) -> Any:
     """A value of the field's type and in its range, as the table holds it."""
+    kind = type(value)
+    if (kind is float or kind is int) and kind in field.types and value in field.rule:
+        return value  # as nearly all are
     place = (*table.split("."), field.key)
     if value is None and NoneType in field.types:
         return None

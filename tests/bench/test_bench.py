@@ -29,6 +29,7 @@ OURS = {
     "tolerance": 1e-3,  # of 20 000 machines; of a million some 1e-6
     "vibration": 1e-13,
     "turn": 2e-6,  # how nearly curved walls are known
+    "synth": 0.0,
     "start": 0.0,
     "export": 0.0,
 }

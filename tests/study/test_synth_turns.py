@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.side_crank import SideCrank
@@ -10,6 +11,7 @@ from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
 from geneva_cli.parts import proof
 from geneva_cli.parts.proof import Proof
@@ -113,3 +115,31 @@ def test_a_sphere_too_small_for_the_usual_roller_gets_one_that_fits():
     made = built(row.spec)
     assert made.trouble == ""
     assert not [c for c in checks(build(made.spec)) if c.passes is False]
+
+
+@pytest.mark.parametrize(
+    "wheel, alpha0_deg, radii, end",
+    [
+        (Internal(8), -35.0, [5.0, 4.0], ("", 4.0)),
+        (External(8), -65.0, [5.0, 4.0, 3.0, 2.5], ("lock_radius_mm", 5.0)),
+    ],
+    ids=["a little", "by far"],
+)
+def test_a_wheel_that_is_free_by_far_is_given_up(wheel, alpha0_deg, radii, end, monkeypatch):
+    """One that is free by a little, between lock and slot, is mended by a smaller roller.
+
+    The other has no lock with rollers of 5, 4 and 3 mm, and with one of 2.5 mm it is 18 times as
+    free as lets that find its slot. Six more radii are usual, each of which would be turned.
+    """
+    tried = []
+    whole = Turns.failing
+
+    def failing(turns, machine, seen=()):
+        tried.append(machine.roller_radius_mm)
+        return whole(turns, machine, seen)
+
+    monkeypatch.setattr(Turns, "failing", failing)
+    spec = Spec(wheel, Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0_deg))
+    found = built(spec)
+    assert tried == radii
+    assert (found.trouble, found.spec.roller_radius_mm(100.0)) == end

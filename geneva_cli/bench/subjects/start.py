@@ -9,6 +9,7 @@ from functools import partial
 
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.timing_pairs import process_seconds
+from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, finished
 from geneva_cli.specfile.template import template
 
 # What a command is run with; a spec on standard input. Others are run with --help.
@@ -32,7 +33,6 @@ CUT = {
     "24 straight slots": ("external", ("wheel.z=24", "size.roller_radius_mm=2")),
     "4 slots, 3 rollers": ("external", ("wheel.z=4", "drive.rollers=3")),
 }
-RUN = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.app import main; main()"
 EAGER = (
     "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
     "from geneva_cli.app import COMMANDS\n"
@@ -60,7 +60,6 @@ SCRIPTS = {
     "def table(z: int = 6): row(z)\n"
     "app()\n",
 }
-BASELINE = "python -c 'import typer'"
 
 
 def commands() -> list[str]:
@@ -96,7 +95,7 @@ def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | N
         Method(way, None, partial(_run, (sys.executable, "-c", code, *words), spec), "ours" in way)
         for way, (code, words) in runs.items()
     ]
-    base = partial(_run, (sys.executable, "-c", "import typer"), None)
+    base = partial(finished, IMPORT)
     return Task(name, BASELINE, base, lambda _: 0.0, methods)
 
 

@@ -16,12 +16,10 @@ from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.engagement import Engagement, Turning, Vector, cross
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
-from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, choose, larger, parameter
+from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -63,7 +61,7 @@ class Cam(PinPath, kw_only=True):
         motion_deg = natural - motion.alpha0_deg
         refuse_alpha0(motion.alpha0_deg, natural)
         # Input 0 is where the roller crosses the line of centres: where the wheel is half-way.
-        early = _half_way(motion.law) * motion_deg
+        early = motion.law.half_way * motion_deg
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
@@ -97,15 +95,6 @@ class Slide:
             crank = across[0] * push, across[1] * push
             out.append((crank, (wall[0] * hold, wall[1] * hold)))
         return out
-
-
-def _half_way(law: Law) -> float:
-    """The share of the motion time after which the wheel is half-way: 1/2 for symmetric laws."""
-    even = law(0.5, 0).c[0] == 0.5
-    if all_true(even):
-        return 0.5
-    first, last = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
-    return boundary(lambda u: law(u, 0).c[0] < 0.5, first, last)
 
 
 def _refuse_unreachable(motion: LawMotion, sign: float) -> None:

@@ -9,9 +9,12 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
+from geneva_cli.numerics.arrays import all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
@@ -89,6 +92,19 @@ class Law(SpecTable):
         1.0
         """
         return self.first(w, order)
+
+    @cached_property
+    def half_way(self) -> float:
+        """The share of the motion time after which the wheel is half-way: 1/2 if it is symmetric.
+
+        >>> Cycloidal().half_way
+        0.5
+        """
+        even = self(0.5, 0).c[0] == 0.5
+        if all_true(even):
+            return 0.5
+        first, last = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
+        return boundary(lambda u: self(u, 0).c[0] < 0.5, first, last)
 
     def __call__(self, u: Number, order: int = 3) -> Jet:
         """The law at a number or an array of u in 0..1, with its derivatives by u."""

@@ -6,6 +6,7 @@ In the crank's frame: its axis z, the first roller on the azimuth 0, the others 
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -38,15 +39,22 @@ def sectors(found: Ball) -> list[Region]:
     about = math.asin(min(1.0, found.about_crank_mm / found.lock_span_mm[0]))
     least = max(POINTED * found.lock, about)
     regions = []
-    for start, end in locked(found):
+    spans = locked(found)
+    ways = swept(found) if spans else None
+    for start, end in spans:
         middle, whole = 0.5 * (start + end), 0.5 * (end - start)
-        reached = _reached(found, middle)
-        for share in SHARES:
-            low = max(reached(share * whole) + spare, least)
-            if low <= (1.0 - THIN) * found.lock:
-                half = share * whole
-                regions.append(_sector(found.lock, low, middle - half, middle + half))
-                break
+        assert ways
+        reached = _reached(found, ways, middle)
+
+        def nearest(half: float, reached: Callable[[float], float] = reached) -> float:
+            return max(reached(half) + spare, least)
+
+        most = (1.0 - THIN) * found.lock
+        # a narrower sector is no nearer to the edge
+        i = bisect_left(SHARES, True, key=lambda share: nearest(share * whole) <= most)
+        if i < len(SHARES):
+            half = SHARES[i] * whole
+            regions.append(_sector(found.lock, nearest(half), middle - half, middle + half))
         else:
             raise NoRoom(
                 "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
@@ -93,10 +101,10 @@ def at_mid_motion(found: Ball) -> Rotation:
     return Rotation(ahead, cross(axis, ahead), axis)
 
 
-def _reached(found: Ball, middle: float) -> Callable[[float], float]:
+def _reached(found: Ball, ways: tuple[Array, Array], middle: float) -> Callable[[float], float]:
     """How near to the locking edge, from the crank's axis, the wheel comes within so much on either
     side of an azimuth, in all motions; radians, 0 where it stays clear of it."""
-    polar, azimuth = swept(found)
+    polar, azimuth = ways
     ahead = [azimuth + turn - middle for turn in found.rollers]
     off = np.abs(np.remainder(np.stack(ahead) + math.pi, math.tau) - math.pi)
     near = polar < found.lock * (1.0 - SAME)

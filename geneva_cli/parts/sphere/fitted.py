@@ -14,15 +14,17 @@ from geneva_cli.parts.sphere.sizes import Ball, NoRoom, ball
 LOOKS = 10  # halvings between a roller that leaves room and one that does not
 
 
-def fitted(mechanism: Mechanism) -> tuple[Ball, list[Region]]:
+def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
     """The sizes of a machine on a sphere, and its locking sectors.
 
-    Raises GenevaError, naming the key, where they leave no wheel or no lock, with the largest
-    roller that does where there is one.
+    Raises GenevaError, naming the key, where they leave no wheel or no lock; with ``advice`` also
+    the largest roller that does, where there is one.
     """
     try:
         return _made(mechanism, mechanism.roller_radius_mm)
     except NoRoom as error:
+        if not advice:
+            raise
         most = boundary(lambda r: _fits(mechanism, r), 0.0, mechanism.roller_radius_mm, LOOKS)
         if not most:
             raise

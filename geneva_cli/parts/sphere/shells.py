@@ -63,9 +63,11 @@ class Shells(NamedTuple):
         return past
 
 
-def shells(mechanism: Mechanism) -> Shells:
-    """The shells of a machine. Raises GenevaError, naming the key, where its sizes leave none."""
-    found, locks = fitted(mechanism)
+def shells(mechanism: Mechanism, advice: bool = True) -> Shells:
+    """The shells of a machine. Raises GenevaError, naming the key, where its sizes leave none; with
+    ``advice`` also the roller that leaves some.
+    """
+    found, locks = fitted(mechanism, advice)
     L, where = found.radius_mm, assembled(mechanism)
     lengths = BallLengths(
         roller=L * found.roller,

@@ -51,8 +51,12 @@ def edge(found: Ball, at: float = 0.0) -> list[SphereArc]:
 def edge_points(found: Ball, each: int = 200) -> Array:
     """Points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
     share = np.arange(each) / each
-    arcs = [arc for k in range(found.z) for arc in edge(found, 2 * k * found.half_step)]
-    return np.concatenate([arc.at(arc.sweep * share)[0] for arc in arcs])
+    one = np.concatenate([arc.at(arc.sweep * share)[0] for arc in edge(found)])
+    angle = 2.0 * found.half_step * np.arange(found.z)[:, None]  # of each slot
+    c, s = np.cos(angle), np.sin(angle)
+    x, y, up = one.T
+    slots = np.broadcast_arrays(x * c - y * s, x * s + y * c, up)
+    return np.stack(slots, axis=2).reshape(-1, 3)
 
 
 def _end(found: Ball) -> float:

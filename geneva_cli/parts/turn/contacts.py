@@ -9,7 +9,7 @@ corner in it. So nothing is stepped over, and nothing is lost between samples.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -20,17 +20,22 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
+    Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
+
 
 def candidates(
-    own: Polyarc, other: Polyarc, origin: Array, angle: Array, reach: float
+    own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
 ) -> tuple[NDArray[np.intp], Array]:
     """Points of ``own`` within ``reach`` of the other's origin that may touch it.
 
-    ``other`` stands with its origin at n places, (n, 2), turned by n angles. Which of the n each
-    point is for comes first, then the points, in the frame of ``own``.
+    ``other`` stands with its origin at n places, (n, 2), turned by n angles. Of the pieces of
+    ``own`` those are looked at that ``near`` names, each with which of the n it is for. Which of
+    the n each point is for comes first, then the points, in the frame of ``own``.
     """
-    dx, dy = own.ox - origin[:, :1], own.oy - origin[:, 1:]
-    owner, piece = np.nonzero(dx * dx + dy * dy <= (own.size + reach) ** 2)
+    owner, piece = near
+    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
+    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
+    owner, piece = owner[close], piece[close]
     owners, points = [owner], [np.column_stack((own.x0[piece], own.y0[piece]))]
     arcs, lines = np.flatnonzero(other.arc), np.flatnonzero(~other.arc)
     c, s = np.cos(angle)[owner, None], np.sin(angle)[owner, None]

@@ -14,6 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.around import Around, half_seen
 from geneva_cli.parts.turn.contacts import candidates
 from geneva_cli.parts.turn.stops import Stops
 from geneva_cli.parts.turn.turned import Pose, Stopped
@@ -155,9 +156,9 @@ class Gaps:
         # The wheel's points against the crank ...
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
-        owner, points = candidates(
-            self.wheel, self.crank, axis, pose.crank - turn, self.sizes.lock + near
-        )
+        reach, (places, size) = self.sizes.lock + near, self._pieces
+        beside = places.within(-turn, half_seen(reach + size, self.assembly.L))
+        owner, points = candidates(self.wheel, beside, self.crank, axis, pose.crank - turn, reach)
         seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
         self._work(len(seen) * len(self.crank))
         out = _least(len(turn), owner, self.crank.signed(seen), near)
@@ -170,28 +171,24 @@ class Gaps:
         owner, which = np.nonzero(inward < near)
         points = np.column_stack((qx[owner, which], qy[owner, which]))
         if len(points):
-            signed = self._to_wheel(points, near)
+            signed = self._to_wheel(points, self.near)
             out = np.minimum(out, _least(len(turn), owner, signed, near))
         return out
 
-    def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
+    def swept(self, number: int, step_deg: float, every: int = 1) -> tuple[Array, Array]:
         """Where on the crank the wheel's points come within the locking disc in one motion.
 
         Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
+        The wheel is looked at after so many degrees of the input, or at some of these places.
         """
         engagement, behind = self.assembly.rollers[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
-        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)[::every]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
         reach = self.sizes.lock * (1.0 - TOUCH)
         # Only in directions near to that of the crank's axis is anything within reach of it.
-        near = math.asin(reach / self.assembly.L) if reach < self.assembly.L else math.pi
-        points, direction = self._wheel_points
-        ahead = -np.remainder(turn, math.tau)
-        first = np.searchsorted(direction, ahead - near)
-        many = np.searchsorted(direction, ahead + near) - first
-        owner = np.repeat(np.arange(len(turn)), many)
-        which = np.arange(len(owner)) + np.repeat(first - np.cumsum(many) + many, many)
+        points, places = self._wheel_points
+        owner, which = places.within(-turn, half_seen(reach, self.assembly.L))
         px, py = points.T
         ax, ay = self._axis(turn).T
         x, y = px[which] - ax[owner], py[which] - ay[owner]
@@ -202,16 +199,17 @@ class Gaps:
         return np.hypot(x, y), np.arctan2(y, x)
 
     @cached_property
-    def _wheel_points(self) -> tuple[Array, Array]:
-        """Points along the wheel's outline that come near to the locking disc, (n, 2), three times
-        round in the order of their directions, (n,), of which those amid are from -pi to pi."""
+    def _wheel_points(self) -> tuple[Array, Around]:
+        """Points along the wheel's outline that come near to the locking disc, (n, 2)."""
         L = self.assembly.L
         points = self.wheel.samples(SAGITTA * L, LONGEST * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        direction = np.arctan2(points[:, 1], points[:, 0])
-        order = np.argsort(direction)
-        turns = np.repeat((-math.tau, 0.0, math.tau), len(order))
-        return np.tile(points[order], (3, 1)), np.tile(direction[order], 3) + turns
+        return points, Around(np.arctan2(points[:, 1], points[:, 0]))
+
+    @cached_property
+    def _pieces(self) -> tuple[Around, float]:
+        """The pieces of the wheel's outline about its axis, and the size of the largest."""
+        return Around(np.arctan2(self.wheel.oy, self.wheel.ox)), float(self.wheel.size.max())
 
     def _axis(self, turn: Array) -> Array:
         """The crank's axis in the wheel's frame, (n, 2)."""

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.study.synthesis.looks import look
 from geneva_cli.study.synthesis.parts import SPARE, USUAL, exact, with_roller
 from geneva_cli.study.synthesis.turns import LOOSE, Failing, Turns
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.registry import LIMITS, MOTION
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
 # Times the play that lets a roller find its slot: where the wheel is as free as that between lock
 # and slot, no smaller roller helps. Of cams of 5 to 12 slots those with up to 3.1 were mended so,
 # and none with 8.4 or more.
 LOST = 6.0
-UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # what no other roller helps
+UNDERCUT = "undercut_mm"
+UNDERCUTS = {UNDERCUT: MOTION[UNDERCUT]}
+UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # what no other roller helps
 
 
 class Built(NamedTuple):
@@ -53,7 +55,7 @@ def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
     for other in _others(spec, set(names), fixed):
         if any(one.name in LOOSE and one.share > LOST for one in seen):
             break
-        failing = _failing(turns, other, seen)
+        failing = _other_failing(turns, other, seen)
         if not failing:
             return Built(other, "")
         seen = failing
@@ -78,10 +80,25 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
             yield with_roller(spec, other)
 
 
-def _failing(turns: Turns, spec: Spec, seen: Sequence[Failing] = ()) -> list[Failing]:
-    """The checks that fail; with what has been ``seen`` to fail with other sizes, one of them."""
+def _failing(turns: Turns, spec: Spec) -> list[Failing]:
+    """The checks that fail."""
     machine = build(spec)
-    before = [Failing(c.name) for c in checks(machine, parts=False) if c.passes is False]
-    if before and (seen or {one.name for one in before} & UNSIZED):  # no need to turn them
+    before = _of_motion(machine)
+    if {one.name for one in before} & UNSIZED:  # no need to turn them
         return before
-    return [*before, *turns.failing(machine, seen)]
+    return [*before, *turns.failing(machine)]
+
+
+def _other_failing(turns: Turns, spec: Spec, seen: Sequence[Failing]) -> list[Failing]:
+    """Some of the checks that fail with other sizes than those of which some have been ``seen`` to.
+
+    The sizes change nothing of the motion but the undercut, which a smaller roller has less of.
+    """
+    machine = build(spec)
+    named = LIMITS if UNDERCUT not in {one.name for one in seen} else LIMITS | UNDERCUTS
+    before = [Failing(c.name) for c in motion_checks(named, machine) if c.passes is False]
+    return before or turns.failing(machine, seen) or _of_motion(machine)
+
+
+def _of_motion(machine: Mechanism) -> list[Failing]:
+    return [Failing(c.name) for c in checks(machine, parts=False) if c.passes is False]

@@ -28,6 +28,7 @@ from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
 SPARE = 1.001  # times the least roller, for what lies between the places that are compared
+KEPT = 1024  # machines: those of more rollers are asked for twice
 NEARLY = 0.8  # of the undercut that is let pass, for the same reason
 
 # Why parts cannot be built, in one word
@@ -61,6 +62,7 @@ class Parts(NamedTuple):
         return f"no: {self.why}" if self.why else MAYBE
 
 
+@lru_cache(maxsize=KEPT)
 def suited(spec: Spec) -> tuple[Mechanism, Parts]:
     """The machine of a spec and its parts.
 

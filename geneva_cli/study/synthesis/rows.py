@@ -93,8 +93,9 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
 
 def _wedged(machine: Mechanism) -> str:
     """The check of a cam's groove, where it fails: asked only where it is near its limit."""
-    if look(machine.spec).pressure_deg < GROOVE_MAX_DEG - NEAR_DEG:
-        return ""
+    seen = look(machine.spec).pressure_deg
+    if abs(seen - GROOVE_MAX_DEG) > NEAR_DEG:
+        return GROOVE if seen > GROOVE_MAX_DEG else ""
     check = groove_pressure(GROOVE, machine)
     return GROOVE if check and check.passes is False else ""
 
@@ -115,7 +116,8 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
         except GenevaError as error:
             errors.append(str(error))
             continue
-        values = [law_peaks(machine)[name] for name in COSTS] if spec.motion else five
+        known = law_peaks(machine)
+        values = [known[name] for name in COSTS] if spec.motion else five
         if values is None:
             continue
         if not parts.why and (limited or machine.engagements[0].groove):

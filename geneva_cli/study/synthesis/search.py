@@ -85,12 +85,11 @@ def _family(row: Row) -> tuple[object, ...]:
 
 
 def _parts(wish: Wish, how_near: bool = False) -> list[_Part]:
-    """What each kind of machine has, by all cores; the laws, which take longest, begin."""
-    tasks = kinds(wish)[::-1]
+    """What each kind of machine has, by all cores."""
+    tasks = kinds(wish)
     many = len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
     workers = min(len(tasks), cores()) if many else 1
-    part = partial(_part, how_near=how_near)
-    return [*mapped(part, tasks, workers, "machines")][::-1]
+    return [*mapped(partial(_part, how_near=how_near), tasks, workers, "machines")]
 
 
 def _part(task: tuple[Kind, Wish], how_near: bool) -> _Part:

@@ -79,9 +79,8 @@ def for_people(table: Table) -> Table:
         elif not (column.source == "rollers" and same and first == 1):
             columns.append(column)
     title = table.title + (f" All: {', '.join(once)}." if once else "")
-    kept = _fitting(columns)
-    cells = [[_short(v) for v in c.cells] for c in kept]
-    return Table(tuple(c.head for c in kept), cells, title=title)
+    kept = _fitting([c._replace(cells=[*map(_short, c.cells)]) for c in columns])
+    return Table(tuple(c.head for c in kept), [c.cells for c in kept], title=title)
 
 
 def _columns(
@@ -129,14 +128,11 @@ def _links(row: dict[str, Any]) -> str:
 def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
     """As many columns as stand side by side, the dearest dropped first."""
     rank = {source: i for i, source in enumerate(HEADS)}
-    kept = list(columns)
-    while sum(c.width + BETWEEN for c in map(_shortened, kept)) + 1 > WIDTH:
-        kept.remove(max(kept, key=lambda c: rank[c.source]))
-    return kept
-
-
-def _shortened(column: ShownColumn) -> ShownColumn:
-    return column._replace(cells=[_short(v) for v in column.cells])
+    wide = [c.width + BETWEEN for c in columns]
+    kept = [*range(len(columns))]
+    while sum(wide[i] for i in kept) + 1 > WIDTH:
+        kept.remove(max(kept, key=lambda i: rank[columns[i].source]))
+    return [columns[i] for i in kept]
 
 
 def _short(value: Any) -> Any:

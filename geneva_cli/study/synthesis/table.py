@@ -59,7 +59,7 @@ def turned(
     every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
     among = every if buildable else every[:count]
     some = [one.row.spec for one in among if one.row.candidate.parts == MAYBE]
-    shown = _built(some, fixed(wish))
+    shown = _built(some, fixed(wish), in_order=buildable)
     passed = 0
     for one in every:
         maybe = one.row.candidate.parts == MAYBE
@@ -73,16 +73,22 @@ def turned(
             yield Numbered(one.no, row)
 
 
-def _built(specs: Sequence[Spec], fixed: frozenset[str]) -> Iterator[Built]:
-    """The specs turned, in order, by all cores; those with the same turn at once."""
+def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iterator[Built]:
+    """The specs turned, by all cores; those with the same turn at once.
+
+    Those of a law, which take longest, are turned first, or all ``in_order``.
+    """
     together: dict[Spec, list[int]] = {}
     for i, spec in enumerate(specs):
         together.setdefault(same_turn(spec), []).append(i)
-    tasks = [[specs[i] for i in members] for members in together.values()]
+    turned = [*together.values()]
+    if not in_order:
+        turned.sort(key=lambda members: specs[members[0]].motion is None)
+    tasks = [[specs[i] for i in members] for members in turned]
     work = partial(built_together, fixed=fixed)
     done = mapped(work, tasks, min(len(tasks), cores()), "machines")
     results: dict[int, Built] = {}
-    groups = iter(together.values())  # the first of each in order
+    groups = iter(turned)
     for i in range(len(specs)):
         while i not in results:
             results |= zip(next(groups), next(done), strict=True)

@@ -61,7 +61,7 @@ class Turns:
         """
         own = same_turn(machine.spec)
         if own not in self._proofs:
-            self._proofs[own] = Proof(build(own))
+            self._proofs[own] = Proof(build(own), advice=False)
         proof = self._proofs[own]
         try:
             parts: Any = proof.turned

@@ -117,6 +117,6 @@ def _lines(
     if inside and fast >= PARALLEL * math.radians(motion):
         enough = fast < PARALLEL * math.radians(natural)
         slower = max(motion, natural if enough else math.degrees(fast / QUICK))
-        yield natural, lambda m: cam(curved(wish, wheel, law, m, max(motion, natural)))
+        yield natural, lambda m: cam(wish, wheel, law, m, max(motion, natural))
     yield natural, lambda m: curved(wish, wheel, law, m, slower)
-    yield natural, lambda m: cam(curved(wish, wheel, law, m, motion))
+    yield natural, lambda m: cam(wish, wheel, law, m, motion)

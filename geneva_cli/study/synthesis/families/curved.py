@@ -61,8 +61,8 @@ def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _lines(wish: Wish, wheel: Gearing, law: str) -> tuple[_Line, _Line]:
     """Curved slots of a wheel and a law, and cams."""
-    natural, make = natural_deg(wheel), partial(curved, wish, wheel, law)
-    grooved, until = partial(_grooved, make), partial(_until_parallel, wheel)
+    natural, until = natural_deg(wheel), partial(_until_parallel, wheel)
+    make, grooved = partial(curved, wish, wheel, law), partial(cam, wish, wheel, law)
     return _Line(wish, natural, make, lambda motion: motion), _Line(wish, natural, grooved, until)
 
 
@@ -106,23 +106,11 @@ class _Line(NamedTuple):
         return Family(partial(self.make, m), low, motion.high, plain=self.natural)
 
 
-def _grooved(make: Callable[[int, float], Spec], m: int, motion: float) -> Spec:
-    return cam(make(m, motion))
-
-
 def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
     """Of a range the motions after which crank and slot are not yet parallel, where there are."""
     parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
     inside = not motion.exact and motion.low < parallel
     return Interval(motion.low, min(motion.high, parallel)) if inside else motion
-
-
-def cam(spec: Spec) -> Spec:
-    """The law of curved slots with straight ones, made by a groove along the crank."""
-    given = spec.drive
-    assert spec.motion is not None
-    drive = Cam(n_rpm=given.n_rpm, rollers=given.rollers)
-    return spec.replace(drive=drive, motion=spec.motion.replace(ratio=None))
 
 
 def more_rollers(
@@ -154,10 +142,19 @@ def _nothing_in_the_way(spec: Spec) -> bool:
 
 def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """Curved slots, with the shortest alpha_0 that makes the motion."""
+    given = Motion(standard(law), alpha0_deg=_alpha0(wish, wheel, motion), ratio="matched")
+    return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)
+
+
+def cam(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
+    """The same law with straight slots, made by a groove along the crank."""
+    given = Motion(standard(law), alpha0_deg=_alpha0(wish, wheel, motion))
+    return machine(wish, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, given)
+
+
+def _alpha0(wish: Wish, wheel: Gearing, motion: float) -> float:
     natural = natural_deg(wheel)
     alpha0, spare = natural - motion, ROUNDING * natural
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if wish.acceleration_max else alpha0 + spare
-    shortest = closed.shortest(alpha0 - spare, most)
-    given = Motion(standard(law), alpha0_deg=shortest, ratio="matched")
-    return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)
+    return closed.shortest(alpha0 - spare, most)

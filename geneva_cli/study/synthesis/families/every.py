@@ -24,16 +24,17 @@ Kind: TypeAlias = Callable[[Wish, Sequence[Gearing], list[float]], Iterator[Fami
 
 
 def kinds(wish: Wish) -> list[tuple[Kind, Wish]]:
-    """What may grant a wish, in parts that do not know each other: straight slots, four-bars, and
-    each law.
+    """What may grant a wish, in parts that do not know each other, the longest first: four-bars of
+    all wheels, and of each gearing straight slots and each law.
     """
     first, last = (
         (below.straight, below.with_laws) if wish.only_acceleration else (_straight, _laws)
     )
+    each = [wish._replace(gearings=(gearing,)) for gearing in wish.gearings]
     return [
-        (first, wish),
         (_four_bars, wish),
-        *((last, wish._replace(laws=(law,))) for law in wish.laws),
+        *((first, one) for one in each),
+        *((last, one._replace(laws=(law,))) for law in wish.laws for one in each),
     ]
 
 

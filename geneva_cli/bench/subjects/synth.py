@@ -1,0 +1,40 @@
+"""From a wish to machines that grant it: whole runs, with the first twenty turned and without."""
+
+from __future__ import annotations
+
+from geneva_cli.bench.method import Subject
+from geneva_cli.bench.whole_runs import task
+
+WISHES = (
+    "--motion-deg 180 --z 6",
+    "--motion-deg 100..200",
+    "--motion-deg 100..200 --internal",
+    "--motion-deg 100..170 --rollers 2",
+    "--motion-deg 150..200 --spherical",
+    "--motion-deg 100..200 --law all",
+    "--motion-deg 120.. --sort jerk.max",
+    "--tau 1/3 --buildable",
+    "--dwell-s 0.8.. --cycle 1.5 --motion-deg ..180",
+    "--cycle 1.5 --subject-to dwell_s>=0.8",
+    "--subject-to timing.tau<=0.3 --subject-to velocity.max<=2",
+    "--acceleration-max 0.5",
+)
+QUICK = "--motion-deg 180 --z 6 --external --rollers 1"
+WAYS = {"search": "0", "search, twenty turned": "20"}  # rows whose parts are turned
+
+
+def subject(quick: bool) -> Subject:
+    """A task a wish."""
+    wishes, ways = ((QUICK,), {"search": "0"}) if quick else (WISHES, WAYS)
+    tasks = [
+        task(
+            f"geneva synth {wish}",
+            {
+                way: ("synth", *wish.split(), "--checked", count)
+                for way, count in ways.items()
+                if count != "0" or "--buildable" not in wish
+            },
+        )
+        for wish in wishes
+    ]
+    return Subject("From a wish to machines: whole runs, on all cores", "none", tasks)

@@ -1,0 +1,46 @@
+"""What stands about an axis, found by its directions from there."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+
+class Around:
+    """Things at directions (n,), radians from -pi to pi.
+
+    >>> places = Around(np.array([0.0, 3.1, -3.1]))
+    >>> owner, which = places.within(np.array([0.1, math.pi]), 0.2)
+    >>> owner.tolist(), which.tolist()
+    ([0, 1, 1], [0, 1, 2])
+    """
+
+    def __init__(self, direction: Array) -> None:
+        order = np.argsort(direction)
+        turns = np.repeat((-math.tau, 0.0, math.tau), len(order))
+        self._order = np.tile(order, 3)  # three times round, of which those amid are from -pi to pi
+        self._direction = np.tile(direction[order], 3) + turns
+
+    def within(self, ahead: Array, half: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Those within ``half`` on either side of each of m directions.
+
+        Which of the m each is for comes first, in order.
+        """
+        middle = np.remainder(ahead + math.pi, math.tau) - math.pi
+        first = np.searchsorted(self._direction, middle - half)
+        many = np.searchsorted(self._direction, middle + half) - first
+        owner = np.repeat(np.arange(len(ahead)), many)
+        place = np.arange(len(owner)) + np.repeat(first - np.cumsum(many) + many, many)
+        return owner, self._order[place]
+
+
+def half_seen(reach: float, away: float) -> float:
+    """Half the angle under which a disc of a radius is seen from ``away`` its middle, radians."""
+    return math.asin(reach / away) if reach < away else math.pi

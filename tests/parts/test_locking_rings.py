@@ -1,0 +1,39 @@
+"""Locking sectors without a middle: a few places of the wheel tell what does not clear."""
+
+import math
+
+import numpy as np
+
+from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.parts import locking_rings, outlines
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.locking_rings import Reached, beyond, inner_arc
+from geneva_cli.parts.sizes import sizes
+
+
+def test_what_is_beyond_is_so_by_the_whole_arc_too():
+    """Some places say no only where all of them do: random ones, most of them near the disc."""
+    size = sizes(assembly(build(Spec(Internal(6)))))
+    limit, some = 0.9 * size.lock, np.random.default_rng(8)
+    told = []
+    for _ in range(200):
+        half = some.uniform(0.2, 1.5)
+        radius = size.lock * (1.0 - some.exponential(0.3, 40)) ** 2
+        places = Reached(radius, some.uniform(-math.pi, math.pi, 40))
+        told.append((beyond(places, half, limit), max(inner_arc(size, half, places, 0.0)) < limit))
+    assert {(True, False), (False, True)} <= set(told)
+    assert (True, True) not in told
+
+
+def test_sectors_are_those_of_all_places(monkeypatch):
+    """Nothing is told from a few places that all of them would not."""
+    wheel = Internal(12)
+    motion = Motion(ModifiedSine(), alpha0_deg=-30.0)
+    spec = Spec(wheel, Cam(), motion=motion)
+    known = outlines.outlines(build(spec))
+    monkeypatch.setattr(locking_rings, "beyond", lambda *_: False)
+    assert outlines.outlines(build(spec)).crank == known.crank
