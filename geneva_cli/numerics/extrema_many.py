@@ -65,14 +65,14 @@ def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
     found = []
     with np.errstate(all="ignore"):
         for part in _blocks(0, len(a), GROUP):
-            found.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns))
+            found.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns)[:3])
     which, x, value = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((x, which))
     return Stationary(which[order], x[order], value[order])
 
 
 class Rough(NamedTuple):
-    """Functions to look by, and the share of a greatest size by which they may be wrong."""
+    """Functions for a scan, and the share of a greatest size by which they may be wrong."""
 
     f: Curves
     wrong: float
@@ -103,19 +103,18 @@ def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> Greates
 
 def _greatest(f: Curves, rough: Rough | None, places: Sequence[Array], start: int) -> Greatest:
     """Of a group of designs, the first of which has the number ``start``."""
-    look, wrong = rough or Rough(f, 0.0)
     pieces = _pieces(places)
-    scans = [_scanned(look, a, b, start) for a, b in pieces]
+    scans = [_scanned(rough.f if rough else f, a, b, start) for a, b in pieces]
     size = np.abs(np.hstack([scan.ends for scan in scans]))
     at = np.hstack([end for piece in pieces for end in piece])
     sampled = np.maximum.reduce([np.abs(x) for scan in scans for x in (scan.low, scan.high)])
-    tops = _tops(look, _joined([_high_turns(scan, sampled, start) for scan in scans]))
+    tops = _tops(f, _joined([_high_turns(scan, sampled, start) for scan in scans]))
     which, x, value = tops.which - start, tops.x, np.abs(tops.value)
-    if wrong:
-        # what may be the greatest, as it is
-        bar = (1.0 - 2.0 * wrong) * _most(size, which, value)
-        low = value < bar[which]
-        again = np.flatnonzero(~low)
+    if rough and rough.wrong:
+        # samples that may be the greatest, as they are
+        bar = (1.0 - rough.wrong) * _most(size, which, value)
+        low = tops.sampled & (value < bar[which])
+        again = np.flatnonzero(tops.sampled & ~low)
         value[low] = -np.inf
         value[again] = np.abs(f(x[again, None], tops.which[again], 0)[0][:, 0])
         size[size < bar[:, None]] = -np.inf
@@ -271,7 +270,16 @@ def _turns(left: Array, right: Array) -> Mask:
     return turns
 
 
-def _tops(f: Curves, pairs: _Pairs) -> Stationary:
+class _Tops(NamedTuple):
+    """Stationary points, and which of them are samples, with the value that they have there."""
+
+    which: Whole
+    x: Array
+    value: Array
+    sampled: Mask
+
+
+def _tops(f: Curves, pairs: _Pairs) -> _Tops:
     """The right neighbour, where it is stationary, and the stationary point between the two.
 
     A stationary neighbour may hide another between the two: the slope beside it has its bend's
@@ -301,7 +309,7 @@ def _tops(f: Curves, pairs: _Pairs) -> Stationary:
     x, rise, (_, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE, slopes)
     found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
-    return Stationary(which, x, value)
+    return _Tops(which, x, value, np.arange(len(which)) >= len(rise))
 
 
 def turn_of_cubic(left: Array, right: Array) -> Array:
