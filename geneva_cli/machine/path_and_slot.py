@@ -41,8 +41,12 @@ class AnchoredPath:
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors_of(anchors), ahead
-        self.middle = anchors[len(anchors) // 2]
         self._latest, self._latest_nearest = Latest(), Latest()
+
+    @property
+    def middle(self) -> Anchor:
+        """The anchor of mid-motion."""
+        return self.anchors[len(self.anchors) // 2]
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its path, from mid-motion."""

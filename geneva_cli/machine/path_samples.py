@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.machine.roller_path import RollerPath
-from geneva_cli.numerics.arrays import Record, array
+from geneva_cli.numerics.arrays import Record
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole
@@ -25,7 +25,8 @@ COUNT = 48  # samples of a turn that every path has
 FIRST = 0.3  # of a step, where they begin: symmetrical paths have their cusps at 0 and at pi
 FORETOLD = 0.05  # radians by which the turn between samples may differ from what they foretell
 DEEPEST = 14  # halvings: what is narrower than a crank angle of 1e-5 radians is a cusp
-CELLS = 1 << 17  # pairs of samples looked at together: they stay in the processor's cache
+ROWS = 256  # designs whose samples are worked out together: they stay in the processor's cache
+CELLS = 1 << 19  # pairs of samples looked at together: of more they leave the processor's cache
 
 
 class PathPoints(NamedTuple):
@@ -61,27 +62,32 @@ def points(path: RollerPath, phi: Array) -> PathPoints:
     """Places of the path; a design's angles are a row."""
     x, y = path.at(phi, 2)
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
-    p, v, a = (
-        np.broadcast_to(array(c) + 1j * array(d), shape)
-        for c, d in zip(x.derivatives(), y.derivatives(), strict=True)
-    )
-    speed = np.abs(v)
-    t = np.divide(v, speed, out=np.zeros_like(v), where=speed != 0.0)  # none where the point rests
-    turn = (v.real * a.imag - v.imag * a.real) / (speed * speed)
+    (px, vx, ax), (py, vy, ay) = x.arrays(), y.arrays()
+    square = vx * vx + vy * vy
+    turn = (vx * ay - vy * ax) / square
+    speed = np.broadcast_to(np.sqrt(square), shape)
+    over = np.where(speed == 0.0, 0.0, 1.0 / speed)  # no direction where the point rests
+    places = ((px, py), (vx, vy), (ax, ay), (vx * over, vy * over))
+    p, v, a, t = (_complex(*place, shape) for place in places)
     return PathPoints(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
+
+
+def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
+    both = np.empty(shape, dtype=complex)
+    both.real, both.imag = x, y
+    return both
 
 
 def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     """All ``count`` designs, in blocks of as many as have about as many samples."""
-    step = math.tau / COUNT
-    phi = np.broadcast_to((np.arange(COUNT + 1) + FIRST) * step, (count, COUNT + 1))
-    base = points(path, phi)
+    phi = np.array([(i + FIRST) * (math.tau / COUNT) for i in range(COUNT + 1)])
+    every = np.arange(count)
+    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, ROWS)])
     left, right = _neighbours(base)
     turned = _turned(left, right)
     row, column = np.nonzero(_missed(left, right, turned))
     extra = _between(path, row, left.taken((row, column)), right.taken((row, column)))
     more = np.bincount(extra[0], minlength=count) if extra else np.zeros(count, dtype=int)
-    every = np.arange(count)
     plain = every[more == 0]
     for part in _blocks(np.full(len(plain), COUNT)):
         yield _samples(plain[part], base.taken(plain[part]), turned[plain[part]])
@@ -92,6 +98,12 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
         for part in _blocks(COUNT + more[crowded]):
             at = _padded(crowded[part], base, whose, added)
             yield _samples(crowded[part], at, _turned(*_neighbours(at)))
+
+
+def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:
+    """The same angles of so many designs."""
+    at = points(path, phi[None])
+    return PathPoints._make(np.broadcast_to(part, (count, len(phi))) for part in at)
 
 
 def _neighbours(at: PathPoints) -> tuple[PathPoints, PathPoints]:

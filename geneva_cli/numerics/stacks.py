@@ -58,7 +58,7 @@ class Stack(Generic[Record]):
     def __init__(self, records: Sequence[Record]) -> None:
         import numpy as np
 
-        self.record, self.count = _stacked(records), len(records)
+        self.records, self.record, self.count = tuple(records), _stacked(records), len(records)
         shapes = (x.shape for x in _columns(tuple(records)))
         self.rows: Whole = np.arange(next(shapes)[0])[:, None]
 
@@ -66,17 +66,21 @@ class Stack(Generic[Record]):
         return self.count
 
     def one(self, i: int, rows: Whole) -> Record:
-        """The i-th record; from the end where i is negative."""
-        return self._at(rows * self.count + i % self.count, i)
+        """The i-th record; from the end where i is negative. Its floats stay floats."""
+        row = rows[:, 0]
+
+        def taken(number: object) -> object:
+            if isinstance(number, tuple):
+                return record_of(number, [taken(one) for one in number])
+            return cast("Array", number)[row] if _is_column(number) else number
+
+        return cast("Record", taken(self.records[i]))
 
     def picked(self, index: Whole, rows: Whole) -> Record:
         """The record of each index (m, j): numbers that differ are (m, j) too."""
-        return self._at(rows * self.count + index, index)
-
-    def _at(self, flat: Whole, index: Whole | int) -> Record:
         import numpy as np
 
-        flat = np.ascontiguousarray(flat.T)  # designs lie side by side in memory
+        flat = np.ascontiguousarray((rows * self.count + index).T)  # designs lie side by side
 
         def taken(number: object) -> object:
             if isinstance(number, tuple):
