@@ -48,7 +48,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
     return [
         Caution(
             "wheel-left-out",
-            f"the wheel's own inertia, {own:.4g} kg m2 of a plate as thick as the wheel, is "
+            f"the wheel's own inertia, {own:.4g} kg m2 of the wheel as it is drawn, is "
             f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it "
             f"out, add {helps}",
         )

@@ -192,6 +192,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "crank_hub_mm", 0.5),
         scaled("size", "wheel_bore_mm", 0.5),
         scaled("size", "arm_eye_mm", 0.5),
+        replaced("size", "crank_bore_mm", 0.0),
         *(
             left_out("size", f"{part}_{what}_mm")
             for part in ("wheel", "crank")

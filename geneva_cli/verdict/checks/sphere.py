@@ -65,7 +65,12 @@ def arm_wall(name: str, found: Shells) -> Check | None:
 
 
 def beside(name: str, found: Shells) -> Check | None:
-    """Between hubs and shafts and what turns about the other axis."""
+    """Between hubs and shafts and what turns about the other axis; the check of the arm's walls
+    says why there is no arm."""
+    if has_arm(found):
+        with_arm = arm_wall(name, found)
+        if with_arm is None or with_arm.value is None:
+            return None
     try:
         least = beside_shafts(found, built(found))
     except GenevaError as error:
