@@ -24,6 +24,7 @@ from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.parts.sphere.wheel import POLE, edge_points, wheel_regions
+from geneva_cli.verdict.checks.registry import shell_checks
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
 MACHINES = {
@@ -158,7 +159,7 @@ def test_solid_angle_and_inertia_are_those_of_integrals(name):
         [0, found.hub_mm],
     )
     wanted = seen * (high**5 - low**5) / 5 - 2 * mpmath.pi * hole
-    assert wheel_shell(found).inertia(POLE) == pytest.approx(float(wanted), rel=1e-12)
+    assert wheel_shell(Size(), found).inertia(POLE) == pytest.approx(float(wanted), rel=1e-12)
 
 
 def turned(u, angle):
@@ -339,10 +340,36 @@ def test_no_arm_or_hub(size, said):
         built(found)
 
 
+def test_bolts_for_a_dial():
+    """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
+    design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
+    found = Proof(design.mechanism).shells
+    _, *holes = wheel_shell(design.spec.size, found.ball).holes
+    hub = math.asin(found.ball.hub_mm / 76.0)
+    far = 0.5 * (hub + found.ball.inner)
+    ways = [math.pi / 6.0 + k * math.tau / 3.0 for k in range(3)]
+    wanted = [polar(far, way) for way in ways]
+    assert np.array([hole.axis for hole in holes]) == pytest.approx(np.array(wanted), abs=1e-15)
+    (wall,) = (c for c in shell_checks(found) if c.name == "dial_wall_mm")
+    ends = found.ball.bottom - found.ball.half_width
+    least = min(far - hub, ends - far) - math.asin(2.0 / 76.0)
+    assert wall.value == pytest.approx(76.0 * least, rel=1e-12)
+    lighter = [wheel_shell(s, found.ball).volume for s in (Size(), design.spec.size)]
+    assert lighter[0] - lighter[1] == pytest.approx(3 * math.pi * 4.0 * 8.0, rel=1e-3)
+    for key, value, said in (
+        ("dial_bolt_circle_mm", 20.0, "they have their place between"),
+        ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
+    ):
+        rows = shell_checks(Proof(design.with_(f"size.{key}", value).mechanism).shells)
+        (failing,) = (c for c in rows if not c.passes)
+        assert failing.name == "dial_wall_mm"
+        assert said in failing.nearest
+
+
 def test_a_wheel_without_a_bore_stays_a_ring():
     found = sizes(Design(Spherical(6), size=Size(80.0, 5.0, wheel_bore_mm=0.0)))
     assert found.opening_mm == 0.0
-    assert len(wheel_shell(found).regions) == 6
+    assert len(wheel_shell(Size(), found).regions) == 6
 
 
 def test_a_kerf_is_beside_the_sheet():

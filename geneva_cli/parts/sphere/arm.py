@@ -189,11 +189,11 @@ def _walls(made: CapArm, found: Shells) -> float:
     Raises GenevaError where holes run into each other, or out of what they are in.
     """
     ball = found.ball
-    least = _least(made.boundary, made.holes, ball.arm_span_mm[0])
+    least = least_wall(made.boundary, made.holes, ball.arm_span_mm[0])
     each = len(made.bolts) // max(1, len(found.crank))
     for k, sector in enumerate(found.crank if each else []):
         own = made.bolts[k * each : (k + 1) * each]
-        least = min(least, _least(sector, own, ball.lock_span_mm[0]))
+        least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
     if least <= 0.0:
         raise GenevaError(
             "the round holes of the crank arm run into each other, or out of the arm or its "
@@ -204,7 +204,7 @@ def _walls(made: CapArm, found: Shells) -> float:
     return least
 
 
-def _least(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
+def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
     """The least wall between holes, and between them and a boundary, on a sphere, mm."""
     angles = [hole.angle(sphere) for hole in holes]
     away, _ = Arcs(within.boundary).signed(np.array([hole.axis for hole in holes]))

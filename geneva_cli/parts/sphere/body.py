@@ -15,7 +15,8 @@ def wheel_body(mechanism: Mechanism) -> MassProperties:
     Raises GenevaError where its sizes leave none.
     """
     density, found = mechanism.spec.material_wheel.density_kgm3, ball(mechanism)
-    shell, hub = wheel_shell(found), wheel_hub(mechanism.spec.size, found)
+    size = mechanism.spec.size
+    shell, hub = wheel_shell(size, found), wheel_hub(size, found)
     mass = density * shell.volume * MM**3
     own = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
     return added(own, mass_properties(hub, density)) if hub else own

@@ -19,8 +19,9 @@ from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
 from geneva_cli.parts.sphere.crank import at_mid_motion
+from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.sphere.wheel import POLE, WEB, web_region, wheel_regions
+from geneva_cli.parts.sphere.wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.parts.wheel_hub import AXIS, HUB
 from geneva_cli.spec.tables import Size
 
@@ -62,17 +63,20 @@ def built(found: Shells) -> BuiltBall:
 def wheel_group(size: Size, ball: Ball) -> Group:
     """The wheel's shell with its hub. Raises GenevaError for a keyway or hub that cannot be."""
     hub = wheel_hub(size, ball)
-    return Group("wheel", (Member(wheel_shell(ball)), *([Member(hub)] if hub else [])))
+    return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
-def wheel_shell(ball: Ball) -> Shell:
-    """The wheel's shell, down to the round hole about its axis, if there is one."""
-    if not ball.opening_mm:
+def wheel_shell(size: Size, ball: Ball) -> Shell:
+    """The wheel's shell, down to the round hole about its axis, if there is one.
+
+    Raises GenevaError where it has no room for a dial's bolts.
+    """
+    if not dial_holes(size, ball) and not ball.opening_mm:
         return Shell("wheel", "WHEEL", tuple(wheel_regions(ball, ball.inner)), *ball.span_mm)
-    inner = min(ball.inner, WEB)
+    inner = web_angle(ball)
     regions = *wheel_regions(ball, inner), web_region(ball, inner)
-    hole = RoundHole(POLE, ball.opening_mm)
-    return Shell("wheel", "WHEEL", regions, *ball.span_mm, (hole,))
+    holes = RoundHole(POLE, ball.opening_mm), *dial_holes(size, ball)
+    return Shell("wheel", "WHEEL", regions, *ball.span_mm, holes)
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:

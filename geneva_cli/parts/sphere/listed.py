@@ -10,6 +10,7 @@ from contextlib import suppress
 from geneva_cli.curves.mass import MM, mass_properties
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Member, Plate, Shell, solids
+from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, opposite
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension
@@ -17,9 +18,11 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.built import ROLLER, built, crank_group, wheel_shell
+from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.wheel import POLE
+from geneva_cli.spec.tables import Size
 
 ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 
@@ -35,7 +38,7 @@ def shell_rows(proof: Proof) -> Iterator[dict[str, object]]:
     try:
         members = built(found).members
     except GenevaError:
-        members = Member(wheel_shell(found.ball)), Member(crank_group(found, None))
+        members = Member(wheel_shell(Size(), found.ball)), Member(crank_group(found, None))
     counted = Counter(map(_alike, solids(Group("", members))))
     kinds = {_alike(one): one for one in solids(Group("", members))}
     for alike, count in counted.items():
@@ -90,6 +93,8 @@ def dimensions(proof: Proof) -> Iterator[Dimension]:
     yield Dimension("rim, from the wheel's axis", math.degrees(found.rim), "deg")
     yield Dimension("slotted ring's inner edge, from its axis", math.degrees(found.inner), "deg")
     yield from _axle("wheel", found.bore_mm, found.hub_mm)
+    with suppress(GenevaError):  # a check says why
+        yield from _bolts("dial's bolt", dial_holes(proof.mechanism.spec.size, found))
     if found.lock:
         yield Dimension("lock, from the crank's axis", math.degrees(found.lock), "deg")
         yield Dimension("recess, from the crank's axis", math.degrees(found.recess), "deg")
@@ -127,11 +132,15 @@ def _arm(found: Ball, arm: CapArm) -> Iterator[Dimension]:
     yield Dimension("arm's eyes, half angle", math.degrees(arm.eye), "deg")
     yield Dimension("pins", 2.0 * found.pin_mm, "mm")
     yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
-    for k, bolt in enumerate(arm.bolts):
+    yield from _bolts("lock's bolt", arm.bolts)
+
+
+def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
+    for k, bolt in enumerate(holes, 1):
         polar, azimuth = math.acos(bolt.axis[2]), math.atan2(bolt.axis[1], bolt.axis[0])
-        yield Dimension(f"bolt {k + 1}: hole", 2.0 * bolt.radius, "mm")
-        yield Dimension(f"bolt {k + 1}: from the crank's axis", math.degrees(polar), "deg")
-        yield Dimension(f"bolt {k + 1}: behind the first roller", math.degrees(azimuth), "deg")
+        yield Dimension(f"{name} {k}: hole", 2.0 * bolt.radius, "mm")
+        yield Dimension(f"{name} {k}: from the axis", math.degrees(polar), "deg")
+        yield Dimension(f"{name} {k}: azimuth", math.degrees(azimuth), "deg")
 
 
 def _cones(found: Ball) -> Iterator[Dimension]:

@@ -35,8 +35,13 @@ def wheel_regions(found: Ball, inner: float) -> list[Region]:
     ]
 
 
+def web_angle(found: Ball) -> float:
+    """How far the cap about the wheel's axis reaches that closes its slotted ring."""
+    return min(found.inner, WEB)
+
+
 def web_region(found: Ball, inner: float) -> Region:
-    """The cap about the wheel's axis that closes its slotted ring."""
+    """That cap."""
     b, z = found.half_step, found.z
     at = [place(inner, (2 * k - 1) * b) for k in range(z)]
     return Region(tuple(SphereArc(POLE, inner, at[k], at[(k + 1) % z]) for k in range(z)), POLE)

@@ -80,6 +80,7 @@ SPHERE: Checks = {
     "horn_mm": "sphere:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
+    "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:beside",
     "arm_wall_mm": "sphere:arm_wall",
 }

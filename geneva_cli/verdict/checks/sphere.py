@@ -9,6 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sphere.arm import crank_arm, has_arm
 from geneva_cli.parts.sphere.beside import beside_shafts
 from geneva_cli.parts.sphere.built import built
+from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, compared
@@ -42,6 +43,18 @@ def wheel_bore(name: str, found: Shells) -> Check:
     return _wall(name, ball.bottom - ball.half_width - opening, found)
 
 
+def dial(name: str, found: Shells) -> Check | None:
+    """The least wall round the holes for a dial."""
+    size, least = found.assembly.given.spec.size, found.sizes.wall_min
+    if not size.dial_bolts:
+        return None
+    try:
+        value = dial_wall(size, found.ball)
+    except GenevaError as error:
+        return Check(name, None, "at least", least, False, str(error))
+    return compared(name, value, "at least", least)
+
+
 def crank_shaft(name: str, found: Shells) -> Check | None:
     """The crank's shaft or hub within the arm, whichever is thicker, and the wheel's rim."""
     ball = found.ball
@@ -65,12 +78,13 @@ def arm_wall(name: str, found: Shells) -> Check | None:
 
 
 def beside(name: str, found: Shells) -> Check | None:
-    """Between hubs and shafts and what turns about the other axis; the check of the arm's walls
-    says why there is no arm."""
-    if has_arm(found):
-        with_arm = arm_wall(name, found)
-        if with_arm is None or with_arm.value is None:
-            return None
+    """Between hubs and shafts and what turns about the other axis.
+
+    The checks of walls say why there is no arm, or no place for the dial's bolts.
+    """
+    walls = [check(name, found) for check in (arm_wall, dial)]
+    if any(row and row.value is None for row in walls):
+        return None
     try:
         least = beside_shafts(found, built(found))
     except GenevaError as error:
