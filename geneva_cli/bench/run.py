@@ -19,8 +19,8 @@ from geneva_cli.table import Table, rows_table
 # The registry: a subject is a module ``bench_<name>`` with ``subject(quick)``.
 SUBJECTS = (
     "peaks",
+    "cranks",
     "many",
-    "family",
     "sweep",
     "motion",
     "loads",

@@ -14,7 +14,7 @@ def run(
         str,
         typer.Argument(
             metavar="[SUBJECT]",
-            help="peaks, many, family, sweep, motion, loads, slot, tolerance, vibration, turn, "
+            help="peaks, cranks, many, sweep, motion, loads, slot, tolerance, vibration, turn, "
             "synth, start, export or all.",
         ),
     ] = "all",

@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.numerics.cells import Beside, Cells, Range, Turns, may_turn, turns_of
 from geneva_cli.numerics.cubics import cubic, touches
-from geneva_cli.numerics.extrema_many import ROUNDING, goes_back, unpredicted
+from geneva_cli.numerics.extrema_many import ROUNDING, goes_back
 from geneva_cli.numerics.roots import PREDICTED
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ class Samples(NamedTuple):
             for part in (slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2))
         )
         low, high = range_.low[:, self.design], range_.high[:, self.design]
-        missed = unpredicted(left, middle, right, low[..., None], high[..., None])
+        missed = unpredicted_at(left, middle, right, low[..., None], high[..., None])
         crossed = differ[:, ::2] | differ[:, 1::2]
         held = None if bounded.all() else range_.holds(self.design, value)
         if held is not None:
@@ -92,7 +92,7 @@ class Samples(NamedTuple):
         last = differ.shape[1] - 1
         alone = (other < 0) | (other > last) | differ[row, np.clip(other, 0, last)]
         one, two, three = (self._three(index, odd + i) for i in (-1, 0, 1))
-        missed = unpredicted(one, two, three, low[:, row], high[:, row])
+        missed = unpredicted_at(one, two, three, low[:, row], high[:, row])
         if held is not None:
             within = [self._at(index, odd + i, held) for i in (-1, 0, 1)]
             missed &= bounded[:, row] | np.logical_and.reduce(within)
@@ -133,6 +133,26 @@ def _flat(samples: T) -> T:
 def _numbers(where: Mask) -> Whole:
     """The numbers, in memory, of some of the samples or cells (m, k)."""
     return np.flatnonzero(_flat(where))
+
+
+def unpredicted_at(left: Sample, middle: Sample, right: Sample, low: Array, high: Array) -> Mask:
+    """As of ``unpredicted``, of a sample that is anywhere between its neighbours."""
+    rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
+    missed: Mask = np.abs(middle[1] - _between(left, right, middle[0])) > (
+        PREDICTED * (high - low) + rounding
+    )
+    missed |= goes_back(left, middle, rounding)
+    return missed | goes_back(middle, right, rounding)
+
+
+def _between(left: Sample, right: Sample, x: Array) -> Array:
+    """As of ``cubic``, of several functions at the same places."""
+    width = right[0] - left[0]
+    t = (x - left[0]) / width
+    rest = 1.0 - t
+    near, far, bulge = rest * rest * (1.0 + 2.0 * t), t * t * (1.0 + 2.0 * rest), t * rest * width
+    value: Array = left[1] * near + right[1] * far + (left[2] * rest - right[2] * t) * bulge
+    return value
 
 
 def unpredicted_beside(outer: Sample, near: Sample, far: Sample, low: Array, high: Array) -> Mask:

@@ -37,6 +37,7 @@ from geneva_cli.numerics.flat_ends import flat_ends, second_turns
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
 from geneva_cli.numerics.samples_many import Samples, unpredicted_beside
+from geneva_cli.numerics.spread import gathered, spread
 from geneva_cli.numerics.turns_many import Signed, turn
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
 BLOCK = 1024  # designs sampled at a time: so many lie in the processor's cache
 CELLS = 8  # of a span, to begin with
 ENDED = 1e-6  # share of a cell: after so short a step, what is left of a zero is rounding
+NARROWEST = 0.25  # share of a span: samples are spread no more than by this
 NARROW = 1e-9  # share of a place: a cell no wider is not halved
 NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
 _HALF = np.arange(CELLS // 2) / CELLS
@@ -66,22 +68,34 @@ def search(
     n: int,
     sized: bool,
     known: Sequence[tuple[int, Array, Array]] = (),
+    w: Array | None = None,
 ) -> Found:
     """Of n designs over their spans, one after the other: (n, 1) the ends of each.
 
     A span that ends before it begins is none. ``known`` are values that no span reaches: a wanted
     function's number, and of each design the place and the value, NaN where there is none.
-    ``sized`` is as of ``Tops``.
+    ``sized`` is as of ``Tops``. Samples are spread about 0 by ``w`` (n, 1), or even.
     """
     with np.errstate(all="ignore"):
-        return _Search(f, n, sized, known).found(spans)
+        return _Search(f, n, sized, known, w).found(spans)
+
+
+def places(a: Array, b: Array) -> Array:
+    """Places of samples, of mirrored spans mirrored: each half is counted from its own end."""
+    way = (b - a) * _HALF
+    return np.asfortranarray(np.hstack((a + way, 0.5 * (a + b), b - way[:, ::-1])))
 
 
 class _Search:
     def __init__(
-        self, f: Signed, n: int, sized: bool, known: Sequence[tuple[int, Array, Array]]
+        self,
+        f: Signed,
+        n: int,
+        sized: bool,
+        known: Sequence[tuple[int, Array, Array]],
+        w: Array | None,
     ) -> None:
-        self.f, self.n = f, n
+        self.f, self.n, self.w = f, n, w
         self.tops = Tops(f.wanted, n, sized)
         self.range = Range(*np.full((2, f.signs + f.wanted, n), np.inf) * [[[1.0]], [[-1.0]]])
         self.cells: list[Cells] = []  # to be looked at again
@@ -113,9 +127,7 @@ class _Search:
         """One span of some designs: what is to be looked at again, and where functions turn."""
         f = self.f
         # Designs lie side by side in memory: each operation runs along all of them.
-        # Each half is counted from its own end: mirrored spans have mirrored places.
-        way = (b - a) * _HALF
-        x = np.asfortranarray(np.hstack((a + way, 0.5 * (a + b), b - way[:, ::-1])))
+        x = places(a, b) if self.w is None else _spread(a, b, self.w[part])
         at = f.at(x, part, 1)
         positive, (value, slope) = f.look(at)
         slope *= DEGREE
@@ -319,6 +331,20 @@ class _Search:
         return taken(halves[0], open_), taken(halves[1], open_)
 
 
+def _spread(a: Array, b: Array, w: Array) -> Array:
+    """The same, spread about 0, but so that no cell is wider than a quarter of the span."""
+    w = np.maximum(w, NARROWEST * (b - a))
+    x = np.clip(gathered(places(spread(a, w), spread(b, w)), w)[0], a, b)
+    x[:, :1], x[:, -1:] = a, b
+    return x
+
+
 def _cuts(before: Cells, after: Cells, where: Whole) -> Cuts:
     positive = np.stack((before.positive[1], after.positive[0]))
     return taken(Cuts(before.design, before.span, before.x[1], positive), where)
+
+
+def no_cuts() -> Cuts:
+    """What no sign cuts."""
+    none = np.zeros(0, dtype=int)
+    return Cuts(none, none, np.zeros(0), np.zeros((2, 0, 0), dtype=bool))

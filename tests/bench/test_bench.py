@@ -20,9 +20,9 @@ from geneva_cli.bench.timing_pairs import median_ratio, ratios
 OURS = {
     "loads": 4e-15,
     "peaks": 4e-15,
-    # two searches, each within the last places of the peak
-    "family": 4e-15,
     "sweep": 1e-12,  # sums of what quadrature leaves
+    "cranks": 4e-15,
+    # two searches, each within the last places of the peak
     "many": 4e-15,
     "motion": 8 * 2.0**-52,
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error

@@ -20,13 +20,13 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, setting
+from geneva_cli.analysis.loads.groups_many import GROUP, is_analytic
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
     look,
     machine,
 )
-from geneva_cli.analysis.loads.many import GROUP, is_analytic
 from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken

@@ -7,6 +7,8 @@ what is wanted of the designs, and which signs count.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -17,6 +19,7 @@ from geneva_cli.analysis.loads.forces import Row, Setting, Worked, gain, sliding
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.mid_motion import Known, at_mid_motion
 from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
+from geneva_cli.analysis.loads.spread import spread_deg
 from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
@@ -25,11 +28,13 @@ from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.cells import Cuts
     from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array, Number
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
+ROOMS = ("grip", "edge")  # without which a quantity has no bound
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
 # The setting, the contact, the shape of the places, and what is wanted of the designs there.
 At: TypeAlias = "tuple[Setting, Contact[Jet], tuple[int, ...], Sequence[Wanted]]"
@@ -55,6 +60,8 @@ class Named(NamedTuple):
         return self.quantity(i)
 
 
+NONE: Mapping[str, Wanted] = MappingProxyType({})  # quantities of one's own
+
 # one of many designs: their engagement and setting, and the quantities that are wanted
 Machine: TypeAlias = "tuple[Engagement, Setting, tuple[Wanted, ...]]"
 
@@ -65,6 +72,15 @@ def machine(
     """Designs of one engagement, and the quantities of these names: of ``own``, or of the cycle."""
     wanted = [own[name] if name in own else Named(QUANTITIES[name]) for name in names]
     return engagement, given, tuple(wanted)
+
+
+def count(every: Machine) -> int:
+    """How many designs they are."""
+    engagement, given, wanted = every
+    motion = engagement.motion
+    own = [value for one in wanted if isinstance(one, tuple) for value in one]
+    known = (motion(motion.entry_deg, 1).c[1], motion.entry_deg, *given, *own)
+    return max(np.size(value) for value in known if isinstance(value, np.ndarray | float))
 
 
 class Loaded:
@@ -89,6 +105,11 @@ class Loaded:
         # of the block of designs that is sampled: which, their machine, and places and contact
         self.kept: tuple[slice | None, Any] = (None, None)
         self.last: list[tuple[Array, Contact[Jet]]] = []
+
+    @cached_property
+    def spread(self) -> Array:
+        """How wide all happens about mid-motion, as of ``spread_deg``: (n, 1)."""
+        return np.broadcast_to(spread_deg(*self.machine[:2]), (count(self.machine), 1))
 
     @property
     def repeats(self) -> bool:
@@ -130,6 +151,22 @@ class Loaded:
 
         return at_mid_motion(engagement, given, rows, n) if engagement.slot.curved else []
 
+    def bounded(self, pieces: Cuts, n: int) -> Mask:
+        """Whether each quantity of n designs is bounded, whose signs are known in all pieces of
+        their motion: (names, n).
+        """
+        out = np.full((self.wanted, n), True)
+        for k, _, value in self.at_mid_motion(n):
+            out[k] &= ~np.isinf(value)
+        room = [kind in ROOMS for kind in self.kinds]
+        some = np.flatnonzero(~pieces.positive[room].all(axis=0))
+        design, middle = pieces.design[some], pieces.x[:, some].mean(axis=0)[:, None]
+        forced = np.where(pieces.positive[:, some, None], 1.0, -1.0)
+        value = self.look(self.at(middle, design, 0), forced)[1][0][self.signs :, :, 0]
+        for own, endless in zip(out, np.isinf(value), strict=True):
+            own[design[endless]] = False
+        return out
+
     def column(self, at: At, number: int) -> At:
         """The same at one place of each design: (m, 1)."""
         given, found, shape, wanted = at
@@ -162,6 +199,22 @@ class Loaded:
                     for k in orders[1:]:
                         values[k][i][lost] = 0.0
         return positive, values
+
+
+class Signs:
+    """Of designs under their load the functions alone whose signs count."""
+
+    wanted = 0
+
+    def __init__(self, load: Loaded) -> None:
+        self.load, self.signs = load, load.signs
+        self.at, self.column = load.at, load.column
+
+    def look(
+        self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
+    ) -> tuple[Mask, list[Array]]:
+        """As of ``Loaded``, of no quantities."""
+        return self.load.look(at, forced, ())
 
 
 class Look(NamedTuple):

@@ -20,12 +20,13 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.groups_many import groups
 from geneva_cli.analysis.loads.loaded_many import (
+    NONE,
     Loaded,
     Machine,
     machine,
 )
-from geneva_cli.analysis.loads.many import GROUP, NONE, count
 from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
 from geneva_cli.analysis.strength.roller import Passage, passing, turns_back
 from geneva_cli.machine.many import taken
@@ -48,11 +49,8 @@ def passages_of_many(mechanism: Mechanism) -> list[Passage]:
     out = []
     for engagement in mechanism.engagements:
         every = machine(engagement, given, FORCE, NONE)
-        m = count(every)
-        groups = [
-            _group(taken(every, slice(i, i + GROUP)), min(GROUP, m - i)) for i in range(0, m, GROUP)
-        ]
-        rows = [parameter(np.concatenate(row)) for row in zip(*groups, strict=True)]
+        found = [_group(some, n) for some, n in groups(every)]
+        rows = [parameter(np.concatenate(row)) for row in zip(*found, strict=True)]
         out.append(Passage(*rows))
     return out
 

@@ -1,162 +1,107 @@
-"""The peak accelerations of 100,000 side-crank designs."""
+"""Peaks and loads of very many designs of every machine, worked out together.
+
+Beside them one design after the other, and a grid over all of them. The manual's table of designs a
+second is this one.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
-from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geneva_cli.bench.formulas import Proportions, acceleration, jerk
+from geneva_cli.analysis.peaks import peak
+from geneva_cli.analysis.peaks_many import worst_of_many
+from geneva_cli.bench import loads_of_many
+from geneva_cli.bench.kinds import CHECKED, KINDS, QUICK, QUICK_CHECKED, Kind, drawn, values_of
+from geneva_cli.bench.loads_of_many import EXACT, LOOP, QUICK_EXACT, QUICK_LOOP, error
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.numeric import NUMERIC, vertex
-from geneva_cli.bench.truth import acceleration_peak, relative
-from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks
+from geneva_cli.machine.many import many, taken
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
 
-DESIGNS = 100_000
-QUICK = 2_000
-SAMPLE = 50  # designs of which a loop over single designs is run
-CHECKED = 200  # designs whose error is measured
-BLOCK = 4096  # designs at a time, for every vectorised method
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
 
-
-class Designs:
-    """Random side-cranks: z from 3 to 24, both gearings, A from -0.9 to 0.9; always the same."""
-
-    def __init__(self, count: int) -> None:
-        random = np.random.default_rng(6)
-        self.z = random.integers(3, 25, count)
-        self.internal = random.random(count) < 0.5
-        self.A = random.uniform(-0.9, 0.9, count)
-        sign, b = np.where(self.internal, -1.0, 1.0), np.pi / self.z
-        crank = 0.5 * np.pi - sign * b
-        half = crank + np.arcsin(self.A * np.sin(crank))
-        self.arrays = Proportions(sign, np.sin(b), self.A, half)
-
-    def one(self, i: int) -> Proportions:
-        """A design for the methods that take one."""
-        return Proportions(*[float(v[i]) for v in self.arrays])
-
-    def blocks(self, method: Callable[[Proportions], Any]) -> Any:
-        """A vectorised method, a block at a time so that it stays in the cache."""
-        return np.concatenate(
-            [
-                method(Proportions(*[v[i : i + BLOCK] for v in self.arrays]))
-                for i in range(0, len(self.A), BLOCK)
-            ]
-        )
-
-    def error(self, found: Any) -> float:
-        """The greatest relative error of the first ones, as many as were computed."""
-        return max(
-            relative(
-                peak,
-                acceleration_peak(
-                    int(self.z[i]), "internal" if self.internal[i] else "external", float(self.A[i])
-                ),
-            )
-            for i, peak in enumerate(found[:CHECKED])
-        )
-
-
-def grid(d: Proportions, n: int) -> Any:
-    """The greatest of n points, running over the points."""
-    best = np.zeros(len(d.half))
-    for i in range(1, n):
-        np.maximum(best, np.abs(acceleration(np, d, d.half * (i / (n - 1)))), out=best)
-    return best
-
-
-def parabola(d: Proportions, n: int) -> Any:
-    """A parabola through the greatest of n points and its neighbours."""
-    size = np.array([np.abs(acceleration(np, d, d.half * (i / (n - 1)))) for i in range(n)])
-    i, every = size.argmax(axis=0), np.arange(len(d.half))
-    inner = np.clip(i, 1, n - 2)
-    top = vertex(size[inner - 1, every], size[inner, every], size[inner + 1, every])
-    return np.where(i == inner, top, size[i, every])
-
-
-def find_root(d: Proportions, n: int) -> Any:
-    """SciPy's vectorised bracketing solver between the points of a scan."""
-    from scipy.optimize.elementwise import find_root as solve
-
-    best = np.abs(acceleration(np, d, d.half))
-    nodes = [d.half * (i / (n - 1)) for i in range(n)]
-    slopes = np.array([jerk(np, d, x) for x in nodes])
-    left, which = np.nonzero(slopes[:-1] * slopes[1:] < 0.0)
-    part = Proportions(*[v[which] for v in d])
-    a, b = part.half * (left / (n - 1)), part.half * ((left + 1) / (n - 1))
-    found = solve(lambda x, *args: jerk(np, Proportions(*args), x), (a, b), args=tuple(part))
-    np.maximum.at(best, which, np.abs(acceleration(np, part, found.x)))
-    return best
-
-
-def _has_find_root() -> bool:
-    """It came with SciPy 1.15."""
-    return find_spec("scipy.optimize.elementwise") is not None
-
-
-# The registry of vectorised methods: name, function of a block of designs, sizes.
-VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]] = [
-    ("vectorised grid", grid, (33, 101, 1001)),
-    ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
-    ("vectorised scan + SciPy find_root", find_root, (17, 33)),
-]
+SECONDS = 0.5  # of a method's own time: there are two hundred of them
+GRID, BLOCK = 101, 512
+NAMES = ("velocity", "acceleration")
 
 
 def subject(quick: bool) -> Subject:
-    """Every method on the same designs."""
-    count = QUICK if quick else DESIGNS
-    designs = Designs(count)
-    methods = [
-        Method(name, n, partial(designs.blocks, partial(_sized, method, n)))
-        for name, method, sizes in VECTORISED
-        if method is not find_root or _has_find_root()
-        for n in (sizes[:2] if quick else sizes)
-    ]
-    sample = 5 if quick else SAMPLE
-    for numeric in () if quick else NUMERIC:
-        size = numeric.sizes[2]
-        methods.append(
-            Method(
-                f"loop: {numeric.name} (extrapolated from {sample})",
-                size,
-                partial(_loop, designs, numeric.run, int(size) if size >= 1.0 else size, sample),
-                times=count / sample,
-            )
-        )
-    methods.append(
-        Method(
-            "ours",
-            None,
-            lambda: acceleration_peaks(designs.z, designs.internal, designs.A)[0],
-            True,
-        )
-    )
-    angles = np.linspace(0.0, 1.0, count)
-    task = Task(
-        f"{count} designs",
-        f"one np.sin + np.cos over {count} numbers",
-        lambda: (np.sin(angles), np.cos(angles)),
-        designs.error,
-        methods,
-        count,
-    )
+    """A task a machine, and of some one more for each thing that is asked of their loads."""
+    peaks = [_task(kind, QUICK if quick else kind.most) for kind in KINDS]
     return Subject(
-        f"Peak acceleration of {count} side-crank designs",
-        f"greatest relative error of {CHECKED} designs' peaks",
-        [task],
-        floor=4e-15,
+        "Peaks of velocity, acceleration and loads of many designs of every machine",
+        f"greatest relative error of {QUICK_CHECKED if quick else CHECKED} designs' peaks against "
+        f"the search of one design; of loads of {QUICK_EXACT if quick else EXACT} cranks and "
+        "side-cranks against 50 digits",
+        [*peaks, *loads_of_many.tasks(quick)],
+        floor=1e-14,
+        seconds=SECONDS,
     )
 
 
-def _sized(method: Callable[[Proportions, int], Any], n: int, d: Proportions) -> Any:
-    return method(d, n)
+def _task(kind: Kind, count: int) -> Task:
+    machine, built, alone = drawn(kind, kind.spec, count)
+    varied = {kind.key: values_of(kind, count)}
+    methods = [
+        _one_by_one(alone, built, _one),
+        Method("grid of all", GRID, partial(_grid, machine, built)),
+        Method("together", None, partial(_together, machine), True),
+        Method("built and together", None, partial(_built_together, kind.spec, varied), True),
+    ]
+    truth, angles = np.array([_one(m) for m in alone]), np.linspace(0.0, 1.0, built)
+    return Task(
+        f"{built} {kind.name}",
+        f"one np.sin + np.cos over {built} numbers",
+        lambda: (np.sin(angles), np.cos(angles)),
+        lambda found: error(np.array(found[: len(truth)]), truth[: len(found)]),
+        methods,
+        built,
+    )
 
 
-def _loop(
-    designs: Designs, method: Callable[[Proportions, Any], float], size: float, sample: int
-) -> list[float]:
-    return [method(designs.one(i), size) for i in range(sample)]
+def _one_by_one(
+    alone: list[Mechanism], built: int, one: Callable[[Mechanism], list[float]]
+) -> Method:
+    few = alone[: LOOP if built > QUICK else QUICK_LOOP]
+    name = f"one by one (extrapolated from {len(few)})"
+    return Method(name, None, lambda: [one(m) for m in few], True, times=built / len(few))
+
+
+def _built_together(spec: Spec, varied: Mapping[str, Any]) -> Array:
+    machine = many(spec, varied).machine
+    assert machine is not None
+    return _together(machine)
+
+
+def _together(machine: Mechanism) -> Array:
+    found = worst_of_many(machine, NAMES)
+    both: Array = np.column_stack([found[name].max for name in NAMES])
+    return both
+
+
+def _grid(machine: Mechanism, count: int) -> Array:
+    """The greatest of a grid's values, a block of designs at a time."""
+    motion = machine.engagements[0].motion
+    ends = [np.broadcast_to(np.ravel(x), (count,)) for x in (motion.entry_deg, motion.exit_deg)]
+    found = []
+    for i in range(0, count, BLOCK):
+        which = slice(i, i + BLOCK)
+        a, b = (side[which, None] for side in ends)
+        x = a + (b - a) * np.linspace(0.0, 1.0, GRID)
+        p = taken(motion, which)(x, 2).derivatives()
+        found.append(
+            np.column_stack([np.abs(np.broadcast_to(p[k], x.shape)).max(axis=1) for k in (1, 2)])
+        )
+    both: Array = np.concatenate(found)
+    return both
+
+
+def _one(machine: Mechanism) -> list[float]:
+    """The peaks of one design, by the search for one."""
+    motion = machine.engagements[0].motion
+    return [peak(motion, name).max for name in NAMES]

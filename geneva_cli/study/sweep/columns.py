@@ -10,6 +10,7 @@ import numpy as np
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
+from geneva_cli.analysis.loads.means_many import means_of_many
 from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.loads.summary import SHOWN, shares
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
@@ -113,9 +114,11 @@ def _loads(machine: Mechanism, asked: Sequence[Sequence[str]]) -> Columns:
             values[f"loads.{q}.max"], values[f"loads.{q}.at_deg"] = greatest[SIZED[q]]
     if summed:
         told = {a[-1] for a in asked} & {"mean", "rms"}
-        found = summaries_of_many(machine, list(summed), told)
-        for q, one in found.items():
-            values |= {f"loads.{q}.{name}": one._asdict()[name] for name in SUMMED}
+        ends = {a[-1] for a in asked if a[1] in summed} & (set(SUMMED) - {"mean", "rms"})
+        sums = summaries_of_many if ends else means_of_many
+        for q, one in sums(machine, list(summed), told).items():
+            found = one._asdict()
+            values |= {f"loads.{q}.{name}": found[name] for name in SUMMED if name in found}
     if ["loads", "kinetic_power_W"] in asked:
         power = worst_of_many(machine, ["power"])["power"].max
         kinetic: Any = kinetic_power_W(machine, cast("float", power[:, None]))

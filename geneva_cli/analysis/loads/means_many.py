@@ -1,0 +1,175 @@
+"""Means of the loads of many designs: the sums of them and of their squares over a period."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import NEAR, mirrored
+from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
+from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.groups_many import groups, is_analytic
+from geneva_cli.analysis.loads.loaded_many import NONE, REACTIONS, At, Loaded, Signs, look, machine
+from geneva_cli.analysis.loads.means import NOUGHT, square_of
+from geneva_cli.analysis.loads.quantities import SQUARED
+from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of, stretches_of
+from geneva_cli.analysis.loads.summary import shares
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.signed_many import no_cuts, search
+from geneva_cli.numerics.spread import gathered, spread
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.cells import Cuts
+    from geneva_cli.numerics.jet import Array
+
+
+class MeansOfMany(NamedTuple):
+    """Means over a period of m designs, dwells included: (m,) each; infinite without a bound."""
+
+    mean: Array | None  # None where not asked for
+    rms: Array
+
+    def times(self, share: Array) -> MeansOfMany:
+        """The means of so many times the quantity."""
+        return MeansOfMany(None if self.mean is None else self.mean * share, self.rms * share)
+
+
+def means_of_many(
+    mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
+) -> dict[str, MeansOfMany]:
+    """The means alone, as ``summaries_of_many`` has them, where no extreme is looked for.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
+    >>> found = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
+    >>> means_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
+    array([ 26.8019, 107.2078])
+    """
+    given, analytic = setting(mechanism), is_analytic(mechanism.spec)
+    lent, sources = sources_of(mechanism, names)
+    every = [machine(engagement, given, sources, NONE) for engagement in mechanism.engagements]
+    sums = sum(
+        np.concatenate(
+            [
+                _sums_of(Loaded(some, sources), n, "mean" in told, analytic)
+                for some, n in groups(one)
+            ],
+            axis=1,
+        )
+        for one in every
+    )
+    means = means_from(mechanism, sources, np.asarray(sums), "mean" in told)
+    return {name: means[source].times(share) for name, (source, share) in lent.items()}
+
+
+def sources_of(
+    mechanism: Mechanism, names: Sequence[str]
+) -> tuple[dict[str, tuple[str, Array]], list[str]]:
+    """Of each name the quantity of which it is a share, and that share: (m,) or (1,)."""
+    known = shares(Cycle(mechanism))
+    lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
+    there = {
+        n: (source, np.ravel(share)) for n, (source, share) in lent.items() if share is not None
+    }
+    return there, list(dict.fromkeys(source for source, _ in lent.values()))
+
+
+def means_from(
+    mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
+) -> dict[str, MeansOfMany]:
+    """The means of what was summed, as of ``sums``."""
+    joined = any(engagement.reactions for engagement in mechanism.engagements)
+    every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
+    for i, name in enumerate(names):
+        square, mean = every[i], None
+        if plain and not (joined and name in REACTIONS):
+            mean = every[len(names) + i]
+            nought = np.isfinite(square) & (mean * mean <= NOUGHT * square)
+            mean = np.where(nought, 0.0, mean)
+        out[name] = MeansOfMany(mean, np.sqrt(square))
+    return out
+
+
+def _sums_of(load: Loaded, n: int, plain: bool, analytic: bool) -> Array:
+    """The integrals without a search for extremes: the designs are but cut where signs change."""
+    spans, only = spans_of(load.machine[0], n), Signs(load)
+    cuts = search(only, spans, n, False, w=load.spread).cuts if load.signs else no_cuts()
+    pieces = stretches_of(load, spans, cuts)
+    with np.errstate(all="ignore"):
+        bounded = load.bounded(pieces, n)
+    return sums(load, pieces, bounded, n, plain, analytic)
+
+
+def sums(load: Loaded, pieces: Cuts, bounded: Mask, n: int, plain: bool, analytic: bool) -> Array:
+    """The integrals by the angle in radians of the squares, and of the quantities where ``plain``:
+    infinite of those that are not ``bounded``, (names, n).
+
+    Only a quantity whose square is looked for goes with a root at the ends of its stretches.
+    """
+    every = np.arange(len(pieces.design))
+    # of a mirrored motion the second half goes with the first, as functions of their own
+    other = mirror_images(pieces) if load.mirrored else every
+    kept = np.flatnonzero(every <= other)
+    # those of one span together: a motion of several pieces is asked for one of them at a time
+    kept = kept[np.argsort(pieces.span[kept], kind="stable")]
+    design, (a, b), other = pieces.design[kept], pieces.x[:, kept], other[kept]
+    signs = np.where(pieces.positive, 1.0, -1.0)
+    sides = signs[:, kept], signs[:, other]
+    paired = other != every[kept]
+
+    def rows(x: Array, which: Whole) -> Array:
+        given, at, shape, wanted = state = load.at(x, design[which], 0)
+        here = powers(load, state, sides[0][:, which, None], plain)
+        if not paired.any():
+            return here
+        image = given, mirrored(at), shape, wanted
+        # the images lie the other way round
+        back = powers(load, image, sides[1][:, which, None], plain)[..., ::-1]
+        back[:, ~paired[which]] = 0.0
+        return np.concatenate((here, back))
+
+    w = load.spread[design, 0]
+
+    def by_spread(u: Array, which: Whole) -> Array:
+        x, rate = gathered(u, w[which, None])
+        return rows(np.clip(x, a[which, None], b[which, None]), which) * rate
+
+    rooted = plain and any(name in SQUARED for name in load.names)
+    parts = (2 if plain else 1) * (2 if paired.any() else 1)
+    with np.errstate(all="ignore"):
+        asked = np.tile(bounded, (parts, 1))
+        ends = spread(a, w), spread(b, w)
+        total = integrals_many(by_spread, *ends, design, asked, rooted, analytic)
+        if paired.any():
+            total = total[: len(total) // 2] + total[len(total) // 2 :]
+        engagement = load.machine[0]
+        if engagement.slot.curved:  # the way to mid-motion, which no stretch reaches
+            for end in (engagement.entry_deg, engagement.exit_deg):
+                near = np.broadcast_to(np.reshape(NEAR * end, (-1, 1)), (n, 1))
+                beside = powers(load, load.at(near * AHEAD, np.arange(n), 0), None, plain)
+                total += (beside @ SHARES) * np.abs(near[:, 0])
+        total[~np.tile(bounded, (2 if plain else 1, 1))] = np.inf
+    return total * DEGREE
+
+
+def powers(load: Loaded, state: At, signs: Array | None, plain: bool) -> Array:
+    """The squares of the quantities, and where ``plain`` they themselves after those."""
+    given, at, shape, wanted = state
+    here = look(load.kinds, given, at, signs).instant
+    count = len(load.names)
+    out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
+    for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
+        value = array(quantity(here, at).value.c[0])
+        out[i] = square_of(value, name)
+        if plain:
+            out[count + i] = np.sqrt(abs(value)) if name in SQUARED else value
+    return out

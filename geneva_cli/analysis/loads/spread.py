@@ -1,0 +1,37 @@
+"""How far from mid-motion loads have their poles: about it their places are spread."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import contact
+from geneva_cli.analysis.loads.forces import Setting
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
+    from geneva_cli.numerics.jet import Array
+
+BESIDE = 0.01  # of half a motion: at mid-motion itself a curved slot may have no slopes
+WIDEST = 10.0  # half motions: what has no pole is not spread
+
+
+def spread_deg(engagement: Engagement, given: Setting) -> Array:
+    """The distance from mid-motion of the nearest pole of velocity and forces, nearly, in degrees.
+
+    By how they begin beside it: a velocity as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²).
+    Where friction holds a lever that vanishes there, w is how far behind mid-motion it fails to.
+    """
+    x = BESIDE * array(engagement.exit_deg)
+    _, _, lever, aside, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
+    velocity = at.velocity
+    with np.errstate(all="ignore"):
+        squares = [array(velocity.c[0] / velocity.c[2]), array(0.5 * lever.c[0] / lever.c[2])]
+        w = np.sqrt(np.fmin(*map(np.abs, squares))) / DEGREE
+        if given.rubs:
+            grip = np.abs(lever.c[0]) + given.friction * np.abs(aside.c[0])
+            w = np.fmin(w, grip / np.abs(array(lever.c[1])) / DEGREE)
+    return np.fmin(np.where(w > 0.0, w, np.inf), WIDEST * engagement.exit_deg)

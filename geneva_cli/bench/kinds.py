@@ -1,0 +1,101 @@
+"""The machines whose many designs the bench works out, and their designs."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.epicyclic import Epicyclic
+from geneva_cli.machine.drives.four_bar import FourBar
+from geneva_cli.machine.drives.geneva_pair import GenevaPair
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.laws.standard import ModifiedSine, SineGroup
+from geneva_cli.machine.many import many
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.machine.wheels.spherical import Spherical
+from geneva_cli.spec.tables import Size
+
+DESIGNS, QUICK, FEW = 50_000, 100, 2_000
+CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
+
+
+class Kind(NamedTuple):
+    """A machine, and the key that is varied between two values."""
+
+    name: str
+    spec: Spec
+    key: str
+    low: float
+    high: float
+    most: int = DESIGNS
+
+
+FOUR_BAR = FourBar(
+    ground_mm=100.0, crank_mm=40.0, coupler_mm=90.0, rocker_mm=80.0, point_mm=60.0, point_deg=-40.0
+)
+KINDS = (
+    Kind("plain crank", Spec(External(6), Crank()), "wheel.z", 3.0, 24.0),
+    Kind("side-crank", Spec(External(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
+    Kind("side-crank inside", Spec(Internal(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
+    Kind(
+        "offset slots",
+        Spec(External(6), size=Size(center_distance_mm=100.0)),
+        "wheel.offset_mm",
+        -40.0,
+        40.0,
+    ),
+    Kind("spherical", Spec(Spherical(6)), "wheel.axes_deg", 20.0, 160.0),
+    Kind(
+        "elliptical gears",
+        Spec(External(6), EllipticalGears(eccentricity=0.1)),
+        "drive.eccentricity",
+        0.0,
+        0.6,
+    ),
+    Kind(
+        "epicyclic",
+        Spec(External(4), Epicyclic(planet_ratio=0.01)),
+        "drive.planet_ratio",
+        -0.05,
+        0.02,
+    ),
+    Kind(
+        "curved slots",
+        Spec(External(6), motion=Motion(ModifiedSine())),
+        "motion.alpha0_deg",
+        -60.0,
+        60.0,
+    ),
+    Kind(
+        "curved slots of a tilted law",
+        Spec(External(6), motion=Motion(SineGroup(0.01))),
+        "motion.lambda",
+        -0.12,
+        0.12,
+    ),
+    Kind("geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0),
+    Kind("four-bar", Spec(External(4), FOUR_BAR), "drive.point_deg", -50.0, -35.0, FEW),
+)
+
+
+def drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
+    """The machine of many designs, how many were built, and the first of them one by one."""
+    values = values_of(kind, count)
+    found = many(spec, {kind.key: values})
+    assert found.machine is not None, kind.name
+    few = CHECKED if count > QUICK else QUICK_CHECKED
+    some = values[found.which[:few]].tolist()
+    alone = [build(spec.with_(kind.key, value)) for value in some]
+    return found.machine, len(found.which), alone
+
+
+def values_of(kind: Kind, count: int) -> Any:
+    """The values of what is varied; always the same."""
+    values = np.random.default_rng(12).uniform(kind.low, kind.high, count)
+    return np.floor(values).astype(int) if kind.key == "wheel.z" else values

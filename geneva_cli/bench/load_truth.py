@@ -1,0 +1,101 @@
+"""Loads of a side-crank's wheel by 50 digits: a handbook's formulas for this one machine.
+
+Where to look is told by the search of one design: an error of a place is squared in a greatest
+value. The angle between two changes of a sign is summed by Gauss's rule, in 50 digits each value.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.quantities import ends_of
+from geneva_cli.analysis.loads.stretches import stretches
+from geneva_cli.bench.truth import digits, motion
+from geneva_cli.machine.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+LOADS = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
+PLACES = 64  # of a stretch, for its sum
+NEAR = 1e-12  # of a sliding: with so little of it both its signs have their limit there
+
+
+@cache
+def greatest(machine: Mechanism, A: float) -> list[float]:
+    """The greatest size of each of ``LOADS``, of a side-crank outside; a plain one has A = 0."""
+    out = []
+    for k, found in enumerate(ends_of(Cycle(machine), *LOADS)):
+        places = (found.max_at_deg, found.min_at_deg)
+        sizes = [abs(row[k]) for at in places for row in _limits(machine, A, at)]
+        out.append(float(max(sizes)))
+    return out
+
+
+@cache
+def roots(machine: Mechanism, A: float) -> list[float]:
+    """The root mean square of each of ``LOADS`` over a period."""
+    (engagement,) = machine.engagements
+    node, weight = np.polynomial.legendre.leggauss(PLACES)
+    total = [digits().mpf(0)] * len(LOADS)
+    for start, end, drives, slides, _ in stretches(engagement, Cycle(machine).given):
+        half = 0.5 * (end - start)
+        for x, share in zip(0.5 * (start + end) + half * node, half * weight, strict=True):
+            row = _loads(machine, A, float(x), drives, slides)
+            total = [a + share * v * v for a, v in zip(total, row, strict=True)]
+    return [float(digits().sqrt(one / machine.period_deg)) for one in total]
+
+
+def _limits(machine: Mechanism, A: float, deg: float) -> list[Sequence[Any]]:
+    """The loads at an input angle, from each side of it where a sign changes there."""
+    torque, rubs = _signs(machine, A, deg, 1.0)
+    found = []
+    for drives, slides in product((1.0, -1.0), (1.0, -1.0)):
+        rubs = _signs(machine, A, deg, drives)[1]
+        if torque * drives >= 0 and (rubs * slides >= 0 or abs(rubs) < NEAR):
+            found.append(_loads(machine, A, deg, drives, slides))
+    return found
+
+
+def _signs(machine: Mechanism, A: float, deg: float, drives: float) -> tuple[Any, Any]:
+    """The wheel's torque, and the sliding over L in a roller that drives, or holds back."""
+    torque, velocity, _, along, turns, radius = _contact(machine, A, deg)
+    return torque, along + drives * (turns + velocity) * radius
+
+
+def _contact(machine: Mechanism, A: float, deg: float) -> tuple[Any, ...]:
+    """Torque, wheel's speed, pin's distance and its rate, crank's speed, roller: over L."""
+    mp, spec = digits(), machine.spec
+    x = mp.mpf(deg) * mp.pi / 180
+    _, velocity, acceleration, _ = motion(spec.wheel.z, "external", A, x)
+    w = mp.mpf(spec.drive.n_rpm) * mp.pi / 30
+    torque = mp.mpf(spec.load.inertia_kgm2) * w * w * acceleration + mp.mpf(spec.load.torque_Nm)
+    E = mp.expj(x)
+    crank = mp.sin(mp.pi / spec.wheel.z) * mp.conj((A + E) / abs(A + E))
+    turns = (E / (A + E)).real
+    pin = 1 - crank
+    along = turns * (1j * crank * mp.conj(pin)).real / abs(pin)
+    radius = mp.mpf(machine.roller_radius_mm) / mp.mpf(machine.center_distance_mm)
+    return torque, velocity, abs(pin), along, turns, radius
+
+
+def _loads(machine: Mechanism, A: float, deg: float, drives: float, slides: float) -> Sequence[Any]:
+    """Each of ``LOADS``, for signs of the torque and of the sliding that are known."""
+    mp, spec = digits(), machine.spec
+    torque, velocity, rho, along, turns, radius = _contact(machine, A, deg)
+    friction, L = mp.mpf(spec.load.friction), mp.mpf(machine.center_distance_mm) / 1000
+    force = torque * drives / (rho - radius * friction * slides) / L
+    rubs = along + drives * (turns + velocity) * radius
+    shaft = torque * velocity + friction * slides * force * rubs * L
+    assert spec.size.face_width_mm is not None
+    modulus = 1 / sum(
+        (1 - mp.mpf(m.poisson_ratio) ** 2) / mp.mpf(m.youngs_modulus_GPa)
+        for m in (spec.material_wheel, spec.material_roller)
+    )
+    flat = modulus * 1000 / (mp.pi * mp.mpf(spec.size.face_width_mm) * machine.roller_radius_mm)
+    return force, shaft, mp.sqrt(abs(force) * flat)

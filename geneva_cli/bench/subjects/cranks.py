@@ -1,0 +1,162 @@
+"""The peak accelerations of 100,000 side-crank designs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+from geneva_cli.bench.formulas import Proportions, acceleration, jerk
+from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.numeric import NUMERIC, vertex
+from geneva_cli.bench.truth import acceleration_peak, relative
+from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks
+
+DESIGNS = 100_000
+QUICK = 2_000
+SAMPLE = 50  # designs of which a loop over single designs is run
+CHECKED = 200  # designs whose error is measured
+BLOCK = 4096  # designs at a time, for every vectorised method
+
+
+class Designs:
+    """Random side-cranks: z from 3 to 24, both gearings, A from -0.9 to 0.9; always the same."""
+
+    def __init__(self, count: int) -> None:
+        random = np.random.default_rng(6)
+        self.z = random.integers(3, 25, count)
+        self.internal = random.random(count) < 0.5
+        self.A = random.uniform(-0.9, 0.9, count)
+        sign, b = np.where(self.internal, -1.0, 1.0), np.pi / self.z
+        crank = 0.5 * np.pi - sign * b
+        half = crank + np.arcsin(self.A * np.sin(crank))
+        self.arrays = Proportions(sign, np.sin(b), self.A, half)
+
+    def one(self, i: int) -> Proportions:
+        """A design for the methods that take one."""
+        return Proportions(*[float(v[i]) for v in self.arrays])
+
+    def blocks(self, method: Callable[[Proportions], Any]) -> Any:
+        """A vectorised method, a block at a time so that it stays in the cache."""
+        return np.concatenate(
+            [
+                method(Proportions(*[v[i : i + BLOCK] for v in self.arrays]))
+                for i in range(0, len(self.A), BLOCK)
+            ]
+        )
+
+    def error(self, found: Any) -> float:
+        """The greatest relative error of the first ones, as many as were computed."""
+        return max(
+            relative(
+                peak,
+                acceleration_peak(
+                    int(self.z[i]), "internal" if self.internal[i] else "external", float(self.A[i])
+                ),
+            )
+            for i, peak in enumerate(found[:CHECKED])
+        )
+
+
+def grid(d: Proportions, n: int) -> Any:
+    """The greatest of n points, running over the points."""
+    best = np.zeros(len(d.half))
+    for i in range(1, n):
+        np.maximum(best, np.abs(acceleration(np, d, d.half * (i / (n - 1)))), out=best)
+    return best
+
+
+def parabola(d: Proportions, n: int) -> Any:
+    """A parabola through the greatest of n points and its neighbours."""
+    size = np.array([np.abs(acceleration(np, d, d.half * (i / (n - 1)))) for i in range(n)])
+    i, every = size.argmax(axis=0), np.arange(len(d.half))
+    inner = np.clip(i, 1, n - 2)
+    top = vertex(size[inner - 1, every], size[inner, every], size[inner + 1, every])
+    return np.where(i == inner, top, size[i, every])
+
+
+def find_root(d: Proportions, n: int) -> Any:
+    """SciPy's vectorised bracketing solver between the points of a scan."""
+    from scipy.optimize.elementwise import find_root as solve
+
+    best = np.abs(acceleration(np, d, d.half))
+    nodes = [d.half * (i / (n - 1)) for i in range(n)]
+    slopes = np.array([jerk(np, d, x) for x in nodes])
+    left, which = np.nonzero(slopes[:-1] * slopes[1:] < 0.0)
+    part = Proportions(*[v[which] for v in d])
+    a, b = part.half * (left / (n - 1)), part.half * ((left + 1) / (n - 1))
+    found = solve(lambda x, *args: jerk(np, Proportions(*args), x), (a, b), args=tuple(part))
+    np.maximum.at(best, which, np.abs(acceleration(np, part, found.x)))
+    return best
+
+
+def _has_find_root() -> bool:
+    """It came with SciPy 1.15."""
+    return find_spec("scipy.optimize.elementwise") is not None
+
+
+# The registry of vectorised methods: name, function of a block of designs, sizes.
+VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]] = [
+    ("vectorised grid", grid, (33, 101, 1001)),
+    ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
+    ("vectorised scan + SciPy find_root", find_root, (17, 33)),
+]
+
+
+def subject(quick: bool) -> Subject:
+    """Every method on the same designs."""
+    count = QUICK if quick else DESIGNS
+    designs = Designs(count)
+    methods = [
+        Method(name, n, partial(designs.blocks, partial(_sized, method, n)))
+        for name, method, sizes in VECTORISED
+        if method is not find_root or _has_find_root()
+        for n in (sizes[:2] if quick else sizes)
+    ]
+    sample = 5 if quick else SAMPLE
+    for numeric in () if quick else NUMERIC:
+        size = numeric.sizes[2]
+        methods.append(
+            Method(
+                f"loop: {numeric.name} (extrapolated from {sample})",
+                size,
+                partial(_loop, designs, numeric.run, int(size) if size >= 1.0 else size, sample),
+                times=count / sample,
+            )
+        )
+    methods.append(
+        Method(
+            "ours",
+            None,
+            lambda: acceleration_peaks(designs.z, designs.internal, designs.A)[0],
+            True,
+        )
+    )
+    angles = np.linspace(0.0, 1.0, count)
+    task = Task(
+        f"{count} designs",
+        f"one np.sin + np.cos over {count} numbers",
+        lambda: (np.sin(angles), np.cos(angles)),
+        designs.error,
+        methods,
+        count,
+    )
+    return Subject(
+        f"Peak acceleration of {count} side-crank designs",
+        f"greatest relative error of {CHECKED} designs' peaks",
+        [task],
+        floor=4e-15,
+    )
+
+
+def _sized(method: Callable[[Proportions, int], Any], n: int, d: Proportions) -> Any:
+    return method(d, n)
+
+
+def _loop(
+    designs: Designs, method: Callable[[Proportions, Any], float], size: float, sample: int
+) -> list[float]:
+    return [method(designs.one(i), size) for i in range(sample)]
