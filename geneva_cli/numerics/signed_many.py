@@ -127,7 +127,7 @@ class _Search:
         """One span of some designs: what is to be looked at again, and where functions turn."""
         f = self.f
         # Designs lie side by side in memory: each operation runs along all of them.
-        x = places(a, b) if self.w is None else _spread(a, b, self.w[part])
+        x = places(a, b) if self.w is None else spread_places(a, b, self.w[part])
         at = f.at(x, part, 1)
         positive, (value, slope) = f.look(at)
         slope *= DEGREE
@@ -331,7 +331,7 @@ class _Search:
         return taken(halves[0], open_), taken(halves[1], open_)
 
 
-def _spread(a: Array, b: Array, w: Array) -> Array:
+def spread_places(a: Array, b: Array, w: Array) -> Array:
     """The same, spread about 0, but so that no cell is wider than a quarter of the span."""
     w = np.maximum(w, NARROWEST * (b - a))
     x = np.clip(gathered(places(spread(a, w), spread(b, w)), w)[0], a, b)

@@ -9,6 +9,7 @@ from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, loaded, missed, 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
+from geneva_cli.analysis.loads.means_many import means_of_many
 from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.many import many
@@ -65,9 +66,13 @@ def test_means_as_one_by_one(name):
             size = 1e-12 * max(abs(one.max), abs(one.min))
             assert here.mean[row] == pytest.approx(one.mean, abs=size), (load, i)
             assert here.rms[row] == pytest.approx(one.rms, abs=size), (load, i)
-    for load, alone_ in summaries_of_many(found.machine, names, told=("rms",)).items():
-        assert alone_.mean is None
-        assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
+    for told in (("mean", "rms"), ("rms",)):  # without a search for extremes
+        for load, alone_ in means_of_many(found.machine, names, told).items():
+            assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
+            if "mean" in told:
+                assert np.array_equal(alone_.mean, together[load].mean)
+            else:
+                assert alone_.mean is None
 
 
 @pytest.mark.parametrize("name", MACHINES)

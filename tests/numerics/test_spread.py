@@ -1,0 +1,49 @@
+"""Places spread about 0: there and back, and how many of them a pole beside the axis takes."""
+
+import numpy as np
+import pytest
+
+from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.signed_many import CELLS, places, spread_places
+from geneva_cli.numerics.spread import gathered, spread
+
+
+@pytest.mark.parametrize("w", [1e-3, 0.5, 7.0, 1e9])
+def test_there_and_back_and_the_rate(w):
+    x = np.array([-60.0, -1.0, -1e-9, 0.0, 1e-9, 0.3, 60.0])
+    u = spread(x, w)
+    back, rate = gathered(u, w)
+    assert back == pytest.approx(x, rel=1e-14)  # twice a logarithm of 1e5 roundings of u / w
+    assert rate == pytest.approx(np.hypot(1.0, x / w), rel=1e-14)  # of arsinh, by hand
+    assert np.array_equal(spread(-x, w), -u)  # mirrored motions are worked out once
+
+
+def test_twenty_places_tell_a_pole():
+    """The integral of 1/(x² + w²)² from 0 to 1, in closed form."""
+    w = 0.26  # as a wheel of three slots
+    true = (1.0 / (1.0 + w * w) + np.arctan(1.0 / w) / w) / (2.0 * w * w)
+    node, weight = rule(20)
+
+    def total(a, b, places_):
+        half = 0.5 * (b - a)
+        x, rate = places_(0.5 * (a + b) + half * node)
+        return (rate / (x * x + w * w) ** 2) @ weight * half
+
+    even = total(0.0, 1.0, lambda x: (x, np.ones_like(x)))
+    gathered_ = total(0.0, spread(1.0, w), lambda u: gathered(u, w))
+    assert gathered_ == pytest.approx(true, rel=1e-14)
+    assert abs(even / true - 1.0) > 1e-12
+
+
+def test_samples_are_spread_from_end_to_end():
+    """The ends are the spans' own, mirrored ones mirrored, and no cell is wider than a quarter."""
+    a, b = np.array([[-70.0], [-70.0], [-10.0]]), np.array([[-5e-324], [-0.007], [50.0]])
+    w = np.array([[20.0], [1e-4], [1e9]])
+    x = spread_places(a, b, w)
+    assert x.shape == (3, CELLS + 1)
+    assert np.array_equal(x[:, [0, -1]], np.hstack((a, b)))
+    assert np.array_equal(spread_places(-b, -a, w), -x[:, ::-1])
+    steps = np.diff(x, axis=1) / (b - a)
+    assert (steps > 0.0).all()
+    assert steps.max() < 0.25
+    assert x[2] == pytest.approx(places(a, b)[2], rel=1e-12)  # w is large
