@@ -41,7 +41,7 @@ from geneva_cli.spec.tables import Load
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-LOADS_OF = 10_000  # designs whose loads are had
+LOADS_OF = 4_096  # designs whose loads are had
 EXACT, QUICK_EXACT = 4, 1  # designs whose loads are had by 50 digits
 LOOP, QUICK_LOOP = 5, 2  # designs that are had one after the other
 BLOCK = 512

@@ -41,9 +41,9 @@ def integrals_many(
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
-    ``asked`` says of which: the others, as of functions without a bound, mean nothing. Of
-    functions that are not ``analytic`` within a span, whose higher derivatives may jump, the last
-    terms themselves are what may be left.
+    ``asked`` says of which: others, as of functions without a bound, mean nothing; ``functions``
+    may narrow it, where that is seen no sooner. Of functions that are not ``analytic`` within a
+    span, whose higher derivatives may jump, the last terms themselves are what may be left.
 
     ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
     (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are

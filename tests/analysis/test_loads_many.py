@@ -75,6 +75,20 @@ def test_means_as_one_by_one(name):
                 assert alone_.mean is None
 
 
+@pytest.mark.parametrize("name", ["side-crank", "spherical", "gear sector, any ratio"])
+@pytest.mark.parametrize("friction", [{}, {"friction": 0.0}])
+def test_an_inertia_alone_is_summed_in_pairs(name, friction):
+    """As where the sliding's changes are cut, to rounding; some wheels are held by friction."""
+    _, _, found = loaded(name, 60, 78, torque_Nm=0.0, efficiency=1.0, **friction)
+    together = summaries_of_many(found.machine, NAMES, told=("rms",))
+    for load, one in means_of_many(found.machine, NAMES, told=("rms",)).items():
+        cut = together[load]
+        size = np.maximum(np.abs(cut.max), np.abs(cut.min))
+        assert np.array_equal(np.isinf(one.rms), np.isinf(cut.rms)), load
+        bounded = np.isfinite(cut.rms)
+        assert (np.abs(one.rms - cut.rms)[bounded] <= 1e-14 * size[bounded]).all(), load
+
+
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""

@@ -11,6 +11,7 @@ from geneva_cli.analysis.loads.contact import NEAR, mirrored
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.groups_many import groups, is_analytic
+from geneva_cli.analysis.loads.inertia_many import is_balanced, squares
 from geneva_cli.analysis.loads.loaded_many import NONE, REACTIONS, At, Loaded, Signs, look, machine
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import SQUARED
@@ -101,6 +102,8 @@ def means_from(
 
 def _sums_of(load: Loaded, n: int, plain: bool, analytic: bool) -> Array:
     """The integrals without a search for extremes: the designs are but cut where signs change."""
+    if is_balanced(load) and not plain:
+        return squares(load, n, analytic)
     spans, only = spans_of(load.machine[0], n), Signs(load)
     cuts = search(only, spans, n, False, w=load.spread).cuts if load.signs else no_cuts()
     pieces = stretches_of(load, spans, cuts)

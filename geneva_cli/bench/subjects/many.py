@@ -25,7 +25,7 @@ from geneva_cli.machine.spec import Spec
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SECONDS = 0.5  # of a method's own time: there are two hundred of them
+SECONDS = 0.2  # of a method's own time: there are two hundred of them
 GRID, BLOCK = 101, 512
 NAMES = ("velocity", "acceleration")
 

@@ -1,0 +1,69 @@
+"""Mean squares of the loads of an inertia alone, in motions that are their own mirror image.
+
+Mirrored at mid-motion, an inertia's torque turns round, and friction does what its negative did: at
+x and -x together it is there once with either sign, whichever way the roller slides. So the squares
+of the two, added up, are smooth where the sliding turns round, and that place need not be known.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.contact import mirrored
+from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look
+from geneva_cli.analysis.loads.means import square_of
+from geneva_cli.analysis.loads.stretches import ZERO
+from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.signed_many import search
+from geneva_cli.numerics.spread import gathered, spread
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
+
+
+def is_balanced(load: Loaded) -> bool:
+    """Whether it is so: no torque resists, nor is any lost but to friction in straight slots."""
+    engagement, given, _ = load.machine
+    alone = all_true(given.resists_Nm == 0.0) and all_true(given.efficiency == 1.0)
+    return load.mirrored and alone and not engagement.slot.curved
+
+
+def squares(load: Loaded, n: int, analytic: bool) -> Array:
+    """The integrals of the squares by the angle in radians, of ``is_balanced`` designs: (names, n).
+
+    Infinite where friction holds the wheel.
+    """
+    engagement, given, wanted = load.machine
+    rolling = Loaded((engagement, given._replace(friction=0.0), wanted), load.names)
+    spans, torque = spans_of(engagement, n), Signs(rolling)
+    half = spans[: len(spans) // 2]
+    pieces = stretches_of(rolling, half, search(torque, half, n, False, w=load.spread).cuts)
+    design, (a, b), w = pieces.design, pieces.x, load.spread[pieces.design, 0]
+    signs = np.full((load.signs, len(design), 1), np.nan)
+    signs[: rolling.signs, :, 0] = np.where(pieces.positive, 1.0, -1.0)
+    bounded = np.full((load.wanted, n), True)
+
+    def rows(u: Array, which: Whole) -> Array:
+        x, rate = gathered(u, w[which, None])
+        x = np.clip(x, a[which, None], b[which, None])
+        given, at, shape, wanted = load.at(x, design[which], 0)
+        total = np.zeros((load.wanted, *shape[::-1])).swapaxes(1, 2)
+        for way, here in ((1, at), (-1, mirrored(at))):
+            found = look(load.kinds, given, here, way * signs[:, which]).instant
+            for k, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
+                row = quantity(found, here)
+                total[k] += square_of(array(row.value.c[0]), name)[:, ::way]
+                if row.room is not None:  # what has no bound is asked no more
+                    lost = np.any(row.room.c[0] <= ZERO, axis=1)
+                    bounded[k, design[which[lost]]] = False
+        return total * rate
+
+    with np.errstate(all="ignore"):
+        total = integrals_many(rows, spread(a, w), spread(b, w), design, bounded, analytic=analytic)
+    return np.where(bounded, total * DEGREE, np.inf)
