@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,8 +22,11 @@ from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.many import many, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.extrema_many import BLOCK as SCANNED
+from geneva_cli.numerics.extrema_many import SCAN
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Motion
     from geneva_cli.numerics.jet import Array
 
 SECONDS = 0.2  # of a method's own time: there are two hundred of them
@@ -50,6 +54,7 @@ def _task(kind: Kind, count: int) -> Task:
     methods = [
         _one_by_one(alone, built, _one),
         Method("grid of all", GRID, partial(_grid, machine, built)),
+        *_formulas_alone(machine, built),
         Method("together", None, partial(_together, machine), True),
         Method("built and together", None, partial(_built_together, kind.spec, varied), True),
     ]
@@ -82,6 +87,35 @@ def _together(machine: Mechanism) -> Array:
     found = worst_of_many(machine, NAMES)
     both: Array = np.column_stack([found[name].max for name in NAMES])
     return both
+
+
+def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
+    """What a search in NumPy cannot do without: the scan's places of all designs, as it has them.
+
+    Of no machine whose peaks are found another way.
+    """
+    motion = machine.engagements[0].motion
+    if motion.closed_peak(NAMES[0]) is not None:
+        return []
+    pieces = list(pairwise(motion.breaks_deg))
+    pieces = pieces[: len(pieces) // 2] if motion.symmetric else pieces
+    places = len(pieces) * (SCAN + 1)
+    run = partial(_at_places, motion, count, pieces)
+    return [Method("formulas alone, nothing searched", places, run)]
+
+
+def _at_places(motion: Motion, count: int, pieces: list[tuple[float, float]]) -> Array:
+    """The greatest of the places' values."""
+    most = np.zeros((count, len(NAMES)))
+    for piece in pieces:
+        a, b = (np.broadcast_to(np.reshape(end, (-1, 1)), (count, 1)) for end in piece)
+        for i in range(0, count, SCANNED):
+            which = slice(i, i + SCANNED)
+            x = a[which] + (b - a)[which] * (np.arange(SCAN + 1) / SCAN)
+            rates = taken(motion, which).rough_rates(np.asfortranarray(x), len(NAMES))
+            for k, rate in enumerate(rates[: len(NAMES)]):
+                np.maximum(most[which, k], np.abs(rate).max(axis=1), out=most[which, k])
+    return most
 
 
 def _grid(machine: Mechanism, count: int) -> Array:
