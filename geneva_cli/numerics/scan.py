@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Functions: TypeAlias = "Callable[[Array, Whole], tuple[Array, Array]]"
 
 ROUNDING = 1e-12  # share of a value that no sampling makes any surer
-NOISE = 1e-15  # share of a function's greatest size that has no sign
+NOISE = 4e-15  # share of a function's greatest size that has no sign: some roundings
 TINY = 1e-16  # share of a value that no double shows
 NARROW = 1e-6  # share of all spans within which a place is told well enough
 MOST = 65_536  # places, and as many more as 16 times those that it begins with

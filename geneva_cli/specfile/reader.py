@@ -65,8 +65,13 @@ def read(path: str, given: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, where it cannot be read.
     """
-    name = "<stdin>" if path == "-" else path if path.strip() else repr(path)
+    name = shown_name(path)
     return Text(name, _read(path, name), settings(given))
+
+
+def shown_name(path: str) -> str:
+    """What a spec file is called in messages."""
+    return "<stdin>" if path == "-" else path if path.strip() else repr(path)
 
 
 def _read(path: str, name: str) -> str:

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Collection, Sequence
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.reader import Text, read, shown_name
 from geneva_cli.specfile.settings import setting
 from geneva_cli.study.names import short_name
 from geneva_cli.study.sweep.values import axis
@@ -31,7 +31,9 @@ def beside(
         return _varied(read(paths[0], given), vary)
     twice = next((p for p in paths if list(paths).count(p) > 1), None)
     if twice:
-        raise GenevaError(f"{cut(twice)}: given twice; --vary shows changes of one spec")
+        raise GenevaError(
+            f"{cut(shown_name(twice))}: given twice; --vary shows changes of one spec"
+        )
     if len(paths) > MOST:
         raise GenevaError(f"{len(paths)} designs side by side; at most {MOST}")
     return {short_name(p, paths, taken): read(p, given) for p in paths}
