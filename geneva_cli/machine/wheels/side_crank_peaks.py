@@ -75,7 +75,7 @@ def acceleration_peaks(
     invariant, that is in units of the input speed squared (rad/rad²), and the signed input angle of
     its first occurrence in degrees from mid-motion.
 
-    The peak's relative error is at most 4e-15, its angle's as a double allows. Raises GenevaError
+    The peak's relative error is at most 1e-14, its angle's as a double allows. Raises GenevaError
     where a value is out of its range.
     """
     w, shape = _designs(z, internal, A)
