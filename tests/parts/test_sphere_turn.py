@@ -147,6 +147,17 @@ def test_a_roller_that_leaves_room_is_named():
         sectors(ball(design.with_("size.roller_radius_mm", 1.2 * most).mechanism))
 
 
+def test_a_shaft_that_takes_all_of_the_locking_sector_is_named():
+    design = Design(Spherical(6), size=Size(80.0, 5.0, crank_bore_mm=60.0))
+    with pytest.raises(GenevaError, match="leave nothing of the locking sector") as error:
+        sectors(ball(design.mechanism))
+    most = float(str(error.value).rpartition("must be below ")[2].partition(",")[0])
+    # it is told in four digits
+    assert sectors(ball(design.with_("size.crank_bore_mm", most - 0.01).mechanism))
+    with pytest.raises(GenevaError, match="leave nothing"):
+        sectors(ball(design.with_("size.crank_bore_mm", most + 0.01).mechanism))
+
+
 def test_shafts_and_arm_have_room_or_not():
     """Arcs between cones: at the sphere where both are, a hub's surface is at an arc sine."""
     given = Size(80.0, 5.0, wheel_hub_mm=30.0, arm_eye_mm=20.0, wheel_bore_mm=20.0)

@@ -50,6 +50,14 @@ def sectors(found: Ball) -> list[Region]:
             return max(reached(half) + spare, least)
 
         most = (1.0 - THIN) * found.lock
+        if about > most:
+            wide = 2.0 * found.lock_span_mm[0] * math.sin(most)
+            raise NoRoom(
+                f"the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
+                f"crank_hub_mm must be below {wide:.4g}, or 0, or lock_radius_mm greater; "
+                "lock_radius_mm = 0 leaves the sector out, where the wheel is held in another way",
+                ("size", "crank_bore_mm"),
+            )
         # a narrower sector is no nearer to the edge
         i = bisect_left(SHARES, True, key=lambda share: nearest(share * whole) <= most)
         if i < len(SHARES):
