@@ -46,8 +46,9 @@ class Winner(NamedTuple):
             ],
         ]
         spec = self.mechanism.spec
-        title = [f"title = {quoted(spec.title)}"] if spec.title else []
-        return [*notes, *title, *written(spec)]
+        # its title may tell what was varied
+        title = f"{word.capitalize()} {name}, varied from: {spec.title}" if spec.title else ""
+        return [*notes, *([f"title = {quoted(title)}"] if title else []), *written(spec)]
 
 
 def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner:
