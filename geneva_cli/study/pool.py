@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 R = TypeVar("R")
+GARBAGE = 50_000  # new objects after which a worker looks for those in circles: work makes few
 AHEAD = 4  # results that may wait for each worker, so that memory stays bounded
 
 
@@ -66,6 +68,8 @@ def _attend() -> None:
     """
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+    gc.freeze()  # what the program was made of stays
+    gc.set_threshold(GARBAGE)
     threading.Thread(target=_leave, daemon=True).start()
 
 

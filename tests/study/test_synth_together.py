@@ -22,7 +22,9 @@ from geneva_cli.parts.roller_paths import roller_paths
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.study.fields import pick
 from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.synthesis import search as searching
 from geneva_cli.study.synthesis.by_law import law_columns
+from geneva_cli.study.synthesis.families.every import kinds
 from geneva_cli.study.synthesis.looks import LOOKS, _alike, _kept, look, look_at
 from geneva_cli.study.synthesis.reading import read_wish
 from geneva_cli.study.synthesis.rows import COSTS
@@ -142,3 +144,16 @@ def test_cams_inside_are_as_quick_as_the_limit_lets_them():
     assert found == {1, 2}
     slots = [row.candidate for row in rows if row.candidate.drive == "crank" and row.spec.motion]
     assert [one.motion_deg for one in slots] == [pytest.approx(240.0)]
+
+
+@pytest.mark.parametrize("options", [{}, {"internal": True, "law": "all"}, {"law": "all"}])
+def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
+    """They are begun in another, the longest first."""
+    wish = read_wish(motion_deg="100..200", **options)
+    begun = []
+    monkeypatch.setattr(searching, "cores", lambda: 1)
+    monkeypatch.setattr(
+        searching, "_part", lambda task, names, how_near: begun.append(task) or task
+    )
+    assert searching._parts(wish, ()) == kinds(wish)
+    assert begun != kinds(wish)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
@@ -17,6 +17,8 @@ from geneva_cli.study.sweep.constraints import Constraint, is_number, refuse_con
 from geneva_cli.study.synthesis.rows import Row
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
+
+Cells: TypeAlias = list[float | int | str | bool | None]  # of one machine
 
 
 class Asked(NamedTuple):
@@ -48,13 +50,22 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     return Asked(found, bounds, of_sort[0] if of_sort else "")
 
 
-def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
-    """The rows with the quantities that are asked for, of those that keep the bounds."""
+def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:
+    """The quantities of these names of each row; None for one of which they are not known of many
+    machines together.
+    """
+    if not (names and in_arrays(names)):
+        return [None] * len(found)
+    return [*map(_cells, numbers([row.spec for row in found], names))]
+
+
+def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None]) -> list[Row]:
+    """The rows with the quantities that are asked for, of those that keep the bounds; ``together``
+    are the quantities that ``asked_together`` tells.
+    """
     assert wanted.pick
     names = wanted.names
-    specs = [row.spec for row in found]
-    together = [*map(_cells, numbers(specs, names))] if in_arrays(names) else [None] * len(specs)
-    alone = [spec for spec, one in zip(specs, together, strict=True) if one is None]
+    alone = [row.spec for row, one in zip(found, together, strict=True) if one is None]
     rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
     values = [one or next(rest) for one in together]
     out = []
@@ -73,7 +84,7 @@ def bounded(wanted: Asked, found: Sequence[Row]) -> list[Row]:
     return out
 
 
-def _cells(row: Sequence[float] | None) -> list[float | None] | None:
+def _cells(row: Sequence[float] | None) -> Cells | None:
     """The cells of a machine, empty where nothing bounds a value; None where one is not known of
     many together.
     """
@@ -82,7 +93,7 @@ def _cells(row: Sequence[float] | None) -> list[float | None] | None:
     return [None if math.isinf(value) else value for value in row]
 
 
-def _values(of: Pick, spec: Spec) -> list[float | int | str | bool | None] | None:
+def _values(of: Pick, spec: Spec) -> Cells | None:
     try:
         return of.of(build(spec))
     except GenevaError:  # parts that cannot be drawn have none of their quantities

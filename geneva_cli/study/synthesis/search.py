@@ -17,10 +17,10 @@ from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.families import closed
-from geneva_cli.study.synthesis.families.every import Kind, families, kinds
+from geneva_cli.study.synthesis.families.every import Kind, families, kinds, longest_first
 from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg, pieces
 from geneva_cli.study.synthesis.families.straight import plain
-from geneva_cli.study.synthesis.quantities import Asked, asked, bounded
+from geneva_cli.study.synthesis.quantities import Asked, Cells, asked, asked_together, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
@@ -40,6 +40,7 @@ class _Part(NamedTuple):
     """What one kind of machine has for a wish, and whether some machine keeps the bounds."""
 
     rows: list[Row]
+    asked: list[Cells | None]  # of each row, as ``asked_together``
     keeps: bool
     reached: list[float]
     errors: list[str]
@@ -53,16 +54,16 @@ def search(wish: Wish) -> FoundRows:
     wanted = _asked(wish)
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
-    parts = _parts(wish)
+    parts = _parts(wish, wanted.names)
     if not any(part.keeps for part in parts):  # a refusal says how near they come
-        parts = _parts(wish, how_near=True)
+        parts = _parts(wish, wanted.names, how_near=True)
     errors = [error for part in parts for error in part.errors]
     found = [row for part in parts for row in part.rows]
     if not found:
         reached = [peak for part in parts for peak in part.reached]
         raise GenevaError(_out_of_reach(wish, reached, errors))
     if wanted.pick:
-        found = bounded(wanted, found)
+        found = bounded(wanted, found, [cells for part in parts for cells in part.asked])
     found.sort(key=lambda row: _rank(wish, wanted, row))
     if not _known_together(wish):
         found = [*{_family(row): row for row in reversed(found)}.values()]
@@ -84,15 +85,19 @@ def _family(row: Row) -> tuple[object, ...]:
     return (type(wheel), wheel.z, *own)
 
 
-def _parts(wish: Wish, how_near: bool = False) -> list[_Part]:
-    """What each kind of machine has, by all cores."""
+def _parts(wish: Wish, names: Sequence[str], how_near: bool = False) -> list[_Part]:
+    """What each kind of machine has, by all cores, in the order of ``kinds``."""
     tasks = kinds(wish)
+    order = longest_first(wish)
     many = len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
     workers = min(len(tasks), cores()) if many else 1
-    return [*mapped(partial(_part, how_near=how_near), tasks, workers, "machines")]
+    work = partial(_part, names=names, how_near=how_near)
+    done = mapped(work, [tasks[i] for i in order], workers, "machines")
+    found = dict(zip(order, done, strict=True))
+    return [found[i] for i in range(len(tasks))]
 
 
-def _part(task: tuple[Kind, Wish], how_near: bool) -> _Part:
+def _part(task: tuple[Kind, Wish], names: Sequence[str], how_near: bool) -> _Part:
     kind, wish = task
     reached: list[float] = []
     errors: list[str] = []
@@ -104,7 +109,8 @@ def _part(task: tuple[Kind, Wish], how_near: bool) -> _Part:
     one_each, near = best(of_kind, bounds, wish.any_motion, least, how_near)
     keeps, kept, broken = _apart(bounds, [*dict.fromkeys(one_each)])
     shown = [*kept, *broken, *near] if how_near else kept
-    return _Part(_rows(wish, shown, errors), keeps, reached, errors)
+    found = _rows(wish, shown, errors)
+    return _Part(found, asked_together(names, found), keeps, reached, errors)
 
 
 def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:

@@ -61,7 +61,8 @@ class Turns:
         """
         own = same_turn(machine.spec)
         if own not in self._proofs:
-            self._proofs[own] = Proof(build(own), advice=False)
+            stands = machine if own == machine.spec else build(own)
+            self._proofs[own] = Proof(stands, advice=False)
         proof = self._proofs[own]
         try:
             parts: Any = proof.turned

@@ -24,8 +24,8 @@ Kind: TypeAlias = Callable[[Wish, Sequence[Gearing], list[float]], Iterator[Fami
 
 
 def kinds(wish: Wish) -> list[tuple[Kind, Wish]]:
-    """What may grant a wish, in parts that do not know each other, the longest first: four-bars of
-    all wheels, and of each gearing straight slots and each law.
+    """What may grant a wish, in parts that do not know each other: four-bars of all wheels, and of
+    each gearing straight slots and each law.
     """
     first, last = (
         (below.straight, below.with_laws) if wish.only_acceleration else (_straight, _laws)
@@ -36,6 +36,17 @@ def kinds(wish: Wish) -> list[tuple[Kind, Wish]]:
         *((first, one) for one in each),
         *((last, one._replace(laws=(law,))) for law in wish.laws for one in each),
     ]
+
+
+def longest_first(wish: Wish) -> list[int]:
+    """The numbers of these parts in the order in which two processes are done with them soonest:
+    four-bars, the laws of the first gearing, and what takes least at last.
+    """
+    wheels, laws = len(wish.gearings), len(wish.laws)
+    straight = [1, *range(wheels, 1, -1)]
+    curved = range(1 + wheels, 1 + wheels * (1 + laws))
+    others = [i for i in curved if (i - 1) % wheels]
+    return [0, *curved[::wheels], *straight[:2], *others, *straight[2:]]
 
 
 def families(kind: Kind, wish: Wish, reached: list[float]) -> Iterator[Family]:
