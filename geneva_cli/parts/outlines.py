@@ -17,6 +17,7 @@ from geneva_cli.parts.crank import crank_contours, is_whole
 from geneva_cli.parts.reliefs import without_lock
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.gaps import Gaps, turned_points
+from geneva_cli.parts.turn.turned import Pose
 from geneva_cli.parts.walls.curved import curved_walls
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
@@ -144,5 +145,7 @@ def _overlap(gaps: Gaps, close: float) -> float:
         at = (
             behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
         )
-        least = min(least, float(gaps.locking(gaps.pose(at), near=close).min()))
+        # without rollers, which lock nothing
+        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((count, 0, 2)))
+        least = min(least, float(gaps.locking(pose, near=close).min()))
     return -least

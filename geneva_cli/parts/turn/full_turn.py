@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.parts.turn.freedom import EXACT, free_angles, search_deg
 from geneva_cli.parts.turn.play import NEAR, Play, play_of, push_deg, windows
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.turned import Pose, Turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -172,15 +172,19 @@ def positions(parts: Turned) -> Array:
 def _smallest(parts: Turned, at: Array, earlier: Earlier) -> tuple[Gap, Gap | None, Gap]:
     """The smallest gaps: of rollers at their own slots, of others meanwhile, of the crank."""
     gaps = parts.gaps
+    first = gaps.pose(at)
+
+    def pose(x: Array) -> Pose:
+        return first if x is at else gaps.pose(x)
 
     def rollers(x: Array, idle: bool) -> Array:
         drives = _drives(parts, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
-        out: Array = np.where(meanwhile == idle, gaps.rollers(gaps.pose(x)), np.inf).min(axis=1)
+        out: Array = np.where(meanwhile == idle, gaps.rollers(pose(x)), np.inf).min(axis=1)
         return out
 
     def crank(x: Array) -> Array:
-        return gaps.locking(gaps.pose(x))
+        return gaps.locking(pose(x))
 
     own, others = partial(rollers, idle=False), partial(rollers, idle=True)
     several = len(parts.assembly.rollers) > 1
