@@ -39,6 +39,7 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 from geneva_cli.curves import mass
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Plate
+from geneva_cli.curves.shapes import Contour, Cubic
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
@@ -222,7 +223,8 @@ def one(design, proof, name, part, curves, pictures):
             strict=True,
         )
     ]
-    beside = SPLINED if curves == "spline" else SAME  # of centroid and inertia
+    splined = curves == "spline" or any(has_cubics(plate) for plate, *_ in wanted)
+    beside = SPLINED if splined else SAME  # of centroid and inertia
     limits = 3 * (NEARLY,) if drawing.shells else (SAME, beside, beside)
     good = all(error < limit for error, limit in zip(worst, limits, strict=True))
     numbers = "  ".join(f"{error:.1e}" for error in worst)
@@ -239,6 +241,12 @@ def one(design, proof, name, part, curves, pictures):
         )
         picture(Path(pictures) / f"{name}-{part}.png", found, reach)
     return good
+
+
+def has_cubics(plate):
+    """Whether a plate is bounded by cubics: pitch curves of gears are, whatever the slots are."""
+    outline = plate.outline if isinstance(plate, Plate) else None
+    return isinstance(outline, Contour) and any(isinstance(p, Cubic) for p in outline.segments)
 
 
 if __name__ == "__main__":
