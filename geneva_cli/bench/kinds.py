@@ -1,11 +1,13 @@
-"""The machines whose many designs the bench works out, and their designs."""
+"""The machines whose many designs the bench works out, their designs, and tasks of them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli.bench.method import Method, Task
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.epicyclic import Epicyclic
@@ -99,3 +101,27 @@ def values_of(kind: Kind, count: int) -> Any:
     """The values of what is varied; always the same."""
     values = np.random.default_rng(12).uniform(kind.low, kind.high, count)
     return np.floor(values).astype(int) if kind.key == "wheel.z" else values
+
+
+def one_by_one(
+    alone: Sequence[Mechanism], count: int, one: Callable[[Mechanism], Any], most: int
+) -> Method:
+    """At most so many designs one after the other, in place of all."""
+    few = alone[:most]
+    name = f"one by one (extrapolated from {len(few)})"
+    return Method(name, None, lambda: [one(m) for m in few], True, times=count / len(few))
+
+
+def task_of_many(
+    name: str, count: int, error: Callable[[Any], float], methods: Sequence[Method]
+) -> Task:
+    """A task of many designs, beside sine and cosine of as many numbers."""
+    angles = np.linspace(0.0, 1.0, count)
+    return Task(
+        name,
+        f"one np.sin + np.cos over {count} numbers",
+        lambda: (np.sin(angles), np.cos(angles)),
+        error,
+        methods,
+        count,
+    )

@@ -9,7 +9,7 @@ places as tell the answer: that is a row of its own, ``formulas alone``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -25,7 +25,7 @@ from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
 from geneva_cli.analysis.loads.stretches_many import spans_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.bench import load_truth
-from geneva_cli.bench.kinds import KINDS, QUICK, Kind, drawn, values_of
+from geneva_cli.bench.kinds import KINDS, QUICK, Kind, drawn, one_by_one, task_of_many, values_of
 from geneva_cli.bench.load_truth import LOADS
 from geneva_cli.bench.method import Method, Task
 from geneva_cli.machine.laws.standard import ModifiedSine
@@ -121,16 +121,9 @@ def _designs(loaded: LoadedKind, count: int, friction: float) -> tuple[Designs, 
 
 
 def _task(asked: Asked, of: Designs, built: int) -> Task:
-    angles = np.linspace(0.0, 1.0, built)
-    few = of.alone[: LOOP if built > QUICK else QUICK_LOOP]
+    most = LOOP if built > QUICK else QUICK_LOOP
     methods = [
-        Method(
-            f"one by one (extrapolated from {len(few)})",
-            None,
-            lambda: [_one(asked, machine) for machine in few],
-            True,
-            times=built / len(few),
-        ),
+        one_by_one(of.alone, built, partial(_one, asked), most),
         Method(
             "formulas alone, nothing searched",
             _places(asked, of.together),
@@ -143,18 +136,14 @@ def _task(asked: Asked, of: Designs, built: int) -> Task:
         truth = np.array([_exact(asked, machine, A) for machine, A in both])
     else:
         truth = np.array([_one(asked, machine) for machine in of.alone])
-    return Task(
-        f"{asked.name} of {of.name}",
-        f"one np.sin + np.cos over {built} numbers",
-        lambda: (np.sin(angles), np.cos(angles)),
-        lambda found: error(np.array(found[: len(truth)]), truth[: len(found)]),
-        methods,
-        built,
-    )
+    return task_of_many(f"{asked.name} of {of.name}", built, partial(first_errors, truth), methods)
 
 
-def error(found: Array, truth: Array) -> float:
-    """The greatest relative error; a load that both say has no bound is right."""
+def first_errors(truth: Array, every: Sequence[Array] | Array) -> float:
+    """The greatest relative error of the first designs; a load that both say has no bound is
+    right.
+    """
+    found, truth = np.array(every[: len(truth)]), truth[: len(every)]
     with np.errstate(invalid="ignore"):
         wrong = np.where(found == truth, 0.0, np.abs(found / truth - 1.0))
     return float(wrong.max())

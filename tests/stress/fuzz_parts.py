@@ -8,11 +8,10 @@ place in its spec, or else every number of it is finite, without a warning, in i
 """
 
 import sys
-import warnings
 
 from fuzz_machines import machine_text
 from fuzz_spec import consistent, read, sound
-from fuzzing import campaign, in_time
+from fuzzing import campaign, strictly
 
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
@@ -45,8 +44,7 @@ def tried(make, *args):
 
 def one(text):
     """All that is made of one spec; how it ended, in a word."""
-    with in_time(SECONDS), warnings.catch_warnings():
-        warnings.simplefilter("error")
+    with strictly(SECONDS):
         found = read(text.encode())
         if isinstance(found, str):
             return "refused"

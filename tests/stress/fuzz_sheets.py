@@ -7,13 +7,12 @@ and it is written as SVG, DXF and PDF, which other readers take.
 
 import io
 import sys
-import warnings
 from xml.etree import ElementTree
 
 import ezdxf
 from fuzz_machines import machine_text
 from fuzz_spec import read
-from fuzzing import campaign, in_time
+from fuzzing import campaign, strictly
 from sheet_witness import assert_as_listed, assert_measured, beyond, overlaps
 
 from geneva_cli.curves.sheet import DIMENSION
@@ -29,8 +28,7 @@ CLOSE = 5e-3
 
 def one(text):
     """The sheet of one spec; how it ended, in a word."""
-    with in_time(SECONDS), warnings.catch_warnings():
-        warnings.simplefilter("error")
+    with strictly(SECONDS):
         found = read(text.encode())
         if isinstance(found, str):
             return "refused"

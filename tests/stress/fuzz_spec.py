@@ -11,14 +11,13 @@ import io
 import math
 import re
 import sys
-import warnings
 from functools import cache
 from types import SimpleNamespace
 from typing import get_origin
 
 import numpy as np
 from fuzz_machines import in_range, machine_text
-from fuzzing import campaign, in_time
+from fuzzing import campaign, strictly
 
 from geneva_cli import design
 from geneva_cli.analysis.motion import motion_table
@@ -186,8 +185,7 @@ def sound(table, boundless=()):
 def one(text):
     """All of the motion of one spec; how it ended, in a word."""
     data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
-    with in_time(SECONDS), warnings.catch_warnings():
-        warnings.simplefilter("error")
+    with strictly(SECONDS):
         found = read(data)
         if isinstance(found, str):
             return "refused"

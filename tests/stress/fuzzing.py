@@ -16,6 +16,7 @@ import signal
 import sys
 import tempfile
 import time
+import warnings
 
 LAW = "".join(f"{i / 10},{(i / 10) ** 2 * (3 - i / 5)}\n" for i in range(11))
 # i = 1 - 0.3 cos(input), to what a person writes
@@ -38,6 +39,14 @@ def in_time(seconds):
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, before)
+
+
+@contextlib.contextmanager
+def strictly(seconds):
+    """As ``in_time``; and what would be a warning is an error."""
+    with in_time(seconds), warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
 
 
 @contextlib.contextmanager

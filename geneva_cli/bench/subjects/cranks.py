@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.bench.formulas import Proportions, acceleration, jerk
-from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.kinds import task_of_many
+from geneva_cli.bench.method import Method, Subject
 from geneva_cli.bench.numeric import NUMERIC, vertex
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks
@@ -135,15 +136,7 @@ def subject(quick: bool) -> Subject:
             True,
         )
     )
-    angles = np.linspace(0.0, 1.0, count)
-    task = Task(
-        f"{count} designs",
-        f"one np.sin + np.cos over {count} numbers",
-        lambda: (np.sin(angles), np.cos(angles)),
-        designs.error,
-        methods,
-        count,
-    )
+    task = task_of_many(f"{count} designs", count, designs.error, methods)
     return Subject(
         f"Peak acceleration of {count} side-crank designs",
         f"greatest relative error of {CHECKED} designs' peaks",

@@ -6,7 +6,7 @@ second is this one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -16,8 +16,18 @@ import numpy as np
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.bench import loads_of_many
-from geneva_cli.bench.kinds import CHECKED, KINDS, QUICK, QUICK_CHECKED, Kind, drawn, values_of
-from geneva_cli.bench.loads_of_many import EXACT, LOOP, QUICK_EXACT, QUICK_LOOP, error
+from geneva_cli.bench.kinds import (
+    CHECKED,
+    KINDS,
+    QUICK,
+    QUICK_CHECKED,
+    Kind,
+    drawn,
+    one_by_one,
+    task_of_many,
+    values_of,
+)
+from geneva_cli.bench.loads_of_many import EXACT, LOOP, QUICK_EXACT, QUICK_LOOP, first_errors
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.many import many, taken
 from geneva_cli.machine.mechanism import Mechanism
@@ -52,29 +62,14 @@ def _task(kind: Kind, count: int) -> Task:
     machine, built, alone = drawn(kind, kind.spec, count)
     varied = {kind.key: values_of(kind, count)}
     methods = [
-        _one_by_one(alone, built, _one),
+        one_by_one(alone, built, _one, LOOP if built > QUICK else QUICK_LOOP),
         Method("grid of all", GRID, partial(_grid, machine, built)),
         *_formulas_alone(machine, built),
         Method("together", None, partial(_together, machine), True),
         Method("built and together", None, partial(_built_together, kind.spec, varied), True),
     ]
-    truth, angles = np.array([_one(m) for m in alone]), np.linspace(0.0, 1.0, built)
-    return Task(
-        f"{built} {kind.name}",
-        f"one np.sin + np.cos over {built} numbers",
-        lambda: (np.sin(angles), np.cos(angles)),
-        lambda found: error(np.array(found[: len(truth)]), truth[: len(found)]),
-        methods,
-        built,
-    )
-
-
-def _one_by_one(
-    alone: list[Mechanism], built: int, one: Callable[[Mechanism], list[float]]
-) -> Method:
-    few = alone[: LOOP if built > QUICK else QUICK_LOOP]
-    name = f"one by one (extrapolated from {len(few)})"
-    return Method(name, None, lambda: [one(m) for m in few], True, times=built / len(few))
+    truth = np.array([_one(m) for m in alone])
+    return task_of_many(f"{built} {kind.name}", built, partial(first_errors, truth), methods)
 
 
 def _built_together(spec: Spec, varied: Mapping[str, Any]) -> Array:

@@ -28,6 +28,7 @@ from geneva_cli.analysis.vibration.many import vibrations_of_many
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.analysis.vibration.shape import shape
 from geneva_cli.analysis.vibration.vibration import stations
+from geneva_cli.bench.kinds import one_by_one, task_of_many
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
@@ -159,25 +160,13 @@ def subject(quick: bool) -> Subject:
 
 
 def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]) -> Task:
-    few = alone[: LOOP if count > QUICK else QUICK_LOOP]
-    angles, truth = np.linspace(0.0, 1.0, count), np.array([answer.one(m) for m in alone])
-    return Task(
-        f"{answer.name} of {count} side-cranks",
-        f"one np.sin + np.cos over {count} numbers",
-        lambda: (np.sin(angles), np.cos(angles)),
-        partial(_error, truth),
-        [
-            Method(
-                f"one by one (extrapolated from {len(few)})",
-                None,
-                lambda: [_again(answer, one) for one in few],
-                True,
-                times=count / len(few),
-            ),
-            Method("together", None, lambda: answer.together(machine), True),
-        ],
-        designs=count,
-    )
+    most, truth = LOOP if count > QUICK else QUICK_LOOP, np.array([answer.one(m) for m in alone])
+    methods = [
+        one_by_one(alone, count, partial(_again, answer), most),
+        Method("together", None, lambda: answer.together(machine), True),
+    ]
+    name = f"{answer.name} of {count} side-cranks"
+    return task_of_many(name, count, partial(_error, truth), methods)
 
 
 def _again(answer: Answer, machine: Mechanism) -> float:

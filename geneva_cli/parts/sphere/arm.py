@@ -52,6 +52,11 @@ class CapArm(NamedTuple):
         """All round holes: the hub's, the pins' and the bolts'."""
         return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
 
+    def bolts_of(self, sector: int, sectors: int) -> tuple[RoundHole, ...]:
+        """The bolts of one of some locking sectors."""
+        each = len(self.bolts) // sectors
+        return self.bolts[sector * each : (sector + 1) * each]
+
 
 def has_arm(found: Shells) -> bool:
     """Whether there is an arm: rollers on pins in a crank."""
@@ -190,9 +195,8 @@ def _walls(made: CapArm, found: Shells) -> float:
     """
     ball = found.ball
     least = least_wall(made.boundary, made.holes, ball.arm_span_mm[0])
-    each = len(made.bolts) // max(1, len(found.crank))
-    for k, sector in enumerate(found.crank if each else []):
-        own = made.bolts[k * each : (k + 1) * each]
+    for k, sector in enumerate(found.crank if made.bolts else []):
+        own = made.bolts_of(k, len(found.crank))
         least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
     if least <= 0.0:
         raise GenevaError(

@@ -71,11 +71,12 @@ def wheel_shell(size: Size, ball: Ball) -> Shell:
 
     Raises GenevaError where it has no room for a dial's bolts.
     """
-    if not dial_holes(size, ball) and not ball.opening_mm:
+    screwed = dial_holes(size, ball)
+    if not screwed and not ball.opening_mm:
         return Shell("wheel", "WHEEL", tuple(wheel_regions(ball, ball.inner)), *ball.span_mm)
     inner = web_angle(ball)
     regions = *wheel_regions(ball, inner), web_region(ball, inner)
-    holes = RoundHole(POLE, ball.opening_mm), *dial_holes(size, ball)
+    holes = RoundHole(POLE, ball.opening_mm), *screwed
     return Shell("wheel", "WHEEL", regions, *ball.span_mm, holes)
 
 
@@ -109,10 +110,9 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
 def crank_group(found: Shells, arm: CapArm | None) -> Group:
     """What the crank carries, in its frame, and its arm, if there is one."""
     ball, size = found.ball, found.assembly.given.spec.size
-    each = len(arm.bolts) // max(1, len(found.crank)) if arm else 0
     members = []
     for k, region in enumerate(found.crank):
-        screwed = arm.bolts[k * each : (k + 1) * each] if arm else ()
+        screwed = arm.bolts_of(k, len(found.crank)) if arm else ()
         sector = Shell("locking sector", CRANK, (region,), *ball.lock_span_mm, screwed)
         members.append(Member(sector))
     members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]

@@ -66,8 +66,10 @@ def search(wish: Wish) -> FoundRows:
         found = bounded(wanted, found, [cells for part in parts for cells in part.asked])
     found.sort(key=lambda row: _rank(wish, wanted, row))
     if not _known_together(wish):
-        found = [*{_family(row): row for row in reversed(found)}.values()]
-        found.sort(key=lambda row: _rank(wish, wanted, row))
+        first: dict[tuple[object, ...], Row] = {}
+        for row in found:
+            first.setdefault(_family(row), row)
+        found = [*first.values()]
     return FoundRows(found, wanted.names)
 
 

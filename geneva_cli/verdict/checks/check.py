@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, NamedTuple
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.keeps import keeps
 
+if TYPE_CHECKING:
+    from geneva_cli.parts.turn.beside_shafts import Beside
+
 NONE = "none found"  # ``nearest`` of a failing check for which the adviser found no change
+ROUNDING = 1e-12  # of the centre distance, or the sphere's radius: of a gap
 
 
 class Check(NamedTuple):
@@ -44,6 +49,17 @@ def compared(
     """
     passes = keeps(value, must_be, limit, noise)
     return Check(name, value, must_be, limit, passes, at_deg=at_deg)
+
+
+def gap(
+    name: str, least: Callable[[], Beside | None], L: float, refused: bool | None
+) -> Check | None:
+    """The least gap beside shafts, if there is one; ``refused`` is what a refusal comes to."""
+    try:
+        found = least()
+    except GenevaError as error:
+        return Check(name, None, "at least", 0.0, refused, str(error))
+    return compared(name, found.gap, "at least", 0.0, noise=ROUNDING * L) if found else None
 
 
 def all_pass(rows: Iterable[Check]) -> bool:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.beside_shafts import beside_gears, beside_shafts
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.check import Check, compared, gap
 
-ROUNDING = 1e-12  # of the centre distance
 KEYS = (
     "wheel_hub_mm",
     "wheel_hub_length_mm",
@@ -58,22 +56,12 @@ def beside(name: str, found: Outlines) -> Check | None:
     given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
     if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
         return None
-    try:
-        least = beside_shafts(found)
-    except GenevaError as error:
-        return Check(name, None, "at least", 0.0, False, str(error))
-    noise = ROUNDING * found.assembly.L
-    return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
+    return gap(name, lambda: beside_shafts(found), found.assembly.L, refused=False)
 
 
 def beside_noncircular(name: str, found: Outlines) -> Check | None:
     """Between noncircular gears, by the farthest places of their pitch curves, and shafts."""
-    try:
-        least = beside_gears(found)
-    except GenevaError as error:
-        return Check(name, None, "at least", 0.0, None, str(error))
-    noise = ROUNDING * found.assembly.L
-    return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
+    return gap(name, lambda: beside_gears(found), found.assembly.L, refused=None)
 
 
 def _shaft(size: Sizes) -> float:

@@ -12,9 +12,7 @@ from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.wheel import POLE
-from geneva_cli.verdict.checks.check import Check, compared
-
-ROUNDING = 1e-12  # of the sphere's radius
+from geneva_cli.verdict.checks.check import Check, compared, gap
 
 
 def between_slots(name: str, found: Shells) -> Check:
@@ -85,12 +83,8 @@ def beside(name: str, found: Shells) -> Check | None:
     walls = [check(name, found) for check in (arm_wall, dial)]
     if any(row and row.value is None for row in walls):
         return None
-    try:
-        least = beside_shafts(found, built(found))
-    except GenevaError as error:
-        return Check(name, None, "at least", 0.0, False, str(error))
-    noise = ROUNDING * found.ball.radius_mm
-    return compared(name, least.gap, "at least", 0.0, noise=noise) if least else None
+    L = found.ball.radius_mm
+    return gap(name, lambda: beside_shafts(found, built(found)), L, refused=False)
 
 
 def _wall(name: str, angle: float, found: Shells) -> Check:

@@ -41,8 +41,8 @@ class Costs(NamedTuple):
         value = self.derivatives[ORDERS[group]]
         if group == "power":
             value = value * self.derivatives[1]
-        ended = told.partition("_")[0] in ENDS
-        size = np.abs(value[:, ENDS[told.partition("_")[0]]]) if ended else top(np.abs(value))
+        end = _end(told)
+        size = top(np.abs(value)) if end is None else np.abs(value[:, end])
         if told in UNITS:
             size = size * (self._n_rpm() * (math.pi / 30.0)) ** UNITS[told]
         return size
@@ -66,9 +66,14 @@ def is_known(name: str) -> bool:
     group, _, told = name.partition(".")
     if group == "timing":
         return told in Timing._fields
-    ended = told.partition("_")[0] in ENDS
     whole = told == "max" or told in ENDS or told in UNITS
-    return group in ORDERS and whole and not (ended and group in ("velocity", "power"))
+    at_rest = _end(told) is not None and group in ("velocity", "power")
+    return group in ORDERS and whole and not at_rest
+
+
+def _end(told: str) -> int | None:
+    """The place of the motion at which a quantity is meant; None for its greatest."""
+    return ENDS.get(told.partition("_")[0])
 
 
 def order(names: tuple[str, ...]) -> int:
