@@ -67,7 +67,7 @@ class SphereArc(NamedTuple):
             return []
         middle, off = math.atan2(ahead, c), math.acos(reach)
         found = []
-        for polar in {middle - off, middle + off}:
+        for polar in {(middle - off) % math.tau, (middle + off) % math.tau}:
             at = place(polar, azimuth)
             turn = math.atan2(dot(at, y), dot(at, x)) % math.tau
             if 0.0 < polar < math.pi and turn <= self.sweep:

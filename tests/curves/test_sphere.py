@@ -67,6 +67,21 @@ def test_clockwise_is_about_the_opposite():
     )
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_an_arc_crosses_a_half_plane_where_its_points_change_sides(seed):
+    """Also far from the pole; of 20,000 points, whose steps are 3e-4 at most."""
+    random = np.random.default_rng(seed)
+    axis, start, end = (unit(tuple(v)) for v in random.normal(size=(3, 3)))
+    angle, azimuth = random.uniform(0.2, 2.9), random.uniform(-math.pi, math.pi)
+    arc = SphereArc(axis, angle, start, end)
+    x, y, z = arc.at(np.linspace(0.0, arc.sweep, 20_000))[0].T
+    aside = y * math.cos(azimuth) - x * math.sin(azimuth)
+    ahead = x * math.cos(azimuth) + y * math.sin(azimuth)
+    changes = np.flatnonzero((aside[1:] * aside[:-1] < 0.0) & (ahead[1:] > 0.0))
+    expected = np.arctan2(ahead, z)[changes]
+    assert sorted(arc.crossings(azimuth)) == pytest.approx(np.sort(expected), abs=2e-3)
+
+
 def test_turned():
     """Moved anywhere, a region keeps its area; its moments turn with it."""
     z = place(0.9, 2.0)
