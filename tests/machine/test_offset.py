@@ -10,7 +10,10 @@ import design_arrays
 import numpy as np
 import pytest
 from design_arrays import RATIO
-from stress import DIGITS, LIMIT, Table, mp, other_one, read
+from exact.others import other_one, read
+from exact.rates import DIGITS
+from exact.table import LIMIT, Table
+from witness import mp
 
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.machine.mechanism import build

@@ -4,22 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from stress import (
-    DIGITS,
-    HARD,
-    LIMIT,
-    SideCrank,
-    Straight,
-    Table,
-    fill,
-    missing,
-    mp,
-    other_one,
-    parts,
-    read,
-    textbook_wheel,
-)
-from witness import Geneva
+from exact.fronts import SideCrank, textbook_wheel
+from exact.others import HARD, other_one, read
+from exact.rates import DIGITS
+from exact.straight import Straight
+from exact.table import LIMIT, Table
+from stress import fill, missing, parts
+from witness import Geneva, mp
 
 PARTS = parts(sample=True)
 

@@ -1,0 +1,1 @@
+"""Every machine against mpmath: what `stress.py` compares, by subject."""
