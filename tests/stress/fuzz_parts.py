@@ -18,7 +18,6 @@ from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
-from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.batch import Verdict, checks_table
 from geneva_cli.table import flat
@@ -57,10 +56,9 @@ def one(text):
         for part in PARTS:
             for samples in (None, 33, 50) if is_table(found, part, False) else ():
                 tried(part_table, found, part, tolerance, samples)
-        if not found.spec.is_flat:
-            return "without parts"
+        drawn = Proof(found)
         try:
-            drawn = Proof(found, outlines(found))
+            drawn.turned  # noqa: B018 - made here, once for all parts
         except GenevaError as error:
             assert error.key, f"no place: {error}"
             return "parts refused"
