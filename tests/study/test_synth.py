@@ -602,7 +602,7 @@ def test_no_roller_fits_a_loop():
 @pytest.mark.parametrize(
     ("options", "number"),
     [
-        ({"step": "45", "cycle": "1.5", "motion_s": "0.7", "external": True}, 6),
+        ({"step": "45", "cycle": "1.5", "motion_s": "0.7", "external": True}, 7),
         ({"tau": "0.68", "z": "10", "law": "cycloidal", "rollers": 2, "external": True}, 2),
         ({"acceleration_max": "0.5", "z": "6", "internal": True}, 1),
         ({"dwell_s": "0.8..", "cycle": "1.5", "z": "8", "motion_deg": "..100"}, 1),

@@ -68,6 +68,8 @@ class Candidate(NamedTuple):
     point_mm: float | None
     point_deg: float | None
     entry_deg: float | None
+    sector_deg: float | None
+    first_z: int | None
 
 
 class Row(NamedTuple):
@@ -171,4 +173,6 @@ def _candidate(
         point_mm=own.get("point_mm"),
         point_deg=own.get("point_deg"),
         entry_deg=own.get("entry_deg"),
+        sector_deg=own.get("sector_deg"),
+        first_z=own.get("first_z"),
     )

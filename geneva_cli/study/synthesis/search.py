@@ -163,7 +163,8 @@ def _limited(wish: Wish, spec: Spec) -> Spec:
 
 def _kept(wish: Wish, row: Row) -> bool:
     """Whether the machine as built moves as wished: a linkage may drive another wheel as well."""
-    limit, motion = wish.acceleration_max, wish.motion_for(row.candidate.rollers)
+    drive = row.spec.drive
+    limit, motion = wish.acceleration_max, wish.motion_for(drive.rollers / drive.turns)
     if motion is not None and not holds(motion, row.candidate.motion_deg):
         return False
     return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)

@@ -48,6 +48,7 @@ DESCRIBED = (  # columns that the machine's description stands for
     *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
     *("offset_mm", "planet_ratio", "fixed"),
     *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
+    *("sector_deg", "first_z"),
 )
 
 
@@ -114,6 +115,8 @@ def _machine(row: dict[str, Any], several: bool) -> str:
         f"{row['fixed']} rp {_number(row['planet_ratio'])}" if row["fixed"] else "",
         f"axes {_number(row['axes_deg'])}" if row["axes_deg"] not in (None, 90.0) else "",
         f"offset {_number(row['offset_mm'])} mm" if row["offset_mm"] else "",
+        f"D {_number(row['sector_deg'])}" if row["sector_deg"] else "",
+        f"first z {row['first_z']}" if row["first_z"] else "",
         _links(row) if row["ground_mm"] else "",
     ]
     return " ".join([row["drive"], *filter(None, own)])

@@ -1,7 +1,7 @@
 """A wish: what is asked of a machine that is not designed yet.
 
 Every wish about time or angle says something of the motion angle M of one engagement and of the
-cycle time T, for m rollers:
+cycle time T, for m motions in a turn of the input, one of each roller:
 
     tau = m M/360    k = tau/(1 - tau)    dwell_deg = 360/m - M    motion_s = tau T
     dwell_s = (1 - tau) T
@@ -68,7 +68,7 @@ class Wish(NamedTuple):
         """Whether a peak acceleration is all that is asked of the motion."""
         return self.any_motion and not self.bounds
 
-    def cycle_s(self, m: int) -> Interval:
+    def cycle_s(self, m: float) -> Interval:
         """The cycle times that are wished for; with a frame and no other wish its own."""
         if "cycle" in self.spans:
             return self.spans["cycle"]
@@ -77,7 +77,7 @@ class Wish(NamedTuple):
             return Interval(own, own)
         return ANY
 
-    def demands(self, m: int) -> Iterator[tuple[str, Interval]]:
+    def demands(self, m: float) -> Iterator[tuple[str, Interval]]:
         """What each wish asks of the motion angle of m rollers, with the words for it."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
         said = {name: f"--{name.replace('_', '-')} {_typed(s)}" for name, s in spans.items()}
@@ -101,11 +101,11 @@ class Wish(NamedTuple):
             words = f"{said['motion_s']} with {said['dwell_s']}"
             yield words, Interval(*(turn * _tau(x) for x in k))
 
-    def asks_nothing(self, m: int) -> bool:
+    def asks_nothing(self, m: float) -> bool:
         """Whether any motion angle will do."""
         return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
 
-    def motion_for(self, m: int) -> Interval | None:
+    def motion_for(self, m: float) -> Interval | None:
         """The motion angles that the wish leaves m rollers; None where it asks for none.
 
         It may be empty, or reach to 0 or to a whole turn over m, where nothing is left to move
@@ -118,7 +118,7 @@ class Wish(NamedTuple):
             found = found.within(asked)
         return found
 
-    def n_rpm(self, m: int, motion_deg: float) -> float:
+    def n_rpm(self, m: float, motion_deg: float) -> float:
         """The input speed, m cycles making a turn: the usual one, or the nearest that will do."""
         share = m * motion_deg / 360.0
         usual = self.frame.drive.n_rpm if self.frame else USUAL_RPM
@@ -133,7 +133,7 @@ class Wish(NamedTuple):
         whole = min(max(60.0 / (m * usual), cycle.low), cycle.high)
         return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
 
-    def refuse_contradictions(self, m: int) -> None:
+    def refuse_contradictions(self, m: float) -> None:
         """Raise GenevaError for wishes that no machine of m rollers grants, alone or together."""
         asked = list(self.demands(m))
         for i, (one, first) in enumerate(asked):
@@ -160,7 +160,7 @@ def _typed(s: Interval) -> str:
     return f"{s.low:.7g}" if s.exact else "..".join(ends)
 
 
-def _angles(s: Interval, m: int) -> str:
+def _angles(s: Interval, m: float) -> str:
     """What a wish leaves of the motion, for a message."""
     whole = 360.0 / m
     if s.high <= 0.0 or s.low >= whole:

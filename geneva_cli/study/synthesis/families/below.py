@@ -27,6 +27,7 @@ from geneva_cli.study.synthesis.families.straight import (
     planets,
     side_crank,
 )
+from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.wish import Wish
 
 # velocities at which curved slots inside cannot be, where R/L is 1, and can be: R/L is 9/11
@@ -46,6 +47,7 @@ def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Ite
             yield from driven(wish, wheel)
         if wish.rollers in (None, 1):
             yield from planets(wish, wheel, natural_deg(wheel))
+        yield from two_stages(wish, wheel)
 
 
 def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:

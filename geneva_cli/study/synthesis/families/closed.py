@@ -93,3 +93,18 @@ def shortest(low: float, high: float) -> float:
         if low <= x <= high:
             return x
     return middle
+
+
+def sector_deg(z: int, b: float) -> float:
+    """The crank angle that gears drive between slots of half angle b: D = (2 pi/z - 2b)/u.
+
+    For u = l/(1-l), l = sin b, at which they take over without a jump.
+    """
+    short = 2.0 * math.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
+    l = math.sin(b)
+    return 2.0 * (math.pi / z - b) * short / l / DEGREE if l else math.inf
+
+
+def sector_motion(z: int, b: float) -> float:
+    """The motion of slots of half angle b with gears between them: 180 deg - 2b + D."""
+    return 180.0 - 2.0 * b / DEGREE + sector_deg(z, b)

@@ -62,7 +62,7 @@ def machine(
     wish: Wish,
     wheel: Gearing,
     drive: Callable[[float], Drive],
-    m: int,
+    m: float,
     motion_deg: float,
     motion: Motion | None = None,
 ) -> Spec:
@@ -81,8 +81,8 @@ def natural_deg(wheel: Gearing) -> float:
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
-def wanted(wish: Wish, m: int, natural: float) -> Interval:
-    """The motion angles for m rollers; without a wish for one any, or the plain crank's own."""
+def wanted(wish: Wish, m: float, natural: float) -> Interval:
+    """The motion angles for m motions in a turn; without a wish any, or the plain crank's own."""
     found = wish.motion_for(m)
     if found is None:
         return Interval(0.0, 360.0 / m) if wish.any_motion else Interval(natural, natural)

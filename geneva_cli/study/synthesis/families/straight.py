@@ -31,6 +31,7 @@ from geneva_cli.study.synthesis.families.family import (
     rollers,
     wanted,
 )
+from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -49,6 +50,7 @@ def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
             if m == 1:
                 yield from planets(wish, wheel, natural)
     yield from driven(wish, wheel)
+    yield from two_stages(wish, wheel)
 
 
 def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:

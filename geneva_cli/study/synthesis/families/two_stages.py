@@ -1,0 +1,88 @@
+"""Two stages that turn an external wheel: gears between two slots, a first wheel before the crank.
+
+Each has a motion that no plain crank has: gear sectors make it longer, and behind a first wheel it
+is a small part of a cycle of several turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.compatible import refuse_conflicts
+from geneva_cli.machine.drives.gear_sector import GearSector
+from geneva_cli.machine.drives.geneva_pair import GenevaPair
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.numerics.roots import boundary
+from geneva_cli.study.synthesis.families import closed
+from geneva_cli.study.synthesis.families.family import (
+    BARE,
+    Family,
+    closed_span,
+    holds,
+    machine,
+    natural_deg,
+    only,
+    wanted,
+)
+from geneva_cli.study.synthesis.wish import Wish
+
+LONGEST, SHORTEST = 330.0, 1e-3  # crank angles that gear sectors drive, degrees
+
+
+def two_stages(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+    """What gear sectors and first wheels make of a wheel, if it can have them."""
+    if wish.rollers in (None, 1):
+        yield from sectors(wish, wheel)
+        yield from pairs(wish, wheel)
+
+
+def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+    """Gear sectors that take over without a jump: the slots' half angle b is left free, of which
+    that of the plain crank leaves the gears nothing to drive.
+    """
+    span = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
+    if span is None or not _can_be(BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))):
+        return
+    z = wheel.z
+
+    def make(b: float) -> Spec:
+        sector, motion = closed.sector_deg(z, b), closed.sector_motion(z, b)
+        return machine(wish, wheel, lambda n: GearSector(sector_deg=sector, n_rpm=n), 1, motion)
+
+    def slot(angle: Callable[[int, float], float], least: float) -> float:
+        """Half the angle of the slots with which an angle, which falls with it, is ``least``."""
+        return boundary(lambda b: angle(z, b) >= least, 0.0, wheel.step.b)
+
+    ends = (slot(closed.sector_motion, span.high), slot(closed.sector_motion, span.low))
+    low = max(ends[0], slot(closed.sector_deg, LONGEST))
+    high = min(ends[1], slot(closed.sector_deg, SHORTEST))
+    if low <= high:
+        yield Family(make, low, high, wheel.step.b, wheel.step.b)
+
+
+def pairs(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+    """First wheels of any number of slots, which turn the crank once in so many turns: those whose
+    step is as long as the crank's own motion.
+    """
+    for first_z in range(3, int(360.0 / natural_deg(wheel)) + 1):
+        spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))
+        natural = build(spec).engagements[0].motion_deg
+        m = 1.0 / first_z  # motions in a turn of the input
+        if holds(wanted(wish, m, natural), natural):
+
+            def drive(n: float, first_z: int = first_z) -> GenevaPair:
+                return GenevaPair(first_z=first_z, n_rpm=n)
+
+            yield only(machine(wish, wheel, drive, m, natural))
+
+
+def _can_be(spec: Spec) -> bool:
+    """Whether a drive goes with a wheel."""
+    try:
+        refuse_conflicts(spec)
+    except GenevaError:
+        return False
+    return True
