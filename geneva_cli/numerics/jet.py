@@ -198,6 +198,12 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
     return s, Jet((versine, *[-a for a in c.c[1:]]))
 
 
+def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
+    """A vector that is (x, y) and keeps its length, from the rate at which it turns."""
+    sine, cosine = _circle([0.0, *rate.c][: order + 1], y, x)
+    return cosine, sine
+
+
 def sqrt(x: Jet) -> Jet:
     """Square root of a positive jet."""
     q = [library(x.c[0]).sqrt(x.c[0])]

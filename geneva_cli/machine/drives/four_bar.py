@@ -17,7 +17,7 @@ from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
 from geneva_cli.machine.roller_path import PointDisplacement, rounded
 from geneva_cli.numerics.arrays import larger, smaller
-from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.numerics.jet import Jet, sqrt, turned_at
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 
@@ -117,8 +117,12 @@ class CouplerPath(RodPath):
     """The path of a point of the coupler.
 
     With d the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²),
-    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). Its numbers
-    are crank, ground, coupler, rocker, and the point's place on the coupler: a, g, b, c, p, q.
+    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). It turns by
+
+        1/2 (1 + (a² - g²) / D) - a g sin phi (1 - (b² - c²) / D) / N
+
+    a radian of the crank, the turn of d and that of k. Its numbers are crank, ground, coupler,
+    rocker, and the point's place on the coupler: a, g, b, c, p, q.
     """
 
     def __init__(self, keys: FourBar) -> None:
@@ -126,17 +130,22 @@ class CouplerPath(RodPath):
         super().__init__(*lengths, reach_mm=keys.point_mm, angle_deg=keys.point_deg)
         self.side = 1 if keys.branch == "+" else -1
 
-    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """The coupler's unit vector e, from A towards B."""
+    def carried(
+        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
+    ) -> tuple[Jet, Jet]:
+        """A vector p along the coupler, from A towards B, and q across it."""
         a, g, b, c, _, _ = self.exact if exact else self.rough
-        dx, dy = g - cosine * a, sine * -a
-        x, y = dx.c[0], dy.c[0]
-        D = Jet((x * x + y * y, *(cosine * (-2 * g * a)).c[1:]))  # as a² is constant
-        share = 1 / (D * (2 * b))
-        along = share * ((b - c) * (b + c)) + 1 / (2 * b)
+        order = sine.order
+        sine, cosine = (Jet(x.c[: max(order, 1)]) for x in (sine, cosine))
+        dx, dy = g - cosine.c[0] * a, sine.c[0] * -a
+        D = Jet((dx * dx + dy * dy, *(cosine * (-2 * g * a)).c[1:]))  # as a² is constant
+        m, u = (b - c) * (b + c), 1 / D
         # N² as a product (Heron)
-        across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * share * self.side
-        return dx * along - dy * across, dy * along + dx * across
+        N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
+        rate = (u * ((a - g) * (a + g)) + 1) / 2 - sine * (a * g) * (1 - u * m) / N
+        along, across = (1 + u.c[0] * m) / (2 * b), N.c[0] * u.c[0] / (2 * b)
+        ex, ey = dx * along - dy * across, dy * along + dx * across
+        return turned_at(rate, ex * p - ey * q, ex * q + ey * p, order)
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """The rocker pulls or pushes along itself."""

@@ -216,10 +216,20 @@ class RodPath(RollerPath):
         return cosine * a, sine * a
 
     def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Crank, and the link's unit vector turned and stretched to the point."""
+        """Crank, and the point's place on the link."""
         a, *_, p, q = self.exact if exact else self.rough
-        ex, ey = self.link(sine, cosine, exact)
-        return cosine * a + ex * p - ey * q, sine * a + ey * p + ex * q
+        x, y = self.carried(p, q, sine, cosine, exact)
+        return x + cosine * a, y + sine * a
+
+    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
+        """The link's unit vector, from A towards B."""
+        return self.carried(1, 0, sine, cosine, exact)
+
+    @abstractmethod
+    def carried(
+        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
+    ) -> tuple[Jet, Jet]:
+        """A vector that the link carries, p along it and q across it, on the frame's axes."""
 
 
 def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:

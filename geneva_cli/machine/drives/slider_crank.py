@@ -95,11 +95,14 @@ class SlidingRod(RodPath):
     Its numbers are crank, rod, height, and the point's place on the rod: a, b, h, p, q.
     """
 
-    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """The rod's unit vector, from A towards B."""
+    def carried(
+        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
+    ) -> tuple[Jet, Jet]:
+        """A vector p along the rod, from A towards B, and q across it."""
         a, b, h, _, _ = self.exact if exact else self.rough
         ey = (h - sine * a) / b
-        return sqrt((1 - ey) * (ey + 1)), ey
+        ex = sqrt((1 - ey) * (ey + 1))
+        return ex * p - ey * q, ex * q + ey * p
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """The slider's guide pushes across itself."""
