@@ -18,7 +18,7 @@ import numpy as np
 
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, TIE
-from geneva_cli.numerics.roots_many import newton_many
+from geneva_cli.numerics.roots_many import nearer, newton_many
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
@@ -108,7 +108,7 @@ def _greatest(f: Curves, rough: Rough | None, places: Sequence[Array], start: in
     size = np.abs(np.hstack([scan.ends for scan in scans]))
     at = np.hstack([end for piece in pieces for end in piece])
     sampled = np.maximum.reduce([np.abs(x) for scan in scans for x in (scan.low, scan.high)])
-    tops = _tops(f, _joined([_high_turns(scan, sampled, start) for scan in scans]))
+    tops = _tops(f, _joined([_high_turns(scan, sampled, start) for scan in scans]), rough)
     which, x, value = tops.which - start, tops.x, np.abs(tops.value)
     if rough and rough.wrong:
         # samples that may be the greatest, as they are
@@ -279,11 +279,12 @@ class _Tops(NamedTuple):
     sampled: Mask
 
 
-def _tops(f: Curves, pairs: _Pairs) -> _Tops:
+def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
     """The right neighbour, where it is stationary, and the stationary point between the two.
 
     A stationary neighbour may hide another between the two: the slope beside it has its bend's
-    sign, and it is divided out of the slope that Newton sees.
+    sign, and it is divided out of the slope that Newton sees. The first step is by ``rough``, which
+    as a rule leaves one for the functions themselves.
     """
     which, left, right = pairs
     before, after = left[2], right[2]
@@ -299,13 +300,16 @@ def _tops(f: Curves, pairs: _Pairs) -> _Tops:
     a, b = left[0], right[0]
     at_a, at_b = left[2] == 0.0, right[2] == 0.0
 
-    def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array]:
+    def slope_of(x: Array, live: Whole, f: Curves = f) -> tuple[Array, Array, Array]:
         value, slope, bend = (v[:, 0] for v in f(x[:, None], which[live], 2))
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
         return slope, bend - slope * others, value
 
     start = turn_of_cubic(left, right)
     slopes = np.where(at_a, np.nan, left[2]), np.where(at_b, np.nan, right[2])
+    if rough:
+        slope, bend, _ = slope_of(start, np.arange(len(start)), rough.f)
+        start = nearer(slope, bend, a, b, start, slopes)
     x, rise, (_, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE, slopes)
     found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))

@@ -112,6 +112,15 @@ def newton_many(
     return out, rises, last
 
 
+def nearer(
+    value: Array, slope: Array, a: Array, b: Array, x: Array, ends: tuple[Array, Array]
+) -> Array:
+    """x after one step of ``newton_many``; as it is where that leaves its bracket."""
+    new = x + _bent_step(value, slope, (a - x, ends[0]), (b - x, ends[1]))[0]
+    inside: Array = np.where((a < new) & (new < b), new, x)
+    return inside
+
+
 def _bent_step(
     f: Array, slope: Array, one: tuple[Array, Array], two: tuple[Array, Array]
 ) -> tuple[Array, Array]:
