@@ -296,6 +296,24 @@ class Engagement:
         """The engagement whose roller runs through the whole slot: itself, but for gear sectors."""
         return self
 
+    @property
+    def ahead_deg(self) -> tuple[float, ...]:
+        """How far each roller that it takes is ahead of the input, in ``through``: one, not at all.
+
+        Where gears drive between them, one roller starts the wheel and another stops it.
+        """
+        return (0.0,)
+
+    @property
+    def apart(self) -> float:
+        """Half the angle between the slots of those rollers in the wheel, radians."""
+        return self.half_step - self.through.half_step
+
+    @property
+    def overtaking(self) -> float:
+        """By how much a roller would run ahead of its slot while something else drives, radians."""
+        return 0.0
+
 
 class Anchor(NamedTuple):
     """An input angle about which the pin's path is written without cancellation."""

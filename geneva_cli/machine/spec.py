@@ -250,7 +250,7 @@ class Spec:
         (True, False)
         """
         drawn = self.wheel.FLAT or self.wheel.SHELLS
-        return drawn and self.drive.OUTLINED and self.wheel.z <= Z_DRAWN
+        return drawn and self.wheel.z <= Z_DRAWN
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """The roller's radius r, by default L/20.

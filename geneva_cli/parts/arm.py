@@ -46,7 +46,7 @@ class CrankArm(NamedTuple):
 
 def has_arm(found: Outlines) -> bool:
     """Whether there is an arm: rollers on pins in a crank."""
-    return found.assembly.given.spec.drive.CRANKED and found.sizes.pin > 0.0
+    return found.assembly.given.spec.drive.ONE_ARM and found.sizes.pin > 0.0
 
 
 def crank_arm(found: Outlines) -> CrankArm:
@@ -57,7 +57,7 @@ def crank_arm(found: Outlines) -> CrankArm:
     """
     assembly, sizes = found.assembly, found.sizes
     spec = assembly.given.spec
-    if not spec.drive.CRANKED:
+    if not spec.drive.ONE_ARM:
         raise GenevaError(
             f'--part arm: kind = "{spec.drive.NAME}" carries its roller on no crank arm; '
             "--part parts lists its links",

@@ -28,16 +28,19 @@ if TYPE_CHECKING:
 class Assembly(NamedTuple):
     """Positions of a machine's parts by the input angle of a plain crank, in degrees.
 
-    ``rollers`` has for each roller its engagement and the input angle, degrees, by which its
-    mid-motion follows the first roller's; ``slots`` for each slot of the wheel, counterclockwise
-    from the first, its engagement and direction; ``rests`` the directions of the crank's axis while
-    the wheel rests, seen from the wheel, each half-way between two slots.
+    ``motions`` has for each motion of a turn its engagement and the input angle, degrees, by which
+    its middle follows the first one's; ``rollers`` for each roller the engagement in which it runs
+    through a slot, and the same of it: one a motion, but two where gears drive between them.
+    ``slots`` has for each slot of the wheel, or for each such pair of slots, counterclockwise from
+    the first, its engagement and direction; ``rests`` the directions of the crank's axis while the
+    wheel rests, seen from the wheel, each half-way between two slots.
     """
 
     mechanism: Mechanism
     L: float
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
+    motions: tuple[tuple[Engagement, float], ...]
     rollers: tuple[tuple[Engagement, float], ...]
     slots: tuple[tuple[Engagement, float], ...]
     rests: tuple[float, ...]
@@ -63,7 +66,24 @@ class Assembly(NamedTuple):
 
     def pin(self, number: int, input_deg: Array) -> Array:
         """A roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
-        engagement, behind = self.rollers[number]
+        return self._path(*self.rollers[number], input_deg)
+
+    def driving(self, number: int, input_deg: Array) -> Array:
+        """The same of the roller that moves the wheel in a motion; while gears do, where it was or
+        will be as they take over.
+        """
+        return self._path(*self.motions[number], input_deg)
+
+    def geared(self, input_deg: Array) -> Array:
+        """Where gears drive the wheel, and no roller, (n,)."""
+        half = 0.5 * self.turn_deg
+        found = np.zeros(len(input_deg), dtype=bool)
+        for engagement, behind in self.motions:
+            at = (input_deg - behind + half) % self.turn_deg - half
+            found |= engagement.slot.touches(at) == 0.0
+        return found
+
+    def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
         at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
         if engagement.groove is not None:
             return self.L * roller_in_groove(engagement.groove, at)
@@ -92,9 +112,9 @@ class Assembly(NamedTuple):
         """The wheel's angle at input angles of a whole turn from the first entry on."""
         out = np.empty(len(input_deg))
         turned = 0.0
-        for i, (engagement, mid) in enumerate(self.rollers):
+        for i, (engagement, mid) in enumerate(self.motions):
             begins = mid + engagement.entry_deg
-            after = self.rollers[i + 1] if i + 1 < len(self.rollers) else None
+            after = self.motions[i + 1] if i + 1 < len(self.motions) else None
             ends = after[1] + after[0].entry_deg if after else np.inf
             here = (input_deg >= begins) & (input_deg < ends)
             at = np.minimum(input_deg[here] - mid, engagement.exit_deg)
@@ -110,7 +130,7 @@ class Assembly(NamedTuple):
     @property
     def start_deg(self) -> float:
         """Input angle of the first engagement's entry, from which a whole turn is counted."""
-        return self.rollers[0][0].entry_deg
+        return self.motions[0][0].entry_deg
 
 
 def assembly(mechanism: Mechanism) -> Assembly:
@@ -125,13 +145,6 @@ def assembly(mechanism: Mechanism) -> Assembly:
             "`assembly` are laid flat as .dxf and .svg, solids as .step; as tables (-o FILE.csv) "
             "`wheel` is the slots on the sphere, and `slot` one of them laid flat",
             ("wheel", "gearing"),
-        )
-    if not spec.drive.OUTLINED:
-        raise GenevaError(
-            f'kind = "{spec.drive.NAME}": its toothed sectors are no outline to cut; '
-            "`--part gears` draws their blanks, `sheet` all but the wheel, and `slot` writes its "
-            "slots as a table (-o FILE.csv)",
-            ("drive", "kind"),
         )
     if spec.wheel.z > Z_DRAWN:
         raise GenevaError(
@@ -153,14 +166,20 @@ def assembled(mechanism: Mechanism) -> Assembly:
         mechanism = build(spec.replace(drive=crank))
     turn = 360.0 * mechanism.spec.drive.turns
     periods = round(turn / mechanism.period_deg)
-    rollers = tuple(
+    motions = tuple(
         (engagement, engagement.mid_deg + k * mechanism.period_deg)
         for k in range(periods)
         for engagement in mechanism.engagements
     )
+    rollers = tuple(
+        (engagement.through, behind - ahead)
+        for engagement, behind in motions
+        for ahead in engagement.ahead_deg
+    )
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN
-    return Assembly(mechanism, L, sign, turn, rollers, *_around(mechanism), given, to_input)
+    around = _around(mechanism)
+    return Assembly(mechanism, L, sign, turn, motions, rollers, *around, given, to_input)
 
 
 def _same(input_deg: float) -> float:

@@ -27,7 +27,7 @@ from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, roller_plates, wheel_part
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.shafts import crank_shaft_radius, shafts
+from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.sizes import pin_radius, thicknesses
 from geneva_cli.parts.turn.planes import crank_stop
 
@@ -102,7 +102,7 @@ def built(
     arm = crank_arm(found) if has_arm(found) else None
     standing = tuple(standing_plates(found, bars, tolerance, curves))
     low, stop = lowest(standing), crank_stop(found, bars)
-    own = crank_shaft_radius(found) > 0.0
+    own = crank_shaft_radius(found) > 0.0, wheel_shaft_radius(found) > 0.0
     first = tuple(first_members(given, bars))
     proof = Proof(given, found)
     return Built(
@@ -118,7 +118,7 @@ def built(
         first,
         (
             *shafts(found, low, stop),
-            *link_shafts(given, bars, low, stop, own),
+            *link_shafts(given, bars, low, stop, *own),
             *driver_shaft(proof, low),
         ),
         standing,

@@ -28,7 +28,6 @@ class Part(NamedTuple):
     sheet: str | None = None  # as a drawing sheet with dimensions
     alone: bool = False  # whether it is drawn without the outlines of wheel and crank
     in_front: bool = False  # whether it is of a first wheel, in front of the crank
-    bare: str | None = None  # where the drive leaves the wheel no outline
     flat: str | None = None  # its drawing, or sheet, laid flat where the wheel is a sphere's
 
 
@@ -52,7 +51,7 @@ PARTS = {
     "groove": Part("groove:groove_table", "drawings:groove"),
     "groove-plate": Part(drawing="groove_plate:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
-    "sheet": Part(sheet="sheet.sheet:sheet", bare="sheet.bare:sheet", flat="sphere.sheet:sheet"),
+    "sheet": Part(sheet="sheet.sheet:sheet", flat="sphere.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
@@ -98,9 +97,7 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     own = PARTS.get(part)
     if own is None:
         return False
-    if not _in_plane(mechanism):
-        return own.alone or own.flat is not None
-    return own.alone or (own.bare is not None and not mechanism.spec.drive.OUTLINED)
+    return own.alone or (own.flat is not None and not _in_plane(mechanism))
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -141,8 +138,7 @@ def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> She
     if not is_alone(proof.mechanism, part):
         made: Sheet = _made(own.sheet)(proof.found, tolerance_mm, curves)
         return made
-    by = own.bare if _in_plane(proof.mechanism) else own.flat
-    alone: Sheet = _made(by)(proof, tolerance_mm, curves)
+    alone: Sheet = _made(own.flat)(proof, tolerance_mm, curves)
     return alone
 
 

@@ -68,7 +68,7 @@ def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """A relief as wide as the wheel needs it: offset slots turn their horns past its edge."""
-    _, direction = swept(one.roller, 1)
+    _, direction = swept(one.motion, 1)
     middle = 0.5 * (one.start + one.end)
     off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
     spare = sizes.relief / sizes.lock

@@ -12,6 +12,7 @@ import numpy as np
 
 from geneva_cli.curves import fit
 from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, Shape, closed, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
@@ -59,8 +60,8 @@ def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
     level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.assembly.L
     rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
-    pitch = pitch_line(found.assembly, engagement, tolerance, curves)
-    return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), pitch))
+    pitch = pitch_lines(found.assembly, engagement, tolerance, curves)
+    return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), *pitch))
 
 
 def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
@@ -127,10 +128,20 @@ def crank_shapes(found: Outlines) -> list[Shape]:
     return [*found.crank, *circles, *bolts(found)]
 
 
-def pitch_line(
+def pitch_lines(
+    assembly: Assembly, engagement: Engagement, tolerance: float, curves: str
+) -> list[Contour]:
+    """The slot's pitch curve, the first half of the way where the roller comes back on it; or of a
+    pair of slots both.
+    """
+    apart, engagement = engagement.apart, engagement.through
+    line = _pitch_line(assembly, engagement, tolerance, curves)
+    return [turned(line, -apart), turned(line, apart)] if apart else [line]
+
+
+def _pitch_line(
     assembly: Assembly, engagement: Engagement, tolerance: float, curves: str
 ) -> Contour:
-    """The slot's pitch curve, the first half of the way where the roller comes back on it."""
     at = np.array([engagement.entry_deg, 0.0])
     x, y = engagement.slot(at, 0)
     if not engagement.slot.curved:

@@ -26,7 +26,7 @@ def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
             f'--part links: kind = "{mechanism.spec.drive.NAME}" has none: '
             + (
                 "its crank is --part arm"
-                if mechanism.spec.drive.CRANKED
+                if mechanism.spec.drive.ONE_ARM
                 else "--part parts lists what it has"
             )
         )

@@ -45,20 +45,21 @@ def link_shafts(
     lowest: float,
     stop: float | None = None,
     crank_has_one: bool = False,
+    wheel_has_one: bool = False,
 ) -> Iterator[Member]:
     """The shafts at their places at input angle 0.
 
     ``lowest`` is the frame's lower face, ``stop`` where the crank's shaft ends above it;
-    ``crank_has_one`` where that carries more than links, and is not one of these.
+    ``crank_has_one`` where that carries more than links, and is not one of these, as the wheel's.
     """
     L = mechanism.center_distance_mm
     for axis in _axes(mechanism):
         on_crank = same(axis.at, (L, 0.0), L)
-        if on_crank and crank_has_one:
+        on_wheel = same(axis.at, (0.0, 0.0), L)
+        if (on_crank and crank_has_one) or (on_wheel and wheel_has_one):
             continue
         if axis.stands:
             what = "shaft" if Joint.SHAFT in axis.kinds else "pivot"
-            on_wheel = same(axis.at, (0.0, 0.0), L)
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
             low = stop if on_crank and stop is not None else lowest
             high = thicknesses(mechanism.spec.size, L).wheel if on_wheel else None

@@ -111,7 +111,7 @@ def link_sizes(
             ("size", "link_width_mm"),
         )
     room = _beside_hub(mechanism, links)
-    arm = thick.arm if spec.drive.CRANKED else thick.link
+    arm = thick.arm if spec.drive.ONE_ARM else thick.link
     return LinkSizes(
         wall=wall,
         pin=pin,

@@ -74,6 +74,8 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
         *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r)),
     ]
     bored = [hole for member in cut for hole in placed_holes(member)]
+    if found and found.sizes.wheel_bore:  # as wide as the wheel's shaft, where it is on that
+        bored.append(Circle(HOLES, (0.0, 0.0), found.sizes.wheel_bore))
     gears = [_gear(link, sizes, mechanism, bored) for link in links if link.radius_mm]
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
@@ -85,7 +87,7 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
 
 
 def _gear(link: Link, sizes: LinkSizes, mechanism: Mechanism, bored: list[Circle]) -> Gear:
-    """A gear has the bore of the link on its shaft, if there is one."""
+    """A gear has the bore of the link, or the wheel, on its shaft, if there is one."""
     (at,), L = places(link), mechanism.center_distance_mm
     z = complex(at[len(at) // 2])
     own = sizes.bore(link.radius_mm, L, abs(z - L) < SAME * L)

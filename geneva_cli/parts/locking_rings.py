@@ -21,7 +21,7 @@ from geneva_cli.parts.sizes import Sizes
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-    # Where the wheel comes within the disc in one roller's motion, at every so many of the places
+    # Where the wheel comes within the disc in one motion, at every so many of the places
     # that are looked at: distances from the crank's axis and directions.
     Swept: TypeAlias = Callable[[int, int], tuple[Array, Array]]
 
@@ -55,7 +55,7 @@ def rings(
     """
 
     def reached(every: int) -> Reached:
-        each = [swept(i, every) for i in range(len(assembly.rollers))]
+        each = [swept(i, every) for i in range(len(assembly.motions))]
         return Reached(*(np.concatenate(one) for one in zip(*each, strict=True)))
 
     some, all_ = reached(SOME), cache(reached)

@@ -19,7 +19,7 @@ from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.built import Built, built
 from geneva_cli.parts.crank import roller_centres
-from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_line, wheel_shapes
+from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_lines, wheel_shapes
 from geneva_cli.parts.frame import LAYER as STANDING
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
@@ -79,7 +79,7 @@ def _turns(found: Outlines) -> Iterator[Arc]:
     reach = max(math.hypot(*s.start) for s in found.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
     yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
-    if not assembly.given.spec.drive.CRANKED:
+    if not assembly.given.spec.drive.ONE_ARM:
         yield from _link_turns(found)
         return
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
@@ -121,8 +121,10 @@ def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Sh
             x, y = assembly.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - assembly.L, y), 9))
     shapes += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
-    pitches = {s: pitch_line(assembly, s, tolerance, curves) for s in found.slots}
+    pitches = {s: pitch_lines(assembly, s, tolerance, curves) for s in found.slots}
     shapes += [
-        turned(pitches[engagement], direction + psi) for engagement, direction in assembly.slots
+        turned(line, direction + psi)
+        for engagement, direction in assembly.slots
+        for line in pitches[engagement]
     ]
     return shapes

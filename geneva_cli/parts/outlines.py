@@ -57,15 +57,15 @@ class Outlines(NamedTuple):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
-    def in_wheel(self, roller: int, at: Array) -> Array:
-        """A roller's centre in the wheel's frame, mm, at input angles (n,): (n, 2)."""
-        return turned_points(self.assembly.pin(roller, at), -self.assembly.wheel(at))
+    def in_wheel(self, motion: int, at: Array) -> Array:
+        """Where a motion's roller is in the wheel's frame, mm, at input angles (n,): (n, 2)."""
+        return turned_points(self.assembly.driving(motion, at), -self.assembly.wheel(at))
 
-    def past_mouth(self, roller: int, at: Array) -> Array:
-        """How far a roller's centre is in its slot, past the mouth's corners, mm, (n,)."""
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """How far that is in its slot, past the mouth's corners, mm, (n,)."""
         # these are half a slot's width beside its middle, on the rim
         level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
-        far = np.hypot(*self.assembly.pin(roller, at).T)
+        far = np.hypot(*self.assembly.driving(motion, at).T)
         past: Array = self.assembly.sign * (level - far)
         return past
 
@@ -140,7 +140,7 @@ def _overlap(gaps: Gaps, close: float) -> float:
     than by ``close``.
     """
     least = 0.0
-    for engagement, behind in gaps.assembly.rollers:
+    for engagement, behind in gaps.assembly.motions:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)
         at = (
             behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG

@@ -15,7 +15,7 @@ class Relief(NamedTuple):
 
     start: float
     end: float
-    roller: int  # whose motion it is for
+    motion: int  # which it is for
 
     @property
     def half(self) -> float:
@@ -26,7 +26,7 @@ class Relief(NamedTuple):
 def reliefs(assembly: Assembly) -> list[Relief]:
     """The reliefs around the crank: the directions of the line of centres while the wheel moves."""
     found = []
-    for i, (engagement, behind) in enumerate(assembly.rollers):
+    for i, (engagement, behind) in enumerate(assembly.motions):
         ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
         start, end = sorted(_lock_directions(assembly, behind, ends))
         found.append(Relief(start, end, i))

@@ -28,12 +28,11 @@ class RollerPaths(NamedTuple):
 
 def roller_paths(assembly: Assembly) -> RollerPaths:
     """The paths of a machine's rollers."""
-    paths = [_pitch(assembly, s) for s in assembly.kinds]
+    kinds = [s.through for s in assembly.kinds]
+    paths = [_pitch(assembly, s) for s in kinds]
     reach = [np.hypot(*points.T) for points in paths]
     ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
-    beside = [
-        _to_slot(assembly, s, points) for s, points in zip(assembly.kinds, paths, strict=True)
-    ]
+    beside = [_to_slot(assembly, s, points) for s, points in zip(kinds, paths, strict=True)]
     return RollerPaths(ends, min(_arm(assembly), *beside))
 
 

@@ -17,7 +17,6 @@ DESIGNS = (
     "epicyclic-z4",
     "epicyclic-soft-z6",
     "geneva-pair",
-    "gear-sector",
 )
 
 
@@ -82,12 +81,6 @@ def test_the_roller_is_where_the_links_carry_it(machine):
     elif "first crank" in found:  # the first wheel is driven along the line from its axis
         px, py = found["first crank"][1]
         assert np.abs(np.sin(np.arctan2(py, px - L) - np.arctan2(y, x - L))).max() < 1e-14
-    elif "crank gear" in found:  # one roller on the way in, the other on the way out
-        _, a, b = found["crank"]
-        near = [np.hypot(u - x, v - y) < NEAR for u, v in (a, b)]
-        before = at < -0.5 * machine.spec.drive.sector_deg
-        after = at > 0.5 * machine.spec.drive.sector_deg
-        assert before.any() and near[0][before].all() and near[1][after].all()
     else:
         (carrier,) = [found[n] for n in ("coupler", "rod", "planet's arm") if n in found]
         px, py = carrier[-1]

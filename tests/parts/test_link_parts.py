@@ -33,7 +33,6 @@ NAMES = {
     "epicyclic-z4": {"carrier", "planet's arm"},
     "epicyclic-soft-z6": {"carrier", "planet's arm"},
     "geneva-pair": {"first crank"},
-    "gear-sector": {"crank"},
     "cam-geneva": {"crank", "crank's block"},
 }
 
@@ -127,7 +126,6 @@ LENGTHS = {
     "side-crank-z6": {("input crank", 0, 1): "input crank r"},
     "epicyclic-z4": {("carrier", 0, 1): "carrier R0"},
     "geneva-pair": {("first crank", 0, 1): "first crank radius"},
-    "gear-sector": {("crank", 0, 2): "crank radius", ("crank", 1, 2): "crank radius"},
 }
 
 
@@ -251,13 +249,23 @@ def test_a_pin_may_be_left_out():
     assert len(holes(drawn_links(design.mechanism).plates[1])) == 3
 
 
+def test_rollers_on_links_are_listed_without_a_wheel():
+    """Wheels of more than 360 slots are not drawn; what moves their roller is."""
+    keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
+    size = Size(roller_radius_mm=1.0)
+    table = Design.of(Spec(Wheel(400), Drive("slider-crank"), keys, size=size)).part_table("parts")
+    count = dict(zip(*(table.to_dict()[name] for name in ("name", "count")), strict=True))
+    assert count["wheel"] is None  # a dimension alone
+    assert (count["rod"], count["roller"], count["pin"]) == (1, 1, 1)
+
+
 SHAFTS = {
     "side-crank-z6": {"input crank's shaft": ("input crank", "frame")},
     "four-bar-z4": {"crank's shaft": ("crank", "frame"), "rocker's pivot": ("rocker", "frame")},
     "slider-crank": {"crank's shaft": ("crank", "frame")},
     "geneva-pair": {"first crank's shaft": ("first crank", "frame")},
     "epicyclic-soft-z6": {"shaft of carrier, planet's arm, planet": ("carrier", None)},
-    "gear-sector": {"crank's shaft": ("crank", "frame")},
+    "gear-sector": {"wheel's shaft": ("wheel", "frame")},
     "noncircular-gears": {"driver gear's shaft": (None, "frame")},
 }
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import tomli
 
-from geneva_cli import GenevaError, load
+from geneva_cli import load
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion
 from geneva_cli.spec.schema import REQUIRED, SpecTable, fields
@@ -30,17 +30,13 @@ def tables(kind: str) -> list[type[SpecTable]]:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_new_spec_passes_and_is_exported_as_it_is(kind: str, tmp_path: Path) -> None:
-    """A drawing of the wheel, unless its drive has no outlines; its slots as a table anywhere."""
+    """A drawing of the wheel, and its slots as a table."""
     file = tmp_path / "spec.toml"
     file.write_text(template(kind), encoding="utf-8")
     design = load(str(file))
     assert all(c.passes is not False for c in design.checks)
     assert len(design.slot()) >= 3
-    if not design.spec.drive.OUTLINED:
-        with pytest.raises(GenevaError, match="no outline"):
-            design.drawing("wheel")
-    else:
-        assert design.drawing("wheel").layers
+    assert design.drawing("wheel").layers
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -62,6 +62,9 @@ class HornStress(NamedTuple):
 class Side(NamedTuple):
     """One horn of a slot, in the wheel's frame: that which bears a torque forwards, or back.
 
+    ``engagement`` is that of the roller in its slot; ``whole`` the motion's, which has the load,
+    the input there being ``ahead_deg`` less.
+
     Of m designs, or of one: numbers are floats or (m, 1), places and directions (2, m, 1).
     """
 
@@ -73,6 +76,8 @@ class Side(NamedTuple):
     centre: Array  # of the recess
     inwards: Array  # along the slot at its mouth
     across: Array  # square to that, from the recess's centre to the slot
+    whole: Engagement
+    ahead_deg: float
 
     @property
     def mouth_deg(self) -> float:
@@ -151,8 +156,10 @@ def product(a: Array, b: Array) -> Array:
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Side]:
     """Both horns of each kind of slot."""
     L, found = mechanism.center_distance_mm, []
-    for engagement in mechanism.engagements:
-        for end, mouth in ((-1.0, engagement.entry_deg), (1.0, engagement.exit_deg)):
+    for whole in mechanism.engagements:
+        engagement, aheads = whole.through, whole.ahead_deg
+        ends = engagement.entry_deg, engagement.exit_deg
+        for end, mouth, ahead in zip((-1.0, 1.0), ends, (aheads[0], aheads[-1]), strict=True):
             rest = -end * engagement.half_step  # direction of the crank's axis, the wheel at rest
             at = pitch(engagement, mouth)
             inwards = -end * vector(at.tangent_x, at.tangent_y)
@@ -160,9 +167,8 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
             across = vector(-inwards[1], inwards[0])
             way = L * vector(at.x, at.y) - centre
             across = across * np.copysign(1.0, product(across, way))
-            found.append(
-                Side(engagement, L, half_width_mm, recess_mm, end, centre, inwards, across)
-            )
+            ways = centre, inwards, across
+            found.append(Side(engagement, L, half_width_mm, recess_mm, end, *ways, whole, ahead))
     return found
 
 
@@ -234,16 +240,17 @@ def _horns(
         for _ in range(ROUNDS):  # the middle of what is left is the best so far
             found, around = _looked(some[0], one, around, some[3])
             best[:, own] = np.where(np.isnan(found[0]), best[:, own], found)
-        mid = np.ravel(one.engagement.mid_deg)
-        best[1, own] += mid
+        best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
     at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
 def _halves(side: Side) -> list[float]:
-    """The ends from which the roller runs along this horn's wall: of curved slots its own."""
+    """The ends from which the roller runs along this horn's wall: its own, of curved slots, and
+    where another roller leaves by another slot.
+    """
     engagement = side.engagement
-    if engagement.slot.curved:
+    if not side.whole.slot.walls_flat:
         return [side.mouth_deg]
     return [engagement.entry_deg, engagement.exit_deg]
 
@@ -302,7 +309,7 @@ def _stress(
 
     ``walls`` are points and normals of the wall, where the roller is and at the sections.
     """
-    loads = state(mechanism, side.engagement, _alike(x))
+    loads = state(mechanism, side.whole, _alike(x - side.ahead_deg))
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
     line = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0) / width)
     (contact, wall), (way, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)

@@ -87,8 +87,6 @@ class Drive(SpecTable, kw_only=True):
     IN_SERIES: ClassVar[bool] = False
     # the key of [drive] that the reactions of its links need; empty where they need none
     LENGTH: ClassVar[str] = ""
-    # whether its wheel is a flat outline that can be cut
-    OUTLINED: ClassVar[bool] = True
     n_rpm: Annotated[float, SPEED, "speed of the input shaft, constant"] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "rollers on the crank, m"] = 1
     roller_angles_deg: Annotated[

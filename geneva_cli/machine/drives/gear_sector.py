@@ -53,7 +53,6 @@ class GearSector(PinPath, kw_only=True):
         },
     )
     TOOTHED: ClassVar[bool] = True
-    OUTLINED: ClassVar[bool] = False
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle that the gears drive, D"]
     gear_ratio: Annotated[
@@ -83,19 +82,14 @@ class GearSector(PinPath, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """The crank with its rollers, one at each end of the sector, and both toothed sectors."""
+        """Both toothed sectors; the rollers are on the crank's arm."""
         L, still = plan.center_distance_mm, 0.0 * input_deg
-        axis, R = (still + L, still), L * plan.ratio
         u = self._solved(plan.engagements[0].half_step).ratio
-        m = library(input_deg)
-        ends = [radians(input_deg + side * 0.5 * self.sector_deg) for side in (1.0, -1.0)]
-        rollers = [(L - R * m.cos(a), R * m.sin(a)) for a in ends]
-        shaft, roller = Joint.SHAFT, Joint.ROLLER
+        shaft = Joint.SHAFT
         return (
-            Link("crank", (axis, *rollers), (shaft, roller, roller), 1),
             Link(
                 "crank gear",
-                (axis,),
+                ((still + L, still),),
                 (shaft,),
                 2,
                 L * u / (1.0 + u),
@@ -257,6 +251,19 @@ class SectorEngagement(Engagement):
     def through(self) -> Engagement:
         """The engagement of the plain wheel that has this slot."""
         return self._inner
+
+    @property
+    def ahead_deg(self) -> tuple[float, ...]:
+        """The roller that starts the wheel leads, the other follows: D - 2 a_t apart."""
+        half = self._sector.half_sector - self._sector.handover_deg
+        return (half, -half)
+
+    @property
+    def overtaking(self) -> float:
+        """2 (psi_t - u a_t): the slot would turn the wheel by 2 psi_t from -a_t to a_t."""
+        a = self._sector.handover_deg
+        turn = parameter(self._inner.motion(a, 0).c[0])
+        return 2.0 * (turn - self._sector.u * radians(a))
 
 
 def _slot(b: float) -> tuple[Engagement, RadialSlot]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Arc, Contour, Line, Point
+from geneva_cli.curves.shapes import Arc, Contour, Point
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts import drawings
@@ -56,21 +57,28 @@ def _axes(view: View, found: Outlines, reach: float) -> None:
     """The axes of straight slots, the rollers' way in a curved one."""
     for i, (engagement, direction) in enumerate(found.assembly.slots):
         if not engagement.slot.curved:
-            end, mouth = _axis(turned(found.slots[engagement], direction))
-            view.centre_line(*((end, mouth) if found.assembly.sign > 0.0 else (mouth, end)))
+            for end, mouth in _ends(turned(found.slots[engagement], direction)):
+                view.centre_line(*((end, mouth) if found.assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
-            view.draw(drawings.pitch_line(found.assembly, engagement, found.fine, "arcs"), CENTRE)
+            for line in drawings.pitch_lines(found.assembly, engagement, found.fine, "arcs"):
+                view.draw(line, CENTRE)
 
 
-def _axis(walls: Contour) -> tuple[Point, Point]:
-    """A straight slot's axis: the bottom of its round end, and its mouth."""
-    first, arc, last = walls.segments
-    assert isinstance(arc, Arc)
+def _ends(walls: Contour) -> list[tuple[Point, Point]]:
+    """The ends of straight slots' axes, of one or of a pair: the bottom of a round end, a mouth."""
+    first, *_, last = walls.segments
+    arcs = [piece for piece in walls.segments[1:-1] if isinstance(piece, Arc)]
+    if len(arcs) == 1:
+        return [_axis(first.start, first.end, arcs[0], last.end)]
+    return [_axis(first.start, first.end, arcs[0]), _axis(last.end, last.start, arcs[-1])]
+
+
+def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point, Point]:
+    """Of a slot with a wall from a corner inwards, a round end, and perhaps another corner."""
     x, y = arc.centre
-    way = math.atan2(first.end[1] - first.start[1], first.end[0] - first.start[0])
+    way = math.atan2(inner[1] - corner[1], inner[0] - corner[0])
     c, s = math.cos(way), math.sin(way)
-    near = [(p[0] - x) * c + (p[1] - y) * s for p in (first.start, last.end)]
-    farther = min(near)
+    farther = min((p[0] - x) * c + (p[1] - y) * s for p in (corner, *corners))
     return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
 
 
@@ -78,26 +86,31 @@ def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> No
     """Width, end and depth of a straight slot, and by how much it misses the wheel's centre."""
     direction = next(d for one, d in found.assembly.slots if one is engagement)
     walls = turned(found.slots[engagement], direction)
-    end, mouth = _axis(walls)
+    ends = _ends(walls)
+    end, mouth = ends[0]
     way = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
-    corners = walls.segments[0].start, walls.segments[-1].end
     across = way + 0.5 * math.pi
-    width = sized.slot_width(found.assembly.mechanism, found.sizes.half_width)
-    view.linear(*corners, across, times(count, width))
+    corner = walls.segments[0].start
+    count *= len(ends)
+    if len(ends) == 1:
+        width = sized.slot_width(found.assembly.mechanism, found.sizes.half_width)
+        view.linear(corner, walls.segments[-1].end, across, times(count, width))
+    else:  # one wall each
+        view.linear(corner, mouth, across, times(count, sized.plain(found.sizes.half_width)))
     foot = _foot(end, way)
     view.linear(foot, end, way, sized.plain(math.dist(foot, end)), near=True)
     view.linear(end, mouth, way, times(count, sized.plain(math.dist(end, mouth))), near=True)
     if math.hypot(*foot) > SAME:
         turn = math.atan2(foot[1], foot[0])
         view.linear((0.0, 0.0), foot, turn, sized.plain(math.hypot(*foot)))
-    ends = [
+    rounds = [
         s
         for one, d in found.assembly.slots
         if one is engagement
         for s in turned(found.slots[one], d).segments
-        if isinstance(s, Arc)
+        if isinstance(s, Arc) and math.hypot(*s.centre) > SAME
     ]
-    view.of_arcs(ends, times(count, sized.plain(ends[0].radius, "R ")))
+    view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
 
 def _foot(p: Point, way: float) -> Point:
@@ -145,7 +158,11 @@ def _steps(view: View, found: Outlines, reach: float) -> None:
     assembly = found.assembly
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
     begin = reach
-    ways = [_way(found, engagement, direction) for engagement, direction in assembly.slots]
+    ways = sorted(
+        way
+        for engagement, direction in assembly.slots
+        for way in _ways(found, engagement, direction)
+    )
     steps: dict[str, list[tuple[float, float]]] = {}
     for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
         shown = f"{number(math.degrees(end - start))}°" + (f" ±{deviation:g}°" if deviation else "")
@@ -160,15 +177,15 @@ def _steps(view: View, found: Outlines, reach: float) -> None:
         view.angular(pairs, begin, reach, times(len(pairs), text))
 
 
-def _way(found: Outlines, engagement: Engagement, direction: float) -> float:
-    """The direction of a slot's axis in the wheel."""
+def _ways(found: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
+    """The directions of the axes of a slot, or of a pair, in the wheel."""
     if engagement.slot.curved:
-        return direction
-    first = turned(found.slots[engagement], direction).segments[0]
-    assert isinstance(first, Line)
-    way = math.atan2(first.start[1] - first.end[1], first.start[0] - first.end[0])
-    way += 0.0 if found.assembly.sign > 0.0 else math.pi
-    return direction + math.remainder(way - direction, math.tau)
+        yield direction
+        return
+    for (x, y), (u, v) in _ends(turned(found.slots[engagement], direction)):
+        way = math.atan2(v - y, u - x)
+        way += 0.0 if found.assembly.sign > 0.0 else math.pi
+        yield direction + math.remainder(way - direction, math.tau)
 
 
 def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:

@@ -140,10 +140,10 @@ class BallGaps:
                 least[here] = np.minimum(least[here], away)
         return self.found.radius_mm * least
 
-    def in_wheel(self, roller: int, input_deg: Array) -> Array:
-        """A roller's centre in the wheel's frame, directions (n, 3)."""
+    def in_wheel(self, motion: int, input_deg: Array) -> Array:
+        """The centre of a motion's roller in the wheel's frame, directions (n, 3)."""
         pose = self.pose(input_deg)
-        return about(pose.pins[:, roller], -pose.wheel)
+        return about(pose.pins[:, motion], -pose.wheel)
 
     def _to_wheel(self, points: Array) -> tuple[Array, Array]:
         """Distance of points in the wheel's frame from its edge, radians, and where it is nearest.

@@ -51,14 +51,14 @@ class Shells(NamedTuple):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.ball.radius_mm
 
-    def in_wheel(self, roller: int, at: Array) -> Array:
-        """A roller's centre in the wheel's frame, mm, at input angles (n,): (n, 3)."""
-        out: Array = self.ball.radius_mm * self.gaps.in_wheel(roller, at)
+    def in_wheel(self, motion: int, at: Array) -> Array:
+        """Where a motion's roller is in the wheel's frame, mm, at input angles (n,): (n, 3)."""
+        out: Array = self.ball.radius_mm * self.gaps.in_wheel(motion, at)
         return out
 
-    def past_mouth(self, roller: int, at: Array) -> Array:
-        """How far a roller's centre is in its slot, past the mouth's corners, mm, (n,)."""
-        polar = np.arccos(np.clip(self.gaps.in_wheel(roller, at)[:, 2], -1.0, 1.0))
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """How far that is in its slot, past the mouth's corners, mm, (n,)."""
+        polar = np.arccos(np.clip(self.gaps.in_wheel(motion, at)[:, 2], -1.0, 1.0))
         past: Array = self.ball.radius_mm * (self.ball.mouth - polar)
         return past
 

@@ -17,7 +17,7 @@ EXACT = 1e-10  # radians: smaller angles are rounding
 
 def search_deg(parts: Turned) -> float:
     """The largest play that is looked for, half a step: beyond it the wheel's position is lost."""
-    return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.rollers))
+    return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.motions))
 
 
 def free_angles(parts: Turned, at: Array, fits: bool = False) -> tuple[Array, Array]:
@@ -29,7 +29,8 @@ def free_angles(parts: Turned, at: Array, fits: bool = False) -> tuple[Array, Ar
 def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stopped]:
     """What stops the wheel on its way back and on at input angles (n,), and where.
 
-    ``fits`` says that nothing overlaps there; else it is looked for.
+    ``fits`` says that nothing overlaps there; else it is looked for. Gears hold the wheel both
+    ways where they drive it: their teeth are taken to fit.
     """
     gaps, close, count = parts.gaps, parts.close, len(at)
     pose, most = gaps.pose(at), math.radians(search_deg(parts))
@@ -39,6 +40,9 @@ def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stop
         overlap = np.flatnonzero(gaps.gap(pose, np.zeros(count), close) < -close)
         for each in found:
             each[overlap] = each[count + overlap] = 0.0
+    meshed = np.flatnonzero(parts.assembly.geared(at))
+    for each in found:
+        each[meshed] = each[count + meshed] = 0.0
     back, on = ([x[i : i + count] for x in found] for i in (0, count))
     return Stopped(*back), Stopped(*on)
 

@@ -162,7 +162,7 @@ def positions(parts: Turned) -> Array:
     count = min(math.ceil(total[-1] / feature), POSITIONS)
     found = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large is fouled for less than a degree about entry and exit.
-    ends = np.array([b + e for s, b in assembly.rollers for e in (s.entry_deg, s.exit_deg)])
+    ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
     beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
     near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg

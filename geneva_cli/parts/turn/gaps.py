@@ -181,7 +181,7 @@ class Gaps:
         Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
         The wheel is looked at after so many degrees of the input, or at some of these places.
         """
-        engagement, behind = self.assembly.rollers[number]
+        engagement, behind = self.assembly.motions[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
         at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)[::every]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)

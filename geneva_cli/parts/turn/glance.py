@@ -31,10 +31,10 @@ def loose_about(parts: Turned, shown_deg: float) -> float:
     """The largest play, degrees, at those of these positions where no roller is in its slot."""
     at = _about(parts, shown_deg)
     free = np.ones(len(at), dtype=bool)
-    for start, end, roller, rests in windows(parts):
+    for start, end, motion, rests in windows(parts):
         here = np.flatnonzero((at >= start - NEAR) & (at <= end + NEAR))
         if len(here) and not rests:
-            free[here] &= parts.past_mouth(roller, at[here]) <= -NEAR * parts.assembly.L
+            free[here] &= parts.past_mouth(motion, at[here]) <= -NEAR * parts.assembly.L
     if not free.any():
         return 0.0
     return math.degrees(float(np.maximum(*free_angles(parts, at[free])).max()))

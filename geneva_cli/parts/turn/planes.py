@@ -68,10 +68,13 @@ def planes(found: Outlines) -> Planes:
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
     every = links_at(given, turn)
     links = [link for link in every if not link.radius_mm]
-    if not links:
+    if not every:
         return Planes(None, None)
     made = drawn_links(given, found)
     assert made.sizes is not None
+    geared = list(_gears(found, made, every, turn))
+    if not links:
+        return Planes(min(geared, default=None), None)
     outlines = _outlines(made)
     shaft = _Shaft(found, links, outlines, made.sizes)
     passing = [*_passing(found, links, made.sizes, turn), *shaft.between()]
@@ -81,7 +84,7 @@ def planes(found: Outlines) -> Planes:
         for one in passing
         if one.plane == link.plane
     ]
-    met += _gears(found, made, every, turn)
+    met += geared
     out = shaft.way_out(turn)
     blocked = out if out is not None and out.gap < 0.0 else None
     return Planes(min(met, default=None), blocked)
@@ -97,6 +100,8 @@ def _gears(found: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -
         return
     gears = [link for link in links if link.radius_mm]
     for gear, link in zip(made.gears, gears, strict=True):
+        if np.abs(places(link)[0]).max() < SAME * found.assembly.L:
+            continue  # it is on the wheel's shaft
         for one in _on_wheel(found, [link], made.sizes, 0.0 * turn):
             gaps = np.abs(one.way - places(link)[0]) - gear.outer - one.radius
             least = int(np.argmin(gaps))

@@ -66,20 +66,20 @@ class Play(NamedTuple):
 
 
 class Window(NamedTuple):
-    """A motion or a dwell: the input angles at its ends, and the roller that moves the wheel."""
+    """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
 
     start: float
     end: float
-    roller: int
+    motion: int
     rests: bool
 
 
 def windows(parts: Turned) -> Iterator[Window]:
     """The motions and dwells of a turn."""
-    assembly, rollers = parts.assembly, parts.assembly.rollers
-    for i, (engagement, behind) in enumerate(rollers):
-        after, later = rollers[(i + 1) % len(rollers)]
-        turns = assembly.turn_deg if i + 1 == len(rollers) else 0.0
+    assembly, motions = parts.assembly, parts.assembly.motions
+    for i, (engagement, behind) in enumerate(motions):
+        after, later = motions[(i + 1) % len(motions)]
+        turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
         entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
         following = later + turns + after.entry_deg
         yield Window(entry, exit_, i, False)
@@ -136,19 +136,19 @@ def _measured(parts: Turned, at: Array, fits: bool) -> Play:
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
     last = assembly.start_deg + assembly.turn_deg
-    for a, b, roller, rests in windows(parts):
+    for a, b, motion, rests in windows(parts):
         here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
         if not len(here):
             continue
         x = at[here]
         low, high = np.maximum(x - SMALL, assembly.start_deg), np.minimum(x + SMALL, last)
-        before, after = np.split(parts.in_wheel(roller, np.concatenate((low, high))), 2)
+        before, after = np.split(parts.in_wheel(motion, np.concatenate((low, high))), 2)
         moved = np.linalg.norm(after - before, axis=1) / (high - low)
         speed[here] = np.maximum(speed[here], moved)
         if rests:
             resting[here] = True
         else:
-            guided[here] |= parts.past_mouth(roller, x) > -NEAR * assembly.L
+            guided[here] |= parts.past_mouth(motion, x) > -NEAR * assembly.L
     known = touching(parts)
     back_push, on_push = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
     return Play(

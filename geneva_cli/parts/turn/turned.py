@@ -120,8 +120,11 @@ class Turned(Protocol):
     def contact(self) -> float:
         """The overlap, mm, up to which parts count as touching."""
 
-    def in_wheel(self, roller: int, at: Array) -> Array:
-        """A roller's centre in the wheel's frame, mm, at input angles (n,): (n, 2) or (n, 3)."""
+    def in_wheel(self, motion: int, at: Array) -> Array:
+        """The centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
 
-    def past_mouth(self, roller: int, at: Array) -> Array:
-        """How far a roller's centre is in its slot, past the mouth's corners, mm, (n,)."""
+        An array (n, 2), or (n, 3) of directions on a sphere.
+        """
+
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """How far that is in its slot, past the mouth's corners, mm, (n,)."""

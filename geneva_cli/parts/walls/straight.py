@@ -1,4 +1,11 @@
-"""The walls of a straight slot: two flanks and a round end."""
+"""The walls of a straight slot: two flanks and a round end.
+
+Where gears drive between two rollers, a motion has two slots, half of the angle between them on
+either side of its middle: one that starts the wheel and one that stops it. A roller leaves the
+first, and comes to the second, on an epicycloid with its cusp at the slot's end, which leans to the
+other slot. It sweeps away that side of each: so each keeps the wall on its recess's side, and
+between the two lies an arc about the wheel's axis, as deep as the slots are.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +14,7 @@ import math
 import numpy as np
 
 from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Arc, Contour, Line, joined
+from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
@@ -17,16 +24,19 @@ from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
 LOOKS = 721  # places at which the deepest is looked for
+ONE = 1e-9  # radians: slots nearer to each other are one
+QUARTER = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
 
 
 def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
     """A straight slot from one corner of its mouth round the end to the other, counterclockwise
-    about the wheel's axis.
+    about the wheel's axis; or a pair of slots, and what is between them.
 
     The wall that faces the crank's axis at entry ends where the roller enters, the other where it
     leaves; of offset slots, and of unequal ones, these ends lie at different radii. Raises
     GenevaError where the wheel ends short of the slot's end.
     """
+    apart, engagement = engagement.apart, engagement.through
     w, out = sizes.half_width, assembly.sign
     angle, level = _axis(assembly, engagement)
     bottom = _deepest(assembly, engagement, angle) - out * sizes.slot_bottom
@@ -41,14 +51,32 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
                 ("size", "wheel_radius_mm"),
             )
         starts.append(start)
-    pieces = joined(
-        (
-            Line((starts[0], level - w), (bottom, level - w)),
-            Arc((bottom, level - w), (bottom, level + w), -out),
-            Line((bottom, level + w), (starts[1], level + w)),
+    first = Line((starts[0], level - w), (bottom, level - w))
+    last = Line((bottom, level + w), (starts[1], level + w))
+    if abs(apart) < ONE:
+        pieces: tuple[Segment, ...] = (first, Arc(first.end, last.start, -out), last)
+    else:
+        _refuse_crossed(apart)
+        end = (bottom - w, 0.0)
+        begin = _at(-apart, first, Arc(first.end, end, -QUARTER))
+        between = about((0.0, 0.0), end[0], -apart, 2.0 * apart)
+        pieces = (*begin, between, *_at(apart, Arc(end, last.start, -QUARTER), last))
+    return turned(Contour(LAYER, joined(pieces), closed=False), angle)
+
+
+def _at(direction: float, *pieces: Segment) -> tuple[Segment, ...]:
+    return turned(Contour(LAYER, pieces, closed=False), direction).segments
+
+
+def _refuse_crossed(apart: float) -> None:
+    """Raise GenevaError where the slot that stops the wheel would lie ahead of the other."""
+    if apart < 0.0:
+        raise GenevaError(
+            f"the slots that start and stop the wheel cross by {math.degrees(-2.0 * apart):.4g} "
+            "deg: between them the gears turn it by less than the rollers in its slots would; a "
+            'larger sector_deg, or gear_ratio = "shockless", keeps them apart',
+            ("drive", "sector_deg"),
         )
-    )
-    return turned(Contour(LAYER, pieces, closed=False), angle)
 
 
 def _axis(assembly: Assembly, engagement: Engagement) -> tuple[float, float]:

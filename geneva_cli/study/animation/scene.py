@@ -42,9 +42,7 @@ def scene(design: Design) -> Scene:
     found = None
     with suppress(GenevaError):  # no flat parts
         found = design.parts
-    bars, rollers = turn.bars(found), tuple(turn.roller(one) for one in turn.passages)
-    if not mechanism.spec.drive.OUTLINED:  # its rollers are where its links end
-        rollers = bars[0].joints[1:]
+    bars, rollers = turn.bars(found), turn.rollers()
     spec = design.spec
     title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     return Scene(

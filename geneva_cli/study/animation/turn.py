@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -59,6 +60,11 @@ class MachineTurn:
             for k in range(periods)
             for i, one in enumerate(each)
         )
+        self._carried = [
+            (one.engagement.through, one.mid - ahead)
+            for one in self.passages
+            for ahead in one.engagement.ahead_deg
+        ]
         self.start = self.passages[0].entry
         self.end = self.start + self.whole
         self._links: dict[bytes, tuple[Link, ...]] = {}
@@ -89,24 +95,32 @@ class MachineTurn:
             return ahead + rate * (x - one.mid)
 
         def angle(x: Array) -> Array:
-            u, v = (self.pin(one, x) - (self.L, 0.0)).T
+            u, v = (self.centre(0, x) - (self.L, 0.0)).T
             off: Array = (np.arctan2(v, u) - even(x) + math.pi) % math.tau - math.pi
             return even(x) + off
 
         return self._sampled(even if sense else angle, ANGLE, gain)
 
     def pin(self, one: Passage, input_deg: Array) -> Array:
-        """A roller's centre, mm, (n, 2)."""
-        half = 0.5 * self.whole
-        at = (input_deg - one.mid + half) % self.whole - half
-        if one.engagement.groove is not None:
-            return self.L * roller_in_groove(one.engagement.groove, at)
-        x, y = (along.c[0] + 0.0 * at for along in one.engagement.path(at, 0))
-        return self.L * np.column_stack((x, y))
+        """The centre of the roller that moves the wheel in a passage, mm, (n, 2)."""
+        return self._pin(one.engagement, one.mid, input_deg)
 
-    def roller(self, one: Passage) -> Place:
-        """A roller's centre over the turn."""
-        return self._place(lambda x: self.pin(one, x))
+    def centre(self, number: int, input_deg: Array) -> Array:
+        """A roller's centre, mm, (n, 2)."""
+        return self._pin(*self._carried[number], input_deg)
+
+    def rollers(self) -> tuple[Place, ...]:
+        """The centres of all rollers over the turn."""
+        numbers = range(len(self._carried))
+        return tuple(self._place(partial(self.centre, number)) for number in numbers)
+
+    def _pin(self, engagement: Engagement, mid: float, input_deg: Array) -> Array:
+        half = 0.5 * self.whole
+        at = (input_deg - mid + half) % self.whole - half
+        if engagement.groove is not None:
+            return self.L * roller_in_groove(engagement.groove, at)
+        x, y = (along.c[0] + 0.0 * at for along in engagement.path(at, 0))
+        return self.L * np.column_stack((x, y))
 
     def bars(self, found: Outlines | None) -> tuple[Bar, ...]:
         """The links as they are cut; ``found`` are the outlines of the other parts, if any."""

@@ -57,7 +57,8 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     Where the parts cannot be made, or turned, one check says so in place of the rest.
     """
     if not mechanism.spec.has_parts:
-        yield Check("parts", None, "proved", None, None, f"not proved: {_unturned(mechanism)}")
+        why = f"not proved: wheels of more than {Z_DRAWN} slots are not drawn"
+        yield Check("parts", None, "proved", None, None, why)
         return
     from geneva_cli.parts.proof import Proof
     from geneva_cli.parts.turn.gaps import NotProved
@@ -76,11 +77,3 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
         yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
         return
     yield from turn_checks(proof.turned, turn)
-
-
-def _unturned(mechanism: Mechanism) -> str:
-    """Why no full turn is made."""
-    spec = mechanism.spec
-    if spec.wheel.z > Z_DRAWN:
-        return f"wheels of more than {Z_DRAWN} slots are not drawn"
-    return f'the parts of kind = "{spec.drive.NAME}" are not drawn or turned against each other'
