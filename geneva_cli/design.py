@@ -576,7 +576,7 @@ class Design:
         from geneva_cli.output.notebook import shown
 
         drawing = None
-        with suppress(GenevaError):  # toothed sectors are no outline
+        with suppress(GenevaError):  # very many slots are not drawn
             drawing = self.drawing("assembly")
         report = self.report
         return shown(report.table, report.passes, drawing, self.figure())

@@ -106,8 +106,15 @@ def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     """One arc that meets the disc at right angles at both ends.
 
     For a radial slot entered without shock it is the triangle of wheel, crank and roller at
-    entry, scaled down to the disc: centre L rk/R from the axis, radius L cos b rk/R.
+    entry, scaled down to the disc: centre L rk/R from the axis, radius L cos b rk/R. Raises
+    GenevaError where the wheel moves over half a turn of the crank or more.
     """
+    if relief.half > 0.5 * math.pi - SAME:
+        raise GenevaError(
+            f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '
+            'the crank, and an arc relieves less than 180; "sector" does',
+            ("size", "relief"),
+        )
     middle = 0.5 * (relief.start + relief.end)
     away, radius = sizes.lock / math.cos(relief.half), sizes.lock * math.tan(relief.half)
     centre = away * math.cos(middle), away * math.sin(middle)

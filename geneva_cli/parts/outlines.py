@@ -14,7 +14,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.crank import crank_contours, is_whole
-from geneva_cli.parts.reliefs import without_lock
+from geneva_cli.parts.reliefs import has_arcs, without_lock
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.gaps import Gaps, turned_points
 from geneva_cli.parts.turn.turned import Pose
@@ -116,6 +116,7 @@ def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], 
         return [], "none", bare
     asked = assembly.mechanism.spec.size.relief
     arcs = is_whole(assembly, sizes) and not without_lock(assembly)
+    arcs &= has_arcs(assembly, sizes.lock)
     kinds = [asked] if asked else ["arc", "sector"] if arcs else ["sector"]
     for kind in kinds:
         crank = crank_contours(assembly, sizes, kind, swept)

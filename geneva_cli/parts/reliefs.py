@@ -8,6 +8,7 @@ from typing import NamedTuple
 from geneva_cli.parts.assembly import Assembly
 
 SAME = 1e-9  # radians: directions nearer to each other are one
+BORED = 1.0 / 18.0  # of the centre distance: what an arc must leave about the axis for a bore
 
 
 class Relief(NamedTuple):
@@ -42,6 +43,22 @@ def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> li
     """The directions at the input angles ``ends``, within half a turn of that at ``middle``."""
     centre = assembly.lock(middle)
     return [centre + math.remainder(assembly.lock(end) - centre, math.tau) for end in ends]
+
+
+def arc_room(assembly: Assembly, lock: float) -> float:
+    """How near an arc that meets a disc at right angles comes to the axis, where a relief is
+    widest; 0 where there is no such arc, over half a turn and more.
+    """
+    half = max(one.half for one in reliefs(assembly))
+    wide = half > 0.5 * math.pi - SAME
+    return 0.0 if wide else lock * math.tan(0.25 * math.pi - 0.5 * half)
+
+
+def has_arcs(assembly: Assembly, lock: float) -> bool:
+    """Whether arcs relieve the disc: not where gears widen its reliefs until they leave no bore."""
+    paired = any(engagement.apart for engagement in assembly.kinds)
+    room = arc_room(assembly, lock)
+    return room >= BORED * assembly.L if paired else room > 0.0
 
 
 def without_lock(assembly: Assembly) -> bool:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.reliefs import arc_room, has_arcs
 from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
 
@@ -77,6 +78,8 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
+    if any(s.apart for s in assembly.kinds):  # gears widen the relief
+        room = min(room, arc_room(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
     wall = wall_min(given, L)
     wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall, given.wheel_hub_mm, L))

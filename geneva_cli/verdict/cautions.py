@@ -10,6 +10,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import extrema
 from geneva_cli.spec.tables import Z_USUAL
 
+SHOWN_LEAD = 1e-6  # degrees: less is rounding
 SHOWN_DOUBT = 0.01  # share of the greatest jerk: less is not mentioned
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
@@ -35,6 +36,7 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         )
     engagement = mechanism.engagements[0]
     out.extend(_rounded_points(mechanism))
+    out.extend(_overtaken(mechanism))
     law = mechanism.law
     if law is None:
         return out
@@ -69,6 +71,21 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         out.extend(_loose(mechanism))
     out.extend(_undercut(mechanism))
     return out
+
+
+def _overtaken(mechanism: Mechanism) -> list[Caution]:
+    """Where a roller presses into the wall that it drove, as gears turn the wheel more slowly."""
+    lead = mechanism.engagements[0].overtaking / DEGREE
+    if not lead > SHOWN_LEAD:
+        return []
+    return [
+        Caution(
+            "roller-overtakes",
+            f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive: near the "
+            "line of centres its slot would turn the wheel faster than gear_ratio, so it presses "
+            'into the wall that it drove; gear_ratio = "shockless" keeps it behind',
+        )
+    ]
 
 
 def _no_lock(mechanism: Mechanism) -> bool:

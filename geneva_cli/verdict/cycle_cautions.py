@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from geneva_cli.analysis.arrival import arrival
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.summary import Summary
 from geneva_cli.errors import Caution
@@ -21,7 +22,8 @@ ROUNDING = 1e-9  # share of the greatest torque
 
 def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     """The cautions, for the summaries of a cycle's loads."""
-    return [*_back_driven(cycle, loads), *_heavy(cycle), *_fast(cycle.mechanism, loads)]
+    lags = _lags(cycle.mechanism)
+    return [*_back_driven(cycle, loads), *lags, *_heavy(cycle), *_fast(cycle.mechanism, loads)]
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
@@ -49,13 +51,32 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     # With so much resistance the wheel is braked without the input even where it slows down most.
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min
+    helps = f"or a drag on the wheel: with a resisting torque of {drag:.4g} N m in all the input "
+    helps += "always drives"
+    if arrival(cycle.mechanism):
+        helps = "and no drag on the wheel, which would take it off the roller that stops it"
     return [
         Caution(
             "drives-the-motor",
             f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the "
             "input: the play of slot and reducer changes sides there, and a self-locking worm "
-            "jams; it takes a brake or a motor that brakes, or a drag on the wheel: with a "
-            f"resisting torque of {drag:.4g} N m in all the input always drives",
+            f"jams; it takes a brake or a motor that brakes, {helps}",
+        )
+    ]
+
+
+def _lags(mechanism: Mechanism) -> list[Caution]:
+    """Where the wheel comes off the roller that stops it, and on again."""
+    found = arrival(mechanism)
+    if found is None or found.lag is None:
+        return []
+    lag, at_deg, struck = found.lag
+    return [
+        Caution(
+            "lags-behind",
+            f"a torque of {found.torque_Nm:.4g} N m takes the wheel off the roller that stops it: "
+            f"where the gears let go it lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, and is "
+            f"struck at {struck:.4g} deg; less torque, more inertia or more speed make it less",
         )
     ]
 

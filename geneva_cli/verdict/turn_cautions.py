@@ -22,6 +22,16 @@ def turn_cautions(proof: Proof) -> list[Caution]:
         return []
     first = ahead.deg >= behind.deg * (1.0 - SAME)
     way, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
+    if len(proof.turned.assembly.rollers) > len(proof.turned.assembly.motions):
+        return [
+            Caution(
+                "driven-by-one-wall",
+                f"in its slots the wheel is free ahead by {ahead.deg:.4g} deg at "
+                f"{ahead.at_deg:.4g} deg and behind by {behind.deg:.4g} at {behind.at_deg:.4g}: "
+                "one wall starts it, and one stops it; a load that overruns the first roller, or "
+                "that its inertia does not bring along with the second, leaves them",
+            )
+        ]
     helps = "a load that overruns the roller" if first else "a load that holds back"
     return [
         Caution(

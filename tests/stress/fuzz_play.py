@@ -52,7 +52,7 @@ def places(found, rng):
     """Input angles, half of them beside the ends of a motion."""
     assembly = found.assembly
     start, turn = assembly.start_deg, assembly.turn_deg
-    engagement, behind = rng.choice(assembly.rollers)
+    engagement, behind = rng.choice(assembly.motions)
     ends = [behind + rng.choice((engagement.entry_deg, engagement.exit_deg)) for _ in range(2)]
     beside = [start + (end + rng.uniform(-BESIDE, BESIDE) - start) % turn for end in ends]
     return np.array([*beside, *(start + turn * rng.random() for _ in range(PLACES - 2))])

@@ -86,11 +86,13 @@ class Machine:
         self.space.add(self.wheel, *rods(self.wheel, wheel, rod))
         self.at = self.assembly.start_deg + self.assembly.turn_deg * np.arange(STEPS + 1) / STEPS
         self.true = self.assembly.wheel(self.at)
-        self.each = sum(2.0 * engagement.half_step for engagement, _ in self.assembly.rollers)
+        self.each = sum(2.0 * engagement.half_step for engagement, _ in self.assembly.motions)
         rests = [w for w in windows(found) if w.rests and not found.crank]
         self.held = np.zeros(STEPS, dtype=bool)
         for dwell in rests:
             self.held |= (self.at[:-1] > dwell.start) & (self.at[1:] < dwell.end)
+        meshed = self.assembly.geared(self.at)
+        self.geared = meshed[:-1] | meshed[1:]
         self.wheel.angle = float(self.true[0])
         self.carried = [self._carried(self.assembly.crank(self.at))]
         crank_body = self.carried[0][0]
@@ -123,6 +125,7 @@ class Machine:
         """The wheel's angles, radians, at all steps of some turns, and the deepest overlap, mm.
 
         What holds the wheel at rest where no locking disc does is in no file: it is held in place.
+        Nor are a gear's teeth: it is turned where they turn it, and let go with its speed.
         """
         went, deepest = [], 0.0
 
@@ -136,6 +139,9 @@ class Machine:
                 self._set(step)
                 if self.held[step]:
                     self.wheel.angle, self.wheel.angular_velocity = self.place(turn, step), 0.0
+                if self.geared[step]:
+                    self.wheel.angle = self.place(turn, step)
+                    self.wheel.angular_velocity = self.true[step + 1] - self.true[step]
                 self.space.step(1.0)
                 went.append(self.wheel.angle)
                 self.wheel.each_arbiter(deep)

@@ -297,12 +297,14 @@ def test_sources_are_those_of_the_machine() -> None:
         assert isinstance(told, Listed) and any(source in text for text in told.texts[:2])
 
 
-def test_what_is_not_drawn_is_said_in_its_place() -> None:
+def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
     assert any(isinstance(block, Picture) for block in of("turret")[1].blocks)
     (flat,) = (b for b in of("spherical-z6")[1].blocks if isinstance(b, Picture))
     assert flat.drawing.title == "Wheel and crank, laid flat"
-    said_ = "".join(markdown.chunks(of("gear-sector")[1]))
-    assert "Not drawn: kind" in said_
+    file = tmp_path / "spec.toml"
+    file.write_text("[wheel]\nz = 400\n", encoding="utf-8")
+    said_ = "".join(markdown.chunks(made(str(file))[1]))
+    assert "Not drawn: z = 400" in said_
 
 
 def test_a_value_that_is_none_of_a_number_is_never_shown() -> None:

@@ -32,6 +32,7 @@ MOTION: Checks = {
     "undercut_mm": "undercut:undercut_depth",
     "entry_shock_N": "shocks:entry_shock",
     "reversal_shock_N": "shocks:reversal_shock",
+    "stopping_torque_Nm": "arrival:stopping_torque",
 }
 # Of the machine: made where the spec sets the limit.
 LIMITS: Checks = {

@@ -47,7 +47,11 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def drag_words(mechanism: Mechanism) -> str:
-    """What ends the change of sides."""
+    """What ends the change of sides; where one roller starts the wheel and another stops it, what
+    makes it less: a drag would take the wheel off the second one.
+    """
+    if any(len(engagement.ahead_deg) > 1 for engagement in mechanism.engagements):
+        return "less slot_clearance_mm makes it less"
     from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 
     drag = _up(lasting_drag_Nm(mechanism))

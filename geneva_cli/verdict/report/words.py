@@ -12,8 +12,11 @@ def words(mechanism: Mechanism) -> str:
     wheel, drive = spec.wheel, spec.drive
     article = "An" if wheel.NAME[0] in "aeiou" else "A"
     slot = mechanism.engagements[0].slot
+    each_step = len(mechanism.engagements[0].ahead_deg)  # rollers, each with its slot
     slots = "curved" if slot.curved else "straight offset" if slot.offset else "straight radial"
     count = len(wheel.steps or drive.roller_angles_deg or ()) or drive.rollers
+    count *= each_step
+    slots = f"pairs of {slots}" if each_step > 1 else slots
     rollers = "one roller" if count == 1 else f"{count} rollers"
     text = (
         f"{article} {wheel.NAME} wheel of {wheel.z} {slots} slots, driven by {drive.WORDS} with "

@@ -1,0 +1,92 @@
+"""Whether the wheel follows a roller that stops it from one wall alone.
+
+Where gears drive between two rollers, the slot of the second one has a wall behind its roller only
+(see ``parts.walls.straight``): the wheel's inertia must hold it on that wall, against the torque
+that resists. From the handover at s on the wheel coasts, psi'' = -m with m = M_r / (I w²), while
+the slot asks for less, psi'' > -m. It lags by
+
+    d(x) = psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2
+
+and runs onto the wall where d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at
+the exit e: so the wheel comes to its dwell, and stays on the wall until then, where
+
+    m <= -psi''(e)  and  m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
+
+With more it stops short. Angles are in radians, of the input's axis.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.roots import boundary
+
+
+class Lag(NamedTuple):
+    """By how much the wheel lags at most, where, and where it runs onto the wall again; degrees."""
+
+    deg: float
+    at_deg: float
+    struck_deg: float
+
+
+class Arrival(NamedTuple):
+    """The torque that resists, and the most with which the wheel comes to its dwell.
+
+    ``lag`` is None where it does not, or nothing resists.
+    """
+
+    torque_Nm: float
+    most_Nm: float
+    lag: Lag | None
+
+
+def arrival(mechanism: Mechanism) -> Arrival | None:
+    """How the wheel of a machine comes to its dwell; None where slots have both walls, or no load.
+
+    >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
+    >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
+    0.227929
+    """
+    (engagement, *_), spec = mechanism.engagements, mechanism.spec
+    if len(engagement.ahead_deg) == 1 or not spec.is_loaded:
+        return None
+    w = omega(spec.drive.n_rpm)
+    unit, torque = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)
+    most = unit * greatest_drag(engagement)
+    held = 0.0 < torque <= most
+    return Arrival(torque, most, _lag(mechanism, engagement, torque / unit) if held else None)
+
+
+def greatest_drag(engagement: Engagement) -> float:
+    """The most of M_r / (I w²) with which the wheel comes to its dwell."""
+    start, u = engagement.motion(_handover(engagement), 1).scalars()[:2]
+    end, _, last = engagement.motion(engagement.exit_deg, 2).scalars()[:3]
+    way = (engagement.exit_deg - _handover(engagement)) * DEGREE
+    return max(0.0, min(-last, 2.0 * (u * way - (end - start)) / (way * way)))
+
+
+def _handover(engagement: Engagement) -> float:
+    """The input angle where the second roller takes over, from mid-motion, degrees."""
+    *_, handover, _ = engagement.motion.breaks_deg
+    return handover
+
+
+def _lag(mechanism: Mechanism, engagement: Engagement, drag: float) -> Lag:
+    begin = _handover(engagement)
+    start, u = engagement.motion(begin, 1).scalars()[:2]
+
+    def lags(x: float) -> tuple[float, float]:
+        """The lag, and how fast it grows."""
+        way = (x - begin) * DEGREE
+        turned, speed = engagement.motion(x, 1).scalars()[:2]
+        return turned - start - way * (u - 0.5 * drag * way), speed - u + drag * way
+
+    most = boundary(lambda x: lags(x)[1] > 0.0, begin, engagement.exit_deg)
+    struck = boundary(lambda x: lags(x)[0] > 0.0, most, engagement.exit_deg)
+    at = (mechanism.shown_deg(engagement.mid_deg + x) for x in (most, struck))
+    return Lag(lags(most)[0] / DEGREE, *at)
