@@ -97,7 +97,7 @@ def test_gear_sectors_are_hub_and_sectors():
     """L = 120, u = 1: three sectors of 60 degrees on the wheel, one on the crank."""
     of, r = design("gear-sector"), 60.0
     # as wide as the shafts of wheel and arm; hubs are 1.6 times that
-    for name, count, hub, bore in (("wheel gear", 3, 16.0, 10.0), ("crank gear", 1, 8.0, 5.0)):
+    for name, count, hub, bore in (("wheel gear", 3, 16.0, 10.0), ("crank gear", 1, 10.0, 6.5)):
         share = count * 60.0 / 360.0
         whole = share * disc(r, 12.0) + (1.0 - share) * disc(hub, 12.0) - disc(bore, 12.0)
         assert found(of, name) == pytest.approx(whole, rel=1e-12)
