@@ -13,11 +13,14 @@ import repo
 import shapely
 from witness import mp, to_degrees, to_radians
 
-from geneva_cli import Design, External, GearSector, Load, Size, load
+from geneva_cli import Design, External, GearSector, Load, RollerMaterial, Size, load
 from geneva_cli.analysis.arrival import arrival, greatest_drag
 from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.drawings import wheel as wheel_drawing
+from geneva_cli.study.animation.pushes import pushes
+from geneva_cli.study.animation.scene import scene
+from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.verdict.cycle_cautions import cycle_cautions
 
 MACHINES = {
@@ -277,14 +280,49 @@ def test_what_is_said_of_a_wheel_that_lags():
     assert "stopping_torque_Nm" not in {c.name for c in plain.checks}
 
 
-def test_the_horn_bends_as_that_of_a_wheel_with_these_slots():
+def test_horn_and_rollers_are_as_of_a_wheel_with_these_slots():
     """b = 30 degrees: the first half of a wheel of six slots, on the same inertia and speed."""
     of = {"center_distance_mm": 120.0, "face_width_mm": 10.0, "roller_radius_mm": 8.0}
     heavy = Load(inertia_kgm2=0.01)
-    pair = Design(External(3), GearSector(sector_deg=60.0), size=Size(**of), load=heavy)
-    six = Design(External(6), size=Size(**of), load=heavy)
-    stress = [one.life.values["horn_stress_MPa"] for one in (pair, six)]
-    assert stress[0] == pytest.approx(stress[1], rel=1e-9)
+    more = {
+        "size": Size(**of),
+        "load": heavy,
+        "material_roller": RollerMaterial(dynamic_capacity_N=5e3),
+    }
+    pair, six = (
+        Design(External(3), GearSector(sector_deg=60.0), **more),
+        Design(External(6), **more),
+    )
+    ours, plain = (one.life.values for one in (pair, six))
+    assert ours["horn_stress_MPa"] == pytest.approx(plain["horn_stress_MPa"], rel=1e-9)
+    # its two rollers share what one does there
+    assert ours["slot_travel_m"] == pytest.approx(plain["slot_travel_m"], rel=1e-12)
+    assert ours["equivalent_force_N"] == pytest.approx(plain["equivalent_force_N"], rel=1e-9)
+    assert ours["roller_life_turns"] == pytest.approx(plain["roller_life_turns"], rel=1e-8)
+    for name, share in (("turns_per_motion", 0.5), ("life_motions", 2.0), ("life_h", 2.0)):
+        name = f"roller_{name}"
+        assert ours[name] == pytest.approx(share * plain[name], rel=1e-8), name
+
+
+def test_the_forces_that_are_shown_act_on_the_walls():
+    """Contacts are on the outline, in the wheel's frame; forces push the way that the wheel needs:
+    on at first, and then back."""
+    design = made(3, 60.0, roller_radius_mm=8.0)
+    design = Design.of(design.spec.replace(load=Load(inertia_kgm2=0.01)))
+    turn, motion = MachineTurn(design.mechanism), design.mechanism.engagements[0].motion
+    (push,) = pushes(design.cycle, turn)
+    at, x, y, fx, fy = (np.array(column) for column in push)
+    local = at + turn.start
+    force, arm = fx + 1j * fy, x + 1j * y
+    pushed = np.abs(force) > 1e-9
+    assert not pushed[np.abs(local) < 29.9].any() and pushed[np.abs(local) > 30.1].all()
+    places = (arm * np.exp(-1j * motion(local, 0).c[0]))[pushed]
+    near = np.min([away(piece, places) for piece in design.parts.wheel.segments], axis=0)
+    assert near.max() < 1e-11
+    moment = (arm.conjugate() * force).imag[pushed]
+    assert (np.sign(moment) == -np.sign(local[pushed])).all()
+    said = [phase.words for phase in scene(design).states]
+    assert [text.split()[1] for text in said] == ["first", "gears", "second", "wheel"]
 
 
 def test_refusals():

@@ -60,8 +60,8 @@ class Life(NamedTuple):
 
 
 @lru_cache(maxsize=256)
-def passage(engagement: Engagement, given: Setting) -> Passage:
-    """The integrals over one motion.
+def passage(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
+    """The integrals over one motion; before mid-motion alone for a ``half`` of -1, after it for 1.
 
     >>> from geneva_cli import External, Load, Size
     >>> from geneva_cli.machine.mechanism import build
@@ -71,6 +71,7 @@ def passage(engagement: Engagement, given: Setting) -> Passage:
     0.146410161514
     """
     pieces = whole(engagement, given)
+    pieces = [p for p in pieces if half == 0.0 or half * (p.start + p.end) > 0.0]
     if turns_back(engagement):
         signs = Signs(engagement, [piece[:2] for piece in pieces], [lambda at: at.along])
         pieces = signs.cut(pieces, lambda piece: 0, "feeds")
@@ -114,10 +115,26 @@ def passages(mechanism: Mechanism) -> list[Passage]:
     return [passage(engagement, given) for engagement in mechanism.engagements]
 
 
+def by_roller(mechanism: Mechanism) -> list[Passage]:
+    """The same of each roller: an engagement takes two where one starts the wheel, one stops it."""
+    given = setting(mechanism)
+    return [
+        passage(engagement, given, half)
+        for engagement in mechanism.engagements
+        for half in halves(engagement)
+    ]
+
+
+def halves(engagement: Engagement) -> tuple[float, ...]:
+    """Which half of a motion each of its rollers makes; 0 is the whole."""
+    return (0.0,) if len(engagement.ahead_deg) == 1 else (-1.0, 1.0)
+
+
 def rollers(mechanism: Mechanism) -> int:
     """How many rollers there are on the crank."""
     spec = mechanism.spec
-    return len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
+    count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
+    return count * len(mechanism.engagements[0].ahead_deg)
 
 
 def life(mechanism: Mechanism) -> Life | None:
@@ -127,13 +144,13 @@ def life(mechanism: Mechanism) -> Life | None:
     """
     if not mechanism.spec.is_loaded:
         return None
-    force, turns, *lasts = only_of(lives(mechanism, passages(mechanism)))
+    force, turns, *lasts = only_of(lives(mechanism, by_roller(mechanism)))
     assert force is not None and turns is not None
     return Life(force, turns, *lasts)
 
 
 def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
-    """The same of m designs, (m,) each, or of one, from the passages of their engagements."""
+    """The same of m designs, (m,) each, or of one, from the passages of their rollers."""
     spec, m = mechanism.spec, rollers(mechanism)
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
     found = []
@@ -141,7 +158,7 @@ def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
         rolled = sum(way.rolled_m for way in ways)
         force = (sum(way.load for way in ways) / rolled) ** (1.0 / EXPONENT)
         turns = rolled / len(ways) / (2.0 * math.pi * radius_m)
-        often = np.ravel(_motions_per_h(mechanism, len(ways)))
+        often = np.ravel(_periods_per_h(mechanism) * (len(ways) if len(each) >= m else 1.0 / m))
         found.append(np.stack(np.broadcast_arrays(force, turns, often)))
     with np.errstate(all="ignore"):
         every = np.stack(found)
@@ -155,11 +172,8 @@ def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
     return Life(parameter(force), parameter(turns), *lasts)
 
 
-def _motions_per_h(mechanism: Mechanism, ways: int) -> float:
-    """Motions that one roller makes in an hour, ``ways`` of a period's being its own."""
-    periods = 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.period_deg
-    share = ways if len(mechanism.engagements) >= rollers(mechanism) else 1.0 / rollers(mechanism)
-    return periods * share
+def _periods_per_h(mechanism: Mechanism) -> float:
+    return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.period_deg
 
 
 def wear_mm(mechanism: Mechanism) -> float | None:

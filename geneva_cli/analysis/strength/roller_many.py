@@ -28,7 +28,7 @@ from geneva_cli.analysis.loads.loaded_many import (
     machine,
 )
 from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
-from geneva_cli.analysis.strength.roller import Passage, passing, turns_back
+from geneva_cli.analysis.strength.roller import Passage, halves, passing, turns_back
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import parameter
@@ -36,6 +36,7 @@ from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.signed_many import search
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
@@ -45,24 +46,32 @@ FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integra
 
 def passages_of_many(mechanism: Mechanism) -> list[Passage]:
     """The passage of each engagement of a period: its integrals are (m,)."""
-    given = setting(mechanism)
-    out = []
-    for engagement in mechanism.engagements:
-        every = machine(engagement, given, FORCE, NONE)
-        found = [_group(some, n) for some, n in groups(every)]
-        rows = [parameter(np.concatenate(row)) for row in zip(*found, strict=True)]
-        out.append(Passage(*rows))
-    return out
+    return [_passage(mechanism, engagement, 0.0) for engagement in mechanism.engagements]
 
 
-def _group(every: Machine, n: int) -> Array:
-    """The integrals of n designs, a row each."""
+def by_roller_of_many(mechanism: Mechanism, ways: list[Passage]) -> list[Passage]:
+    """Likewise of each roller, as ``roller.by_roller``; ``ways`` are those of the engagements."""
+    each = [(one, half) for one in mechanism.engagements for half in halves(one)]
+    return [_passage(mechanism, *of) for of in each] if len(each) > len(ways) else ways
+
+
+def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> Passage:
+    every = machine(engagement, setting(mechanism), FORCE, NONE)
+    found = [_group(some, n, half) for some, n in groups(every)]
+    rows = [parameter(np.concatenate(row)) for row in zip(*found, strict=True)]
+    return Passage(*rows)
+
+
+def _group(every: Machine, n: int, half: float) -> Array:
+    """The integrals of n designs, a row each; of a half of the motion, as of ``roller.passage``."""
     engagement = every[0]
     load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
     spans = spans_of(engagement, n)
     found = search(load, spans, n, True, load.at_mid_motion(n))
     whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
     design, _, (a, b), positive = whole
+    own = np.flatnonzero(half * (a + b) >= 0.0)
+    design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:

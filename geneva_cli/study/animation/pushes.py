@@ -52,7 +52,8 @@ def _normals(one: Passage, local: Array, turn: MachineTurn) -> Array:
             np.hypot(*way.T) < 1e-6
         )  # at a cusp the roller turns back, in the direction of its second derivative
         way[slow] = bend[slow]
-        psi = one.engagement.motion(local, 0).c[0]
+        # of a pair of slots each is beside its middle
+        psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
         c, s = np.cos(psi), np.sin(psi)
         way = np.column_stack((c * way[:, 0] - s * way[:, 1], s * way[:, 0] + c * way[:, 1]))
     else:

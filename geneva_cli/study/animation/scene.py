@@ -82,7 +82,13 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
         a, b = one.entry - turn.start, one.exit - turn.start
-        yield Phase(a, b, True, f"{which} moves the wheel")
+        if len(one.engagement.ahead_deg) == 1:
+            yield Phase(a, b, True, f"{which} moves the wheel")
+        else:
+            c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])
+            yield Phase(a, c, True, "the first roller starts the wheel")
+            yield Phase(c, d, True, "the gears turn the wheel")
+            yield Phase(d, b, True, "the second roller stops the wheel")
         end = after.entry - turn.start if after else turn.whole
         if end > b + 1e-9:
             yield Phase(b, end, False, held)

@@ -21,7 +21,7 @@ from geneva_cli.analysis.loads.sizing_many import NAMES as SIZING
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.strength import roller
-from geneva_cli.analysis.strength.roller_many import passages_of_many
+from geneva_cli.analysis.strength.roller_many import by_roller_of_many, passages_of_many
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, used
 from geneva_cli.analysis.vibration.many import Vibrations, vibrations_of_many
 from geneva_cli.machine.mechanism import Mechanism
@@ -47,7 +47,8 @@ def _life(of: Designs, asked: Collection[str]) -> Columns:
     if not set(asked) - set(out):
         return out
     ways = passages_of_many(machine)
-    lasts, worn = roller.lives(machine, ways), roller.wears_mm(machine, ways)
+    lasts = roller.lives(machine, by_roller_of_many(machine, ways))
+    worn = roller.wears_mm(machine, ways)
     force = cast("Array", lasts.equivalent_force_N)
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
         work = np.ravel(given.friction) * sum(way.work for way in ways) / len(ways)
