@@ -3,22 +3,27 @@
 The crank's hub stands on the locking disc, or on the arm where there is no disc. It is drawn where
 the spec gives a size of its; else only room is kept for it. Shafts are as wide as the bores that
 they are in. They end in the frame's lower face, and above where what they carry does; a wheel with
-``wheel_hub_mm = 0`` has its shaft above it alone.
+``wheel_hub_mm = 0`` has its shaft above it alone, unless that carries a gear below.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+
+import numpy as np
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.crank import crank_circles, is_whole
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
 
 SHAFT = "SHAFT"
+SAME = 1e-9  # of the centre distance: what is nearer to an axis is on it
 
 
 def crank_hub(found: Outlines) -> Plate | None:
@@ -68,9 +73,19 @@ def wheel_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
     given, sizes = found.assembly.mechanism.spec.size, found.sizes
     low = given.wheel_shaft_low_mm
     if low is None:
-        low = lowest if sizes.wheel_hub else 0.0
+        low = lowest if sizes.wheel_hub or _has_gear(found) else 0.0
     high = given.wheel_shaft_high_mm
     return low, sizes.wheel_thickness if high is None else high
+
+
+def _has_gear(found: Outlines) -> bool:
+    """Whether the wheel's shaft carries a gear below the wheel."""
+    near = SAME * found.assembly.L
+    return any(
+        link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
+        for link in links_at(found.assembly.given, np.zeros(1))
+        for x, y in link.joints
+    )
 
 
 def crank_shaft_radius(found: Outlines) -> float:

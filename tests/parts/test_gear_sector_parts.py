@@ -340,6 +340,11 @@ def test_the_drawings_of_the_design():
     lines = [s for s in design.drawing("slot").shapes if s.layer == "PITCH"]
     ways = [math.atan2(*s.segments[0].start[::-1]) for s in lines]
     assert np.degrees(ways) == pytest.approx([-30.0, 30.0], rel=1e-12)
+    bare = made(3, 60.0, wheel_hub_mm=0.0).part_table("parts").to_dict()
+    z = dict(zip(bare["name"], bare["z_low_mm"], strict=True))
+    assert z["wheel's shaft"] < z["wheel gear"]  # which it carries
+    deep = {c.name: c.value for c in made(3, 60.0, wheel_hub_length_mm=40.0).checks}
+    assert deep["link_gap_mm"] == pytest.approx(8.0 - 12.5)  # a hub of 1.6 times the bore, in it
     holes = [s for s in design.drawing("arm").shapes if isinstance(s, Circle)]
     assert len(holes) == 3
     assert to_radians(180.0) == mp.pi

@@ -100,10 +100,16 @@ def _gears(found: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -
         return
     gears = [link for link in links if link.radius_mm]
     for gear, link in zip(made.gears, gears, strict=True):
-        if np.abs(places(link)[0]).max() < SAME * found.assembly.L:
-            continue  # it is on the wheel's shaft
+        away = np.abs(places(link)[0])
+        on_shaft = bool(
+            away.max() < SAME * found.assembly.L
+        )  # which fills its bore; a hub does not
         for one in _on_wheel(found, [link], made.sizes, 0.0 * turn):
-            gaps = np.abs(one.way - places(link)[0]) - gear.outer - one.radius
+            gaps = away - gear.outer - one.radius
+            if on_shaft:
+                if one.radius <= gear.bore:
+                    continue
+                gaps = away + (gear.bore - one.radius)
             least = int(np.argmin(gaps))
             yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
 
