@@ -44,6 +44,8 @@ def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
         given = mechanism.spec.motion is not None
         yield from (change for change in REMEDIES[check] if given or change not in _MOTION)
     else:
+        if mechanism.engagements[0].overtaking > 0.0:
+            yield set_to("drive", "gear_ratio", "shockless")
         yield from _defaults(mechanism)
         yield from (
             scaled("size", "roller_radius_mm", 0.7, 0.4),
@@ -180,6 +182,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "lock_clearance_mm", 0.0),
         scaled("size", "slot_clearance_mm", 0.0),
     ),
+    "rollers_apart_mm": (_SMALLER, increased("drive", "sector_deg", 30.0)),
     "crank_shaft_mm": _CRANK,
     "crank_hub_mm": _CRANK,
     "crank_bore_wall_mm": _CRANK,

@@ -59,6 +59,7 @@ LIMITS: Checks = {
 STATIC: Checks = {
     "wall_between_slots_mm": "walls:between_slots",
     "horn_mm": "walls:horn",
+    "rollers_apart_mm": "walls:rollers_apart",
     "wheel_bore_wall_mm": "walls:wheel_bore",
     "outer_wall_mm": "walls:outside",
     "dial_wall_mm": "dial:wall",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
-from geneva_cli.curves.shapes import Line, backwards, closed
-from geneva_cli.parts.crank import is_whole
+from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
+from geneva_cli.parts.crank import is_whole, roller_centres
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -16,6 +17,7 @@ NO_WALL = {  # what it means that a wall is less than nothing
     "horn_mm": "the recess breaks into the slot",
     "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
     "crank_bore_wall_mm": "the crank's bore breaks through the relief",
+    "rollers_apart_mm": "the rollers overlap each other",
     "outer_wall_mm": "the slots break through the wheel's outside",
 }
 
@@ -27,7 +29,7 @@ def between_slots(name: str, found: Outlines) -> Check:
         following, ahead = around[(i + 1) % len(around)]
         walls = turned(found.slots[engagement], direction)
         ends = walls.segments[-1].end, walls.segments[0].start
-        slot = closed(walls.layer, [*walls.segments, Line(*ends)])
+        slot = closed(walls.layer, [*walls.segments, _mouth(*ends, engagement.apart > 0.0)])
         inside = Polyarc([backwards(slot) if found.assembly.sign > 0.0 else slot])
         points = Polyarc([turned(found.slots[following], ahead)]).samples(
             1e-6 * found.assembly.L, 0.01 * found.assembly.L
@@ -36,6 +38,23 @@ def between_slots(name: str, found: Outlines) -> Check:
         if all(s is engagement for s, _ in around):
             break
     return _wall(name, near, found)
+
+
+def _mouth(start: Point, end: Point, wide: bool) -> Segment:
+    """What closes a slot; along the rim where it is a pair of slots, and a chord might cut it."""
+    if not wide:
+        return Line(start, end)
+    back = (math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])) % math.tau
+    return Arc(start, end, -math.tan(0.25 * back))
+
+
+def rollers_apart(name: str, found: Outlines) -> Check | None:
+    """Between the roller that starts the wheel and the one that stops it, on one crank."""
+    if len(found.assembly.rollers) == len(found.assembly.motions):
+        return None
+    pairs = combinations(roller_centres(found.assembly), 2)
+    least = min(math.dist(one, other) for one, other in pairs)
+    return compared(name, least - 2.0 * found.sizes.roller, "at least", 0.0)
 
 
 def horn(name: str, found: Outlines) -> Check | None:
