@@ -18,9 +18,14 @@ from geneva_cli.analysis.arrival import arrival, greatest_drag
 from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.drawings import wheel as wheel_drawing
+from geneva_cli.parts.links import drawn_links
+from geneva_cli.parts.turn.planes import planes
+from geneva_cli.parts.wheel_inertia import wheel_body
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.checks.arrival import stopping_torque
 from geneva_cli.verdict.cycle_cautions import cycle_cautions
 
 MACHINES = {
@@ -166,6 +171,8 @@ def test_the_wheels_mass_is_what_its_outline_holds(name):
     assert rows["mass_kg"][i] == pytest.approx(7850.0 * 1e-8 * 0.5 * cross.sum(), rel=1e-6)
     polar = 7850.0 * 1e-14 * (cross * square).sum() / 12.0
     assert rows["inertia_kgm2"][i] == pytest.approx(polar, rel=1e-6)
+    own = wheel_body(design.mechanism)  # by slots and rim apart
+    assert own.inertia_kgm2 == pytest.approx(rows["inertia_kgm2"][i], rel=1e-13)
 
 
 def lead(b, u, a_t, a):
@@ -260,9 +267,8 @@ def test_the_lag_and_where_the_wheel_is_struck():
 def test_what_is_said_of_a_wheel_that_lags():
     def of(torque, inertia=0.01):
         design = loaded(torque, inertia)
-        rows = {c.name: c for c in design.checks}
         said = cycle_cautions(design.cycle, design.loads)
-        return rows.get("stopping_torque_Nm"), {c.name: str(c) for c in said}
+        return stopping_torque("", design.mechanism), {c.name: str(c) for c in said}
 
     check, said = of(0.0)
     assert (check.value, check.passes) == (0.0, True)
@@ -277,12 +283,12 @@ def test_what_is_said_of_a_wheel_that_lags():
         GearSector(sector_deg=60.0, n_rpm=n),
         load=Load(inertia_kgm2=0.01, torque_Nm=0.02),
     )
-    assert {c.name: c.passes for c in faster.checks}["stopping_torque_Nm"]
+    assert single_check(faster.mechanism, "stopping_torque_Nm").passes
     check, _ = of(1.0, 0.0)
     assert (check.limit, check.passes) == (0.0, False) and "inertia_kgm2" in check.nearest
     assert of(0.0, 0.0)[0] is None  # nothing is known of the load
     plain = Design(External(3), load=Load(inertia_kgm2=0.01, torque_Nm=1.0))
-    assert "stopping_torque_Nm" not in {c.name for c in plain.checks}
+    assert stopping_torque("", plain.mechanism) is None
 
 
 def test_horn_and_rollers_are_as_of_a_wheel_with_these_slots():
@@ -348,8 +354,10 @@ def test_the_drawings_of_the_design():
     bare = made(3, 60.0, wheel_hub_mm=0.0).part_table("parts").to_dict()
     z = dict(zip(bare["name"], bare["z_low_mm"], strict=True))
     assert z["wheel's shaft"] < z["wheel gear"]  # which it carries
-    deep = {c.name: c.value for c in made(3, 60.0, wheel_hub_length_mm=40.0).checks}
-    assert deep["link_gap_mm"] == pytest.approx(8.0 - 12.5)  # a hub of 1.6 times the bore, in it
+    deep = planes(made(3, 60.0, wheel_hub_length_mm=40.0).parts).nearest
+    assert deep.gap == pytest.approx(8.0 - 12.5)  # a hub of 1.6 times the bore, in it
+    gears = drawn_links(design.mechanism, design.parts).gears
+    assert sum(gear.outer for gear in gears) == pytest.approx(120.0, rel=1e-14)  # and never meet
     holes = [s for s in design.drawing("arm").shapes if isinstance(s, Circle)]
     assert len(holes) == 3
     assert to_radians(180.0) == mp.pi

@@ -34,7 +34,8 @@ def draw_gear(view: View, gear: Gear) -> None:
     if gear.bore:
         view.diameter([Circle("", axis, gear.bore)], sized.bore(gear.bore))
     bolted(view, screwed)
-    view.remark(f"pitch circle; {TOOTHLESS}")
+    whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
+    view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else ", on these sectors alone"))
 
 
 def draw_blank(view: View, gear: Gear, at: Point) -> None:
