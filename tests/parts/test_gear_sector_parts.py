@@ -138,6 +138,11 @@ def test_two_rollers_on_the_crank(ratio):
     assert np.abs(np.abs(arms) - L * math.sin(b)).max() < 1e-12 * L
     apart = np.degrees(np.angle(arms[1] / arms[0]))  # outside the crank turns clockwise
     assert apart == pytest.approx(100.0 - 2.0 * math.degrees(a_t), rel=1e-12)
+    rows = design.part_table("parts").to_dict()
+    listed = dict(zip(rows["name"], rows["value"], strict=True))
+    assert listed["between the rollers"] == pytest.approx(apart[0])
+    # two slots and the recess between pairs take up a step
+    assert listed["between a pair's slots"] + 2.0 * math.degrees(b) == pytest.approx(120.0)
     slots = np.linspace(engagement.entry_deg, -50.0, 9)
     for number, x in ((0, slots), (1, -slots)):
         assert where.pin(number, x) == pytest.approx(where.driving(0, x), abs=1e-12 * L)

@@ -68,12 +68,15 @@ class GearSector(PinPath, kw_only=True):
         return self.planned(engagement, library(b).sin(b), spec.given_distance_mm)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """The slot's half angle, and where and at what ratio the gears take over."""
-        L = plan.center_distance_mm
-        b, u, handover, _ = self._solved(plan.engagements[0].half_step)
+        """The slot, rollers and slots apart, and where and at what ratio the gears drive."""
+        L, (engagement, *_) = plan.center_distance_mm, plan.engagements
+        b, u, handover, _ = self._solved(engagement.half_step)
+        first, last = engagement.ahead_deg
         return (
             Dimension("crank radius", L * plan.ratio, "mm"),
             Dimension("slot's half angle b", math.degrees(b), "deg"),
+            Dimension("between the rollers", first - last, "deg"),
+            Dimension("between a pair's slots", math.degrees(2.0 * engagement.apart), "deg"),
             Dimension("gears' ratio u", u),
             Dimension("sector's angle", self.sector_deg, "deg"),
             Dimension("handover, from the line of centres", math.degrees(handover), "deg"),
