@@ -96,20 +96,6 @@ def test_no_peak_is_missed(name):
     assert (beyond(found, 150, 5) <= 1e-12).all()
 
 
-@pytest.mark.parametrize("name", ["side-crank", "four-bar", "tilted law"])
-def test_a_load_alone_is_what_it_is_beside_others(name):
-    """Alone it is cut at fewer places: a force knows nothing of the input's efficiency."""
-    _, _, found = loaded(name, 60, 8)
-    several = summaries_of_many(found.machine, NAMES, told=())
-    for load in NAMES:
-        one = summaries_of_many(found.machine, (load,), told=())[load]
-        for here, there in ((one.max, several[load].max), (one.min, several[load].min)):
-            bounded = np.isfinite(there)
-            assert np.array_equal(here[~bounded], there[~bounded]), load
-            # two searches end within a few roundings of one extreme
-            assert here[bounded] == pytest.approx(there[bounded], rel=1e-14, abs=1e-12), load
-
-
 def test_a_least_value_before_a_pole_is_found():
     """Of p v, where the roller hardly slides just before its wall is too sharp for it."""
     spec, _ = MACHINES["cycloidal"]

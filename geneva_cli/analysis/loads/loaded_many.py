@@ -18,7 +18,7 @@ from geneva_cli.analysis.loads.cycle import Quantity
 from geneva_cli.analysis.loads.forces import Row, Setting, Worked, gain, sliding, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.mid_motion import Known, at_mid_motion
-from geneva_cli.analysis.loads.quantities import PRESSED, PV, QUANTITIES
+from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
 from geneva_cli.analysis.loads.spread import spread_deg
 from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
-INPUT = "input_torque_Nm"  # what hangs on the input torque's own sign
 ROOMS = ("grip", "edge")  # without which a quantity has no bound
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
 # The setting, the contact, the shape of the places, and what is wanted of the designs there.
@@ -94,8 +93,7 @@ class Loaded:
         self.machine = engagement, given, _ = machine
         self.names = names
         # p v is 0 where the sliding is, in a notch that may lie beside a pole
-        more = (*more, "slides") if PV in names else more
-        self.kinds = kinds(engagement, given, names, more)
+        self.kinds = kinds(engagement, given, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
         own = any(name not in QUANTITIES for name in names)
         held = own or any(name in REACTIONS for name in names)
@@ -238,26 +236,21 @@ def has_mirrored_path(engagement: Engagement) -> bool:
     return True
 
 
-def kinds(
-    engagement: Engagement, given: Setting, names: Sequence[str], more: Sequence[str] = ()
-) -> list[str]:
-    """Whose signs count for quantities: of what changes none of them, none, but for those asked for
-    as ``more``.
+def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:
+    """Whose signs count: of what changes nothing, none, but for those asked for as ``more``.
 
     ``wanted`` is the first quantity that is wanted.
     """
-    own, out = any(name not in QUANTITIES for name in names), []
+    out = []
     if not all_true(given.inertia_Nm == 0.0):
         out.append("drives")
     if given.rubs or "slides" in more:
         out.append("slides")
-    loses = not all_true(given.efficiency == 1.0) and (own or INPUT in names)
-    if loses or "feeds" in more:
+    if not all_true(given.efficiency == 1.0) or "feeds" in more:
         out.append("feeds")
     if given.rubs:
         out.append("grip")
-    pressed = own or any(name in PRESSED for name in names)
-    if engagement.slot.curved and given.hertz is not None and pressed:
+    if engagement.slot.curved and given.hertz is not None:
         out.append("edge")
     if "along" in more:
         out.append("along")
