@@ -154,9 +154,12 @@ class Lock(NamedTuple):
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:
     """The angle between two sides of a triangle, from all three."""
     a = one * one + (other * other) - opposite * opposite
-    area = one * one * (4.0 * other * other) - a * a
-    positive = area.c[0] > 0.0
-    return atan2(sqrt(_chosen(positive, area, area * 0.0 + 1e-300)), a)
+    return atan2(positive_root(one * one * (4.0 * other * other) - a * a), a)
+
+
+def positive_root(square: Jet) -> Jet:
+    """The root, and next to nothing without slope where there is no triangle."""
+    return sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 1e-300))
 
 
 def _truth(condition: Truth) -> Truth:

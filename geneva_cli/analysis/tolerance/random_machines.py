@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import Draws
 from geneva_cli.analysis.tolerance.entry_jump import EntryJumps
 from geneva_cli.analysis.tolerance.motion_error import MotionError
@@ -31,7 +32,7 @@ class RandomMachines(NamedTuple):
 def random_machines(
     machines: Draws,
     samples: int,
-    lock: Lock | None,
+    lock: Lock | SphereLock | None,
     error: tuple[MotionError, float, float] | None,
     entry: EntryJumps | None,
 ) -> RandomMachines:

@@ -1,12 +1,14 @@
-"""The locks of a wheel, from its outlines: corners of its recesses, and arcs of its disc."""
+"""The locks of a wheel, from its parts: corners of its recesses, and arcs of its disc."""
 
 from __future__ import annotations
 
 import math
 
 from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.sphere.shells import Shells
 
 SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to each other are one
 
@@ -34,6 +36,20 @@ def locks(found: Outlines) -> list[Lock]:
         for corner in corners.values()
         for half in halves.values()
         if half > SAME
+    ]
+
+
+def sphere_locks(found: Shells) -> list[SphereLock]:
+    """A recess with each locking sector of a spherical crank; none without one."""
+    ball = found.ball
+    halves = {
+        round(edge.sweep / SAME): 0.5 * edge.sweep
+        for region in found.crank
+        for edge in region.boundary[:1]  # it begins with the locking edge
+    }
+    return [
+        SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
+        for half in halves.values()
     ]
 
 

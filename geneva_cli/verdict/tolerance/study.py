@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.blows import mouth_jumps_worst
 from geneva_cli.analysis.locking import Lock
+from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import (
     Deviations,
     Draws,
@@ -24,7 +26,7 @@ from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.tolerance.needed import Needed, needed
-from geneva_cli.verdict.tolerance.recesses import locks
+from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -83,7 +85,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         warnings.append(
             Caution(
                 "not-known",
-                "dwell_position is not known: no flat locking disc that is drawn holds the wheel "
+                "dwell_position is not known: no locking disc that is drawn holds the wheel "
                 "at rest",
             )
         )
@@ -162,11 +164,13 @@ def _applicable(
     return use, warnings
 
 
-def _locks(mechanism: Mechanism, proof: Proof, warnings: list[Caution]) -> list[Lock]:
-    if not mechanism.spec.is_flat:
+def _locks(
+    mechanism: Mechanism, proof: Proof, warnings: list[Caution]
+) -> Sequence[Lock | SphereLock]:
+    if not mechanism.spec.has_parts:
         return []
     try:
-        return locks(proof.found)
+        return locks(proof.found) if mechanism.spec.wheel.FLAT else sphere_locks(proof.shells)
     except GenevaError as error:
         warnings.append(Caution("not-known", f"no parts: {error}"))
         return []
