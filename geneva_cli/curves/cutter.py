@@ -141,12 +141,17 @@ def _require_free(
     beside = {i, (i + 1) % len(around)}
     rest = np.array([k for k in range(len(around)) if k not in beside], dtype=np.intp)
     away = abs(float(Polyarc([shape]).subset(rest).signed(np.array([one.centre]))[0]))
-    if any(works(around[k], shape.layer) for k in beside) or away < radius - NEAR:
-        x, y = one.corner.at
+    x, y = one.corner.at
+    corner = f"--dog-bones: the corner at x = {x:.5g}, y = {y:.5g} on {shape.layer}"
+    if any(works(around[k], shape.layer) for k in beside):
         raise GenevaError(
-            f"--dog-bones: the corner at x = {x:.5g}, y = {y:.5g} on {shape.layer} stands at a "
-            "wall that runs on roller or lock, or too near to one; a narrower cutter may do, or "
-            "none of them"
+            f"{corner} stands at a wall that runs on roller or lock; without --dog-bones it stays "
+            "round"
+        )
+    if away < radius - NEAR:
+        raise GenevaError(
+            f"{corner} is so near to another wall that its bite, {2.0 * radius:.6g} mm wide, would "
+            "cut into that; a narrower cutter may do, or leave out --dog-bones"
         )
 
 

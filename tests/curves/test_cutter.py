@@ -125,6 +125,8 @@ def test_a_bone_never_cuts_a_wall_that_works():
 def test_a_bone_that_has_no_room_is_refused():
     with pytest.raises(GenevaError, match="shorter than a dog bone"):
         boned(keyed(4.0), 1.6)  # two of 2.26 mm on a floor of 4
+    with pytest.raises(GenevaError, match="so near to another wall that its bite, 2 mm wide, wou"):
+        boned(keyed(4.0, 0.9), 1.0)  # sides of 1.24 mm are shorter than a bite of 1.41
     near = keyed(4.0)._replace(outline=Circle("ARM", (0.0, 0.0), 9.8))
     with pytest.raises(GenevaError, match="leaves less than wall_min_mm to another outline"):
         boned(near, 1.0)
