@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import choose_record
-from geneva_cli.numerics.between_samples import limits, told_by_reciprocals
+from geneva_cli.numerics.between_samples import limits
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
@@ -191,8 +191,7 @@ class _Search:
     def _matters(
         self, missed: Mask, design: Whole, left: Sample, middle: Sample, right: Sample
     ) -> Mask:
-        """Of functions that are not predicted, those whose sign counts or that may pass a top, if
-        their reciprocals are not predicted either.
+        """Of functions that are not predicted, those whose sign counts or that may pass a top.
 
         Where one whose sign counts is not predicted, it may be 0 twice: it is always looked at.
         """
@@ -204,10 +203,9 @@ class _Search:
                 x, v, d = (np.broadcast_to(p, missed.shape)[signs:][where] for p in sample)
                 return x, v, d
 
-            three, of = (there(left), there(middle), there(right)), design[where[1]]
-            passes = self.tops.may_pass(where[0], of, *limits(*three))
-            low, high = (side[signs + where[0], of] for side in self.range)
-            missed[signs:][where] = passes & ~told_by_reciprocals(*three, low, high)
+            found = limits(there(left), there(middle), there(right))
+            passes = self.tops.may_pass(where[0], design[where[1]], *found)
+            missed[signs:][where] = passes
         return missed
 
     def _look(

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from geneva_cli.numerics.between_samples import limits, told_by_reciprocals
+from geneva_cli.numerics.between_samples import limits
 from geneva_cli.numerics.cells import Tops, quartiles
-from geneva_cli.numerics.extrema_many import unpredicted
 
 UNIT = np.linspace(0.0, 1.0, 401)
 
@@ -27,24 +26,6 @@ def test_polynomials_keep_within_their_limits(place):
     assert (every.max(axis=0) <= high).all()
     narrow = np.median((high - low) / np.ptp(every, axis=0))
     assert narrow < 15.0  # they tell something
-
-
-def test_reciprocals_tell_what_does_not_turn():
-    """Reciprocals of cubics, which a cubic predicts, are told if they do not turn: and no others.
-
-    Many have poles next to the samples, or between them.
-    """
-    polynomials = np.random.default_rng(4).normal(size=(4000, 4))
-    three = [sample(polynomials, np.full(4000, x)) for x in (0.0, 0.5, 1.0)]
-    below = np.array([sample(polynomials, np.full(4000, x))[1:] for x in UNIT])
-    # a slope next to 0 may have either sign in between
-    smooth = [(np.sign(v) == np.sign(v[0])).all(axis=0) for v in (below[:, 0], below[:, 1])]
-    value = [(x, 1.0 / v, -d / v**2) for x, v, d in three]
-    size = np.max([np.abs(v) for _, v, _ in value], axis=0)
-    told = told_by_reciprocals(*value, -size, size)
-    assert (told <= smooth[0]).all()
-    assert np.array_equal(told, smooth[0] & smooth[1])
-    assert (told & unpredicted(*value, -size, size)).mean() > 0.05  # they tell something
 
 
 def test_what_may_pass():
