@@ -25,6 +25,11 @@ class Constraint(NamedTuple):
     def __str__(self) -> str:
         return f"{self.name} {self.sign} {self.bound:.12g}"
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """The least and the greatest value that keeps it."""
+        return (self.bound, math.inf) if self.sign == ">=" else (-math.inf, self.bound)
+
     def kept(self, value: object) -> bool:
         """Whether a value keeps it, but for rounding; what does not apply to a design does not."""
         return is_number(value) and keeps(float(value), WORDS[self.sign], self.bound)

@@ -54,7 +54,8 @@ def search(wish: Wish) -> FoundRows:
     wanted = _asked(wish)
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
-    parts = _parts(wish, wanted.names)
+    narrowed = wish.with_times()
+    parts = _parts(narrowed, wanted.names)
     if not any(part.keeps for part in parts):  # a refusal says how near they come
         parts = _parts(wish, wanted.names, how_near=True)
     errors = [error for part in parts for error in part.errors]

@@ -25,6 +25,8 @@ USUAL_RPM = 60.0
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Interval(0.0, math.inf)
 PEAK = "acceleration.max"
+TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on which say how long a motion may be
+SECONDS = ("motion_s", "dwell_s")  # and on which do where the cycle is known
 SPACE = 3.0  # centre distances that a linkage may take where nothing is said
 
 
@@ -67,6 +69,22 @@ class Wish(NamedTuple):
     def only_acceleration(self) -> bool:
         """Whether a peak acceleration is all that is asked of the motion."""
         return self.any_motion and not self.bounds
+
+    def with_times(self) -> Wish:
+        """The wish with its bounds on times and angles of a motion, by their whole names, as the
+        spans that they are; itself where they leave any motion.
+        """
+        timed = self.frame is not None or "cycle" in self.spans
+        names = {f"timing.{name}": name for name in (*TIMES, *(SECONDS if timed else ()))}
+        spans = dict(self.spans)
+        for bound in self.bounds:
+            if name := names.get(bound.name):
+                low, high = spans.get(name, Interval())
+                least, most = bound.span
+                spans[name] = Interval(max(low, least), min(high, most))
+        left = tuple(bound for bound in self.bounds if bound.name not in names)
+        narrowed = self._replace(spans=spans, bounds=left)
+        return self if narrowed.asks_nothing(1) else narrowed
 
     def cycle_s(self, m: float) -> Interval:
         """The cycle times that are wished for; with a frame and no other wish its own."""
@@ -112,7 +130,7 @@ class Wish(NamedTuple):
         or to rest.
         """
         found = Interval(0.0, 360.0 / m)
-        if self.asks_nothing(m):
+        if self.asks_nothing(1) and self.asks_nothing(m):  # several rollers' motions are short
             return None
         for _, asked in self.demands(m):
             found = found.within(asked)
