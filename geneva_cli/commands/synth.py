@@ -97,7 +97,9 @@ def run(
     Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
     0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak, or with
     the least of --sort; with bounds, no wish for a motion and no --sort, the one that keeps them
-    nearest to the plain crank (a four-bar: the gentlest, of the plain crank's motion if it can).
+    nearest to the plain crank (a four-bar: the gentlest, of the plain crank's motion if it can). A
+    bound on tau, k, motion_deg or dwell_deg is a wish for a motion; with --cycle or --from, one on
+    seconds of motion or dwell too.
 
     Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
     tenth of the centre distance aside, or as far as a bound or --sort has them; a side-crank; equal
@@ -106,7 +108,8 @@ def run(
     as leave a dwell, curved slots and cams also more while their parts can be built. Where a range
     has no other end, a hundredth of the cycle is left to motion and to dwell. --law all takes
     seconds more. Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes
-    the motion.
+    the motion; with a side-crank also at the best angle, where both are a hundredth better than
+    either alone.
 
     The four-bar is the best found among proportions whose crank turns all round, whose joints keep
     to --space and whose roller passes the wheel on its way back; where --sort or a bound is not on

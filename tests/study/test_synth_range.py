@@ -43,6 +43,11 @@ def rows(**options):
     return searched(**options)[1].rows
 
 
+def told(found):
+    """What the machines of some rows are, and cost; not what else was asked for."""
+    return [row.candidate for row in found]
+
+
 @pytest.mark.parametrize(
     ("text", "low", "high"),
     [("0.5", 0.5, 0.5), ("1/4..1/2", 0.25, 0.5), ("0.8..", 0.8, math.inf), ("..1", -math.inf, 1.0)],
@@ -172,8 +177,9 @@ def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
 
 def test_a_drive_that_does_nothing_is_no_row():
     """Where the plain crank is the gentlest, gears of no eccentricity are not listed beside it."""
-    found = [row.candidate for row in rows(motion_deg="100..180", z="8", spherical=True, rollers=1)]
-    assert [(candidate.drive, candidate.axes_deg) for candidate in found] == [("crank", 90.0)]
+    found = told(rows(motion_deg="100..180", z="8", spherical=True, rollers=1))
+    ones = [c for c in found if not c.of_two_numbers]  # both at once are gentler by 4 percent
+    assert [(candidate.drive, candidate.axes_deg) for candidate in ones] == [("crank", 90.0)]
 
 
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
@@ -214,6 +220,42 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert ours["cam"].candidate.motion_deg == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
     # a side-crank's peak velocity is at mid-motion, where it is the plain crank's 1 over 1 + A
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
+
+
+@pytest.mark.parametrize(
+    ("wish", "bounds", "same"),
+    [
+        ({"cycle": "1.5"}, ["dwell_s >= 0.8"], {"cycle": "1.5", "dwell_s": "0.8.."}),
+        ({}, ["tau <= 0.45", "timing.tau >= 0.3"], {"tau": "0.3..0.45"}),
+        ({"tau": "..0.45"}, ["dwell_deg <= 252"], {"tau": "0.3..0.45"}),
+    ],
+)
+def test_a_bound_on_how_long_a_motion_is_is_a_wish_for_it(wish, bounds, same):
+    """The same machines as of the option, each the gentlest; angles in seconds with a cycle."""
+    usual = {"z": "6", "external": True, "rollers": 1}
+    found = rows(**usual, **wish, subject_to=bounds)
+    theirs = rows(**usual, **same)
+    timed = {"n_rpm", "acceleration_max_rad_s2", "motion_s", "dwell_s"}
+    assert [c.drive for c in told(found)] == [c.drive for c in told(theirs)]
+    for ours, other in zip(told(found), told(theirs), strict=True):
+        for name in set(ours._fields) - timed - {"parts"}:
+            value = getattr(other, name)
+            near = pytest.approx(value, rel=1e-12) if isinstance(value, float) else value
+            assert getattr(ours, name) == near, name
+
+
+def test_a_bound_in_seconds_without_a_cycle_is_at_the_usual_speed():
+    """At 60 rpm a dwell of 0.7 s leaves 108 deg to the motion, and nobody asked for slower."""
+    found = rows(z="6", external=True, rollers=1, subject_to=["dwell_s >= 0.7"])
+    assert {row.spec.drive.n_rpm for row in found} == {60.0}
+    assert max(c.motion_deg for c in told(found)) == pytest.approx(108.0, rel=1e-9)
+
+
+def test_more_rollers_than_a_plain_wheel_takes_have_the_gentlest_of_their_motions_too():
+    """Three motions of at most 150 deg: as long as their third of a turn lets them be."""
+    found = rows(motion_deg="..150", z="4", external=True, rollers=3)
+    longest = max(c.motion_deg for c in told(found) if c.law)
+    assert longest == pytest.approx(0.99 * 120.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(("limit", "said"), [(0.9, "maybe"), (0.5, "no: velocity_max")])

@@ -71,6 +71,16 @@ class Candidate(NamedTuple):
     sector_deg: float | None
     first_z: int | None
 
+    @property
+    def is_driven(self) -> bool:
+        """Whether a side-crank or gears are before the crank."""
+        return self.A is not None or self.eccentricity is not None
+
+    @property
+    def of_two_numbers(self) -> bool:
+        """Whether both a drive before the crank and the wheel depart from the plain machine."""
+        return self.is_driven and bool(self.axes_deg not in (None, 90.0) or self.offset_mm)
+
 
 class Row(NamedTuple):
     """A machine: its spec, what it is and costs, and the quantities asked for beside these."""

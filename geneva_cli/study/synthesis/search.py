@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
@@ -26,6 +27,7 @@ from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 
 LOOKED_INTO = 120  # machines of a kind that are asked for what is not known of many together
+WORTH = 0.01  # share by which a machine of two numbers must better one of one number
 WHEELS = 6  # times laws: a search of fewer is done before a second process has begun
 
 
@@ -65,6 +67,7 @@ def search(wish: Wish) -> FoundRows:
         raise GenevaError(_out_of_reach(wish, reached, errors))
     if wanted.pick:
         found = bounded(wanted, found, [cells for part in parts for cells in part.asked])
+    found = _worth(wish, wanted, found)
     found.sort(key=lambda row: _rank(wish, wanted, row))
     if not _known_together(wish):
         first: dict[tuple[object, ...], Row] = {}
@@ -177,12 +180,9 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
     first: list[object] = []
     if wanted.sort:
         value = row.asked[wanted.names.index(wanted.sort)]
-        number = (
-            float(value) * (-1.0 if wish.sort.startswith("-") else 1.0) if is_number(value) else 0.0
-        )
         first = [
             not is_number(value),
-            float(f"{number:.12g}"),
+            float(f"{_first(wish, wanted, row):.12g}") if is_number(value) else 0.0,
             "" if is_number(value) else str(value),
         ]
     peaks = (candidate.acceleration_max, candidate.jerk_max)
@@ -193,6 +193,40 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
         candidate.z,
         candidate.gearing,
         candidate.drive,
+    )
+
+
+def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
+    """The rows without machines of two numbers that one with either of them all but equals; where
+    the nearest to the plain crank is wished for, that there is.
+    """
+    one = [row for row in found if not row.candidate.of_two_numbers]
+
+    def beaten(row: Row) -> bool:
+        own, value = row.candidate, _first(wish, wanted, row)
+        return any(
+            (nearest or not value < _first(wish, wanted, other) - WORTH * abs(value))
+            for other in one
+            if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
+            and (
+                own.drive == other.candidate.drive
+                or (own.gearing == other.candidate.gearing and not other.candidate.is_driven)
+            )
+        )
+
+    nearest = wish.with_times().any_motion and not wanted.sort
+    return [row for row in found if not (row.candidate.of_two_numbers and beaten(row))]
+
+
+def _first(wish: Wish, wanted: Asked, row: Row) -> float:
+    """What rows are put in order by first, the least being the first; NaN is none."""
+    if not wanted.sort:
+        return row.candidate.acceleration_max
+    value = row.asked[wanted.names.index(wanted.sort)]
+    return (
+        float(value) * (-1.0 if wish.sort.startswith("-") else 1.0)
+        if is_number(value)
+        else math.nan
     )
 
 

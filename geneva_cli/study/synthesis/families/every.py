@@ -16,6 +16,7 @@ from geneva_cli.study.synthesis.families.curved import with_laws
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.families.four_bars import four_bars
 from geneva_cli.study.synthesis.families.straight import straight
+from geneva_cli.study.synthesis.families.two_numbers import two_numbers
 from geneva_cli.study.synthesis.wish import Wish
 
 # Of a wish for a peak acceleration alone, peaks that are as low as a drive brings them are added to
@@ -58,6 +59,7 @@ def families(kind: Kind, wish: Wish, reached: list[float]) -> Iterator[Family]:
 def _straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     for wheel in wheels:
         yield from straight(wish, wheel)
+    yield from two_numbers(wish, wheels)
 
 
 def _four_bars(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:

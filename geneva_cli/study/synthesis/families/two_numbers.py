@@ -1,0 +1,209 @@
+"""Machines that two numbers make: a drive before the crank of a wheel on inclined shafts.
+
+A side-crank there is gentler than either alone. Elliptical gears move the wheel as they do on
+shafts at any other angle that move it for as long, the tangents of quarters of both angles keeping
+one ratio: they are looked at where something else than times and peaks is asked for.
+
+A place is how long the motion is and the shafts' angle, each from 0 to 1 in its span; the drive's
+parameter follows. All wheels are looked at together, on a grid, then about the best places of each,
+nearer after every look that found no better.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from geneva_cli.analysis.peaks_many import QUANTITIES
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.many import many
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.study.sweep.columns import columns, in_arrays
+from geneva_cli.study.synthesis.families import closed
+from geneva_cli.study.synthesis.families.family import (
+    Family,
+    closed_span,
+    machine,
+    natural_deg,
+    only,
+    wanted,
+)
+from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.wish import PEAK, Wish
+
+GRID = 10  # places of either number that are looked at first, in the middle of even shares
+TRACKS = 3  # places of a wheel that are looked about, where it is not only the gentlest
+LOOKS, ALONG = 16, 40  # times that the look goes on from there; along a bound
+CLOSER, FARTHER = 0.7, 1.4  # the next steps, of those that found no better and a better one
+AROUND = 16  # places about the best, half of them half as far
+TURNED = 0.382  # share of what is between two of them, by which they are turned from look to look
+
+
+class _InFront(NamedTuple):
+    """A drive before the crank by its parameter, which follows from two motion angles."""
+
+    make: Callable[[float], Drive]
+    key: str
+    parameter: Callable[[float, float], float]
+    low: float
+    high: float
+
+
+def _gears(phase: str) -> _InFront:
+    low, high = (0.0, closed.MOST) if phase == "slow" else (-closed.MOST, 0.0)
+    make = lambda e: EllipticalGears(eccentricity=abs(e), phase=phase)  # noqa: E731
+    return _InFront(make, "drive.eccentricity", closed.eccentricity, low, high)
+
+
+SIDE = _InFront(lambda A: SideCrank(A=A), "drive.A", closed.side_crank, -closed.MOST, closed.MOST)
+GEARS = (_gears("slow"), _gears("quick"))
+AXES = Interval(closed.AXES, 180.0 - closed.AXES)
+
+
+def two_numbers(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
+    """Of each wheel and drive the best that two numbers make, where one keeps the bounds."""
+    inclined = [wheel for wheel in wheels if not wheel.FLAT]
+    if wish.rollers not in (None, 1) or not inclined:
+        return
+    names = [*filter(None, [wish.sort.lstrip("-")]), *(b.name for b in wish.limits)]
+    moved = all(name.partition(".")[0] in ("timing", *QUANTITIES) for name in names)
+    for drive in (SIDE,) if moved else (SIDE, *GEARS):
+        yield from map(only, _Search(wish, inclined, drive).found())
+
+
+class _Search:
+    """The best place of every wheel so far."""
+
+    def __init__(self, wish: Wish, wheels: Sequence[Gearing], drive: _InFront) -> None:
+        spans = [closed_span(wanted(wish, 1, natural_deg(wheel)), 1) for wheel in wheels]
+        self.wish, self.drive = wish, drive
+        self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
+        self.motions = [span for span in spans if span]
+        self.bounds = [b for b in wish.limits if in_arrays([b.name])]
+        least = wish.sort.lstrip("-")
+        self.least = least if least and in_arrays([least]) else PEAK
+        self.sign = -1.0 if self.least == least and wish.sort.startswith("-") else 1.0
+        self.nearest = wish.any_motion and not least
+
+    def found(self) -> Iterator[Spec]:
+        """The best machine of each wheel that has one."""
+        if not self.wheels:
+            return
+        u, v, best = self._first()
+        step = np.full(len(u), 1.0 / GRID)
+        for look in range(ALONG if self.bounds else LOOKS):
+            turn = math.tau * (np.arange(AROUND) + look * TURNED) / AROUND
+            off = step[:, None] * np.where(np.arange(AROUND) % 2, 0.5, 1.0)
+            us = np.clip(u[:, None] + off * np.cos(turn), 0.0, 1.0)
+            vs = np.clip(v[:, None] + off * np.sin(turn), 0.0, 1.0)
+            new, us, vs = self._least(us, vs)
+            better = (new[0] < best[0]) | ((new[0] == best[0]) & (new[1] < best[1]))
+            best = np.where(better, new, best)
+            u, v = np.where(better, us, u), np.where(better, vs, v)
+            step = step * np.where(better, FARTHER, CLOSER)
+        order = np.lexsort((*best[::-1], self.of))
+        rows = order[np.unique(self.of[order], return_index=True)[1]]
+        for i in rows[best[0][rows] == 0.0]:
+            motion, axes, x = self.place(int(self.of[i]), u[i], v[i])
+            wheel = self.wheels[self.of[i]].with_key("axes_deg", axes)
+            yield self.spec(wheel, x, motion)
+
+    def _first(self) -> tuple[Array, Array, Array]:
+        """The best places of a grid that are better than those beside them, of each wheel as many
+        as are looked about: u, v, and how good they are, (2, n).
+        """
+        middles = (np.arange(GRID) + 0.5) / GRID
+        lengths = np.array([1.0]) if all(m.exact for m in self.motions) else [0.0, *middles, 1.0]
+        u, v = np.meshgrid(lengths, middles, indexing="ij")
+        shape, wheels = u.shape, len(self.wheels)
+        self.of = np.arange(wheels)
+        seen = np.array(self.cost(*(np.tile(x.ravel(), (wheels, 1)) for x in (u, v))))
+        tracks = TRACKS if self.bounds or self.least != PEAK else 1
+        starts = []
+        for i in range(wheels):
+            rank = np.empty(u.size, dtype=int)
+            rank[np.lexsort(seen[::-1, i])] = np.arange(u.size)
+            wide = np.pad(rank.reshape(shape), 1, constant_values=u.size)
+            beside = sliding_window_view(wide, (3, 3)).min(axis=(2, 3)).ravel()
+            tops = np.flatnonzero(rank == beside)
+            starts += [(i, j) for j in tops[np.argsort(rank[tops])][:tracks]]
+        self.of, at = np.array(starts).T
+        return u.ravel()[at], v.ravel()[at], seen[:, self.of, at]
+
+    def _least(self, u: Array, v: Array) -> tuple[Array, Array, Array]:
+        """Of some places (n, k) the best of each row, how good it is, (2, n), and where."""
+        broken, far = self.cost(u, v)
+        rows, at = np.arange(len(u)), np.lexsort((far, broken), axis=1)[:, 0]
+        return np.array([broken[rows, at], far[rows, at]]), u[rows, at], v[rows, at]
+
+    def place(self, i: int, u: float, v: float) -> tuple[float, float, float]:
+        """The motion angle, the shafts' angle and the drive's parameter of a wheel's place."""
+        motions = self.motions[i]
+        motion = motions.low + (motions.high - motions.low) * float(u)
+        axes = AXES.low + (AXES.high - AXES.low) * float(v)
+        natural = closed.axes_motion(self.wheels[i].z, axes)
+        return motion, axes, self.drive.parameter(natural, motion)
+
+    def spec(self, wheel: Gearing, x: float, motion: float) -> Spec:
+        """A machine of a wheel."""
+        make = self.drive.make(x)
+        return machine(self.wish, wheel, lambda n: make.replace(n_rpm=n), 1, motion)
+
+    def cost(self, u: Array, v: Array) -> tuple[Array, Array]:
+        """By how much the machines of these places, (w, k), break the bounds together, over their
+        sizes, and how far they are from the best that could be; infinite where there is none.
+        """
+        rows = np.repeat(self.of, u.shape[1])
+        broken, far = np.full(u.size, math.inf), np.full(u.size, math.inf)
+        at, (least, *values) = self._values(rows, u.ravel(), v.ravel())
+        total = np.zeros(len(at))
+        for bound, value in zip(self.bounds, values, strict=True):
+            room = value - bound.bound if bound.sign == ">=" else bound.bound - value
+            total += np.maximum(-room / (abs(bound.bound) or 1.0), 0.0)
+        known = np.isfinite(total) & np.isfinite(least)
+        off = self._far(rows[at], u.ravel()[at], v.ravel()[at], least)
+        broken[at], far[at] = np.where(known, total, math.inf), np.where(known, off, math.inf)
+        return broken.reshape(u.shape), far.reshape(u.shape)
+
+    def _values(self, rows: Whole, u: Array, v: Array) -> tuple[Whole, list[Array]]:
+        """What is to be least, and what is bounded, of the machines of some places of the wheels
+        ``rows``, all (n,); before it the numbers of the places that have a machine.
+        """
+        drive, names = self.drive, [self.least, *(b.name for b in self.bounds)]
+        none = np.zeros(0, dtype=int), [np.zeros(0) for _ in names]
+        places = [self.place(*one) for one in zip(rows.tolist(), u, v, strict=True)]
+        which = np.flatnonzero([drive.low <= x <= drive.high for _, _, x in places])
+        if not len(which):
+            return none
+        motion, axes, x = np.array(places)[which].T
+        varied = {
+            "wheel.z": np.array([wheel.z for wheel in self.wheels])[rows[which]],
+            "wheel.axes_deg": axes,
+            drive.key: abs(x) if drive.low * drive.high == 0.0 else x,
+            "drive.n_rpm": np.array([self.wish.n_rpm(1, m) for m in motion.tolist()]),
+        }
+        middle = 0.5 * (drive.low + drive.high)
+        try:
+            made = many(self.spec(self.wheels[0], middle, float(motion[0])), varied)
+        except GenevaError:  # a frame of which there is no such machine
+            return none
+        values = columns(made.machine, names, len(made.which)) if made.machine else None
+        return none if values is None else (which[made.which], values)
+
+    def _far(self, row: Whole, u: Array, v: Array, least: Array) -> Array:
+        """What is to be least, or the distance from the plain crank."""
+        if not self.nearest:
+            return self.sign * least
+        natural = np.array([natural_deg(wheel) for wheel in self.wheels])
+        low, wide = np.array([(m.low, m.high - m.low) for m in self.motions]).T
+        aside: Array = np.hypot((low[row] + wide[row] * u - natural[row]) / 180.0, v - 0.5)
+        return aside

@@ -1,0 +1,100 @@
+"""Machines that two numbers make, against dense grids of both."""
+
+import functools
+
+import numpy as np
+import pytest
+from words import Drive, Keys, Spec, Wheel
+
+from geneva_cli.machine.many import many
+from geneva_cli.study.sweep.columns import columns
+from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.search import search
+
+pytestmark = pytest.mark.usefixtures("few_four_bars")
+# Of a smooth least value a grid of 81 by 161 is short by the square of half a step, 1e-4 of what is
+# between the ends; the search is nearer than that, and beside a bound to about as much.
+NEAR = 1e-3
+
+
+@functools.cache
+def grid(z):
+    """Side-cranks of all shafts: A and quantities, (n,) each."""
+    axes, A = (
+        x.ravel() for x in np.meshgrid(np.linspace(2, 178, 81), np.linspace(-0.98, 0.98, 161))
+    )
+    wheel = Wheel(z, "spherical", axes_deg=90.0)
+    spec = Spec(wheel, Drive("side-crank"), Keys("side-crank", 0.1))
+    found = many(spec, {"wheel.axes_deg": axes, "drive.A": A})
+    names = ["acceleration.max", "timing.motion_deg", "velocity.max", "jerk.max"]
+    return columns(found.machine, names, len(found.which))
+
+
+def both(found):
+    """The one row with a side-crank on inclined shafts."""
+    (row,) = [row for row in found if row.candidate.of_two_numbers]
+    return row
+
+
+@pytest.mark.parametrize(
+    ("z", "low", "high", "bound"),
+    [
+        (6, 100.0, 200.0, []),
+        (6, 230.0, 240.0, ["velocity.max >= 0.5"]),
+        (4, 230.0, 260.0, ["velocity.max <= 0.6", "jerk.max <= 2"]),
+    ],
+)
+def test_no_dense_grid_of_two_numbers_finds_a_gentler_machine(z, low, high, bound):
+    wish = {"z": str(z), "spherical": True, "rollers": 1}
+    found = search(read_wish(**wish, motion_deg=f"{low}..{high}", subject_to=tuple(bound))).rows
+    peak, motion, velocity, jerk = grid(z)
+    fits = (motion >= low) & (motion <= high)
+    for text in bound:
+        name, sign, number = text.split()
+        value = velocity if name == "velocity.max" else jerk
+        fits &= value >= float(number) if sign == ">=" else value <= float(number)
+    assert fits.sum() > 20
+    row = both(found)
+    assert row.candidate.acceleration_max <= peak[fits].min() * (1 + NEAR)
+    assert low <= row.candidate.motion_deg * (1 + 1e-12) and row.candidate.motion_deg <= high * (
+        1 + 1e-12
+    )
+    # each of the numbers alone is worse, or keeps no bound
+    others = [r.candidate for r in found if not r.candidate.of_two_numbers]
+    assert all(c.acceleration_max > 1.01 * row.candidate.acceleration_max for c in others)
+
+
+def test_what_one_number_brings_as_well_is_no_row():
+    """Down to 120 deg inclined shafts alone are as gentle: the side-crank would add nothing."""
+    found = search(read_wish(z="4", spherical=True, rollers=1, motion_deg="100..120")).rows
+    assert {row.candidate.drive for row in found} >= {"crank", "side-crank"}
+    assert not any(row.candidate.of_two_numbers for row in found)
+
+
+def test_elliptical_gears_move_alike_on_shafts_at_any_angle():
+    """Why they are not looked for: tan(phi/4) of what gears and shafts make has one ratio."""
+    wheel = Wheel(6, "spherical", axes_deg=90.0)
+    b, quarter = np.pi / 6.0, np.radians(200.0 / 4.0)
+    axes = np.array([40.0, 75.0, 100.0])
+    # the plain motion of each, tan(phi/2) = cos b / (cos S sin b)
+    S = np.radians(axes)
+    plain = 2.0 * np.arctan2(np.cos(b), np.cos(S) * np.sin(b))
+    e = np.sin(quarter - plain / 4.0) / np.sin(quarter + plain / 4.0)
+    keys = Keys("elliptical-gears", 0.1, "slow")
+    found = many(
+        Spec(wheel, Drive("elliptical-gears"), keys),
+        {"wheel.axes_deg": axes, "drive.eccentricity": e},
+    )
+    names = ["timing.motion_deg", "velocity.max", "acceleration.max", "jerk.max"]
+    for value in columns(found.machine, names, 3):
+        assert value == pytest.approx(value[0], rel=1e-11)
+
+
+def test_bounds_that_no_number_keeps_alone_two_may():
+    """Without a wish for a motion two numbers are shown where one does not do."""
+    wish = {"z": "6", "spherical": True, "rollers": 1}
+    bounds = ("acceleration.max <= 0.3", "velocity.max <= 0.5", "timing.dwell_deg >= 110")
+    row = both(search(read_wish(**wish, subject_to=bounds)).rows)
+    assert row.candidate.acceleration_max <= 0.3 and row.candidate.dwell_deg >= 110.0 * (1 - 1e-12)
+    found = search(read_wish(**wish, subject_to=("velocity.max <= 0.5",))).rows
+    assert not any(row.candidate.of_two_numbers for row in found)
