@@ -4,22 +4,26 @@
 
 Random designs of every machine (those of tests/design_arrays.py), each under a load of its own,
 with friction and without: the greatest and least of every quantity that is known of it is held
-against a scan that knows no search, of other places in each design. One row a machine; the exit
-status is 1 where a place of the scan passes an extreme.
+against a scan that knows no search, of other places in each design. All are asked for together, and
+some one at a time, as a sweep does: what cuts the motion for one quantity brings another's extreme
+to light. One row a machine; the exit status is 1 where a place of the scan passes an extreme.
 """
 
 import math
 import sys
 import time
 
+import numpy as np
 from loaded_arrays import beyond, loaded
 from many_options import options
 
 from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.many import summaries_of_many
 from geneva_cli.analysis.loads.quantities import known_quantities
 
 CHUNK = 4_096  # designs built together
 PLACES = 200
+ALONE = ("pin_force_N", "input_torque_Nm")
 MORE = 1e-12  # of a quantity's size: above what rounding does
 
 
@@ -36,6 +40,9 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
             continue
         names = known_quantities(Cycle(found.machine))
         over = beyond(found, places, seed, names=names)
+        for one in [name for name in ALONE if name in names]:
+            together = summaries_of_many(found.machine, (one,), told=())
+            over = np.hstack((over, beyond(found, places, seed, together, (one,))))
         done += len(over)
         missed += int((over > MORE).any(axis=1).sum())
         most = max(most, float(over.max()))
