@@ -70,9 +70,11 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     rim = _or(given.wheel_radius_mm, max(mouth(assembly, s, r) for s in assembly.kinds))
     bottom = _or(given.slot_bottom_clearance_mm, max(given.allowances.slot_clearance_mm, r / 20.0))
     gaps = [0.0 if s.slot.curved else bottom for s in assembly.kinds]
-    end = (
-        min(e * assembly.sign - g - w for e, g in zip(path.ends, gaps, strict=True)) * assembly.sign
+    ends = (
+        assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
+        for s, deepest, gap in zip(assembly.kinds, path.ends, gaps, strict=True)
     )
+    end = (min(ends) - w) * assembly.sign
     arm = path.arm
     lock = _lock(assembly, arm, w, rim)
     depth = abs(L - rim)
@@ -203,6 +205,16 @@ def require_lock_between(lock_radius_mm: float, least: float, room: float) -> No
             f"into the rim, and below {room:.6g}, to leave a horn beside the slot; or 0 for none",
             ("size", "lock_radius_mm"),
         )
+
+
+def _bottom(deepest: float, offset: float, gap: float) -> float:
+    """Distance from the wheel's axis of the centre of a slot's round end, mm.
+
+    The gap between it and the deepest roller is along the slot, which may miss the wheel's axis;
+    below 0 where it is beyond that.
+    """
+    along = math.sqrt(max(deepest * deepest - offset * offset, 0.0)) - gap
+    return math.copysign(math.hypot(along, offset), along)
 
 
 def _refuse(assembly: Assembly, found: Sizes) -> None:

@@ -1,5 +1,6 @@
 """Sizes that make no machine are refused by every command, whatever it prints."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -7,8 +8,10 @@ from typer.testing import CliRunner
 from words import Motion, Spec, Wheel
 
 from geneva_cli.app import app
+from geneva_cli.curves.shapes import Arc
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.outlines import outlines
 from geneva_cli.spec.tables import Size
 
 HUGE = [
@@ -80,3 +83,18 @@ def test_the_largest_roller(wheel: Wheel, motion: Motion, largest: float) -> Non
 def test_many_slots_keep_their_default_roller() -> None:
     """At z = 100 the default of L/20 is too large; the motion does not need it."""
     build(Spec(Wheel(100)))
+
+
+@pytest.mark.parametrize("offset", [-12.0, 0.0, 12.0])
+@pytest.mark.parametrize("gap", [0.0, 0.35, 8.0])
+def test_slots_end_where_the_outline_does(offset: float, gap: float) -> None:
+    """The round's centre is as far along the slot as the deepest roller, and the gap: its nearest
+    point to the axis, whatever the slot misses that by, is where bores and hubs have to stay."""
+    size = Size(slot_bottom_clearance_mm=gap)
+    found = outlines(build(Spec(Wheel(6, offset_mm=offset), size=size)))
+    (round_end,) = {
+        round(math.hypot(*arc.centre) - arc.radius, 9)
+        for arc in found.wheel.segments
+        if isinstance(arc, Arc) and abs(abs(arc.bulge) - 1.0) < 1e-12
+    }
+    assert found.sizes.slot_end == pytest.approx(round_end, abs=2e-9)
