@@ -42,7 +42,7 @@ from geneva_cli.study.synthesis.wish import PEAK, Wish
 
 GRID = 10  # places of either number that are looked at first, in the middle of even shares
 TRACKS = 3  # places of a wheel that are looked about, where it is not only the gentlest
-LOOKS, ALONG = 9, 28  # times that the look goes on from there; along a bound
+LOOKS, ALONG = 14, 28  # times that the look goes on from there; along a bound
 CLOSER, FARTHER = 0.7, 1.4  # the next steps, of those that found no better and a better one
 AROUND = 16  # places about the best, half of them half as far
 TURNED = 0.382  # share of what is between two of them, by which they are turned from look to look
