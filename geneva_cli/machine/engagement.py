@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, array
+from geneva_cli.numerics.arrays import all_true, array, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 if TYPE_CHECKING:
@@ -280,6 +281,12 @@ class Engagement:
     def motion_deg(self) -> float:
         """Input angle of the motion."""
         return self.exit_deg - self.entry_deg
+
+    @cached_property
+    def entry_reach(self) -> Number:
+        """The pin's distance from the wheel's axis at entry, in units of L."""
+        x, y = self.slot(self.entry_deg, 0)
+        return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
         """Rate at which the body that carries the roller turns, positive with the wheel.

@@ -77,6 +77,15 @@ class SolvedPath:
         below = angle * _sinc(angle * t)
         return _sinc(t) / below, slope * _sinc(psi) / below
 
+    @property
+    def crossing(self) -> Number:
+        """The roller's distance from the crank's axis at mid-motion, on the line of centres.
+
+        There psi and phi vanish together: it is the limit of the quotient of their sines.
+        """
+        slope = self.motion(0.0, 1).c[1]
+        return slope / (slope * self.sign + 1.0)
+
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The roller in its straight slot, which stands at the wheel's angle."""
         rho, _ = self.distances(input_deg, order)

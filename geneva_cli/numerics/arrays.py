@@ -29,6 +29,7 @@ Truth: TypeAlias = "bool | Mask"
 
 # One kind of number goes in, and the same kind comes out.
 N = TypeVar("N", float, "Array", "Number")
+Either = TypeVar("Either", "Array", "Whole")
 Real = TypeVar("Real", float, "Array", "Number", "Decimal")
 Record = TypeVar("Record", bound=tuple[object, ...])
 
@@ -261,3 +262,19 @@ def larger(a: N, b: N) -> N:
 def smaller(a: N, b: N) -> N:
     """The smaller of two numbers, element by element for arrays."""
     return choose(b < a, b, a)
+
+
+def rising(x: Either) -> Either:
+    """Numbers (n,) in rising order, each once: ``numpy.unique``, which would import numpy.ma.
+
+    >>> import numpy
+    >>> rising(numpy.array([2.0, 1.0, 2.0])).tolist()
+    [1.0, 2.0]
+    """
+    import numpy
+
+    ordered = numpy.sort(x, axis=None)
+    once = numpy.ones(len(ordered), dtype=bool)
+    once[1:] = ordered[1:] != ordered[:-1]
+    found: Either = ordered[once]
+    return found

@@ -90,12 +90,15 @@ class Assembly(NamedTuple):
         x, y = engagement.path(at, 0)
         return self.L * np.column_stack((x.c[0], y.c[0]))
 
-    def crank(self, input_deg: Array) -> Array:
-        """The crank's direction, radians: that of its first roller at input angle 0."""
+    def crank(self, input_deg: Array, first: Array | None = None) -> Array:
+        """The crank's direction, radians: that of its first roller at input angle 0.
+
+        ``first`` is where that is at these angles, mm (n, 2), if it is at hand.
+        """
         engagement = self.rollers[0][0]
         if engagement.crank_sense:
             return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
-        x, y = (self.pin(0, input_deg) - (self.L, 0.0)).T
+        x, y = ((self.pin(0, input_deg) if first is None else first) - (self.L, 0.0)).T
         angle: Array = np.arctan2(y, x)
         return angle
 

@@ -88,7 +88,7 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     walls = {engagement: slot_walls(where, size, engagement, fine) for engagement in where.kinds}
     close = (CURVED if curved else EXACT) * where.L
     wheel = wheel_contour(where, size, walls)
-    crank, relief, gaps = _relieved(Gaps(where, size, wheel, []), wheel, close)
+    crank, relief, gaps = _relieved(Gaps(where, size, wheel, []), close)
     return Outlines(where, size, walls, wheel, crank, relief, gaps, close, fine)
 
 
@@ -105,7 +105,7 @@ def slot_walls(
     return straight_walls(assembly, sizes, engagement)
 
 
-def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], str, Gaps]:
+def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
     """The crank with the relief that the spec asks for, or else the first that clears the wheel.
 
     The arc leaves the most of the disc and is one cut; where it collides, as at many slots, the
@@ -120,7 +120,7 @@ def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], 
     kinds = [asked] if asked else ["arc", "sector"] if arcs else ["sector"]
     for kind in kinds:
         crank = crank_contours(assembly, sizes, kind, swept)
-        gaps = Gaps(assembly, sizes, wheel, crank)
+        gaps = bare.with_crank(crank)
         overlap = _overlap(gaps, close)
         if overlap <= close:
             return crank, kind, gaps
@@ -129,7 +129,7 @@ def _relieved(bare: Gaps, wheel: Contour, close: float) -> tuple[list[Contour], 
         # Between two of the places that were looked at the wheel came nearer still.
         spare += SPARE * overlap + 10.0 * close
         crank = crank_contours(assembly, sizes, kind, swept, spare)
-        gaps = Gaps(assembly, sizes, wheel, crank)
+        gaps = bare.with_crank(crank)
         overlap = _overlap(gaps, close)
         if overlap <= close:
             break

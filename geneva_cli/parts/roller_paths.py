@@ -42,9 +42,8 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
     It is where the roller touches the wall that faces the crank's axis, at the foot of the
     perpendicular from that axis.
     """
-    x, y = engagement.slot(engagement.entry_deg, 0)
     if not engagement.slot.offset:
-        return math.hypot(assembly.L * math.hypot(x.c[0], y.c[0]), r)
+        return math.hypot(assembly.L * scalar(engagement.entry_reach), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
 

@@ -29,13 +29,12 @@ def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Cont
     """
     found: list[Segment] = []
     around = assembly.slots
-    for i, (engagement, direction) in enumerate(around):
-        following, ahead = around[(i + 1) % len(around)]
-        found += turned(slots[engagement], direction).segments
-        next_start = turned(slots[following], ahead).segments[0].start
-        found += _rim(
-            assembly, sizes, found[-1].end, next_start, _between(assembly, direction, ahead)
-        )
+    walls = [turned(slots[engagement], direction).segments for engagement, direction in around]
+    for i, (_, direction) in enumerate(around):
+        following = (i + 1) % len(around)
+        found += walls[i]
+        between = _between(assembly, direction, around[following][1])
+        found += _rim(assembly, sizes, found[-1].end, walls[following][0].start, between)
     return closed(LAYER, found)
 
 

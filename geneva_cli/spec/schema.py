@@ -96,7 +96,8 @@ class SpecTable:
     def __hash__(self) -> int:
         held = vars(self)
         if HASH not in held:
-            held[HASH] = hash(tuple(self._values().values()))
+            # with the kind: many laws, and many drives, have the same values
+            held[HASH] = hash((type(self), *self._values().values()))
         found: int = held[HASH]
         return found
 

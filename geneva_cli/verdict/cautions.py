@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from geneva_cli.analysis.peaks import QUANTITIES, peak
 from geneva_cli.errors import Caution
+from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.law_motion import LawMotion
+from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
@@ -120,8 +125,22 @@ def _rounded_points(mechanism: Mechanism) -> list[Caution]:
 
 def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     """The least velocity and its input angle if the wheel turns back; else None."""
-    engagement, pick = mechanism.engagements[0], QUANTITIES["velocity"]
-    motion = engagement.motion
+    if mechanism.law and not _law_turns_back(mechanism.law):
+        return None
+    engagement = mechanism.engagements[0]
+    back = _least_velocity(engagement.motion)
+    return back and (back[0], mechanism.shown_deg(engagement.mid_deg + back[1]))
+
+
+@lru_cache(maxsize=128)
+def _law_turns_back(law: Law) -> bool:
+    """Whether a wheel turns back by a law, whatever its step and its motion angle."""
+    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
+
+
+def _least_velocity(motion: Motion) -> tuple[float, float] | None:
+    """The least velocity of an engagement where it is below 0, and its place; else None."""
+    pick = QUANTITIES["velocity"]
 
     def curve(x: float) -> tuple[float, float, float]:
         v, a, j = pick(motion(x, 3).scalars())
@@ -135,8 +154,7 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
     # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
     noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
     value = curve(least)[0]
-    at_deg = mechanism.shown_deg(engagement.mid_deg + least)
-    return (value, at_deg) if value < -noise else None
+    return (value, least) if value < -noise else None
 
 
 def _off_the_mid_condition(mechanism: Mechanism) -> Caution:

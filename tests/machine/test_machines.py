@@ -627,6 +627,8 @@ def test_cam_groove(machine, witness):
         s, g = m.engagements[0], -1 if m.spec.wheel.NAME == "internal" else 1
         V = s.motion(0.0).derivatives()[1]
         assert m.ratio == pytest.approx(V / (1 + g * V), rel=1e-14)
+        # by the series of psi about mid-motion, whose first term is all that is left there
+        assert m.ratio == pytest.approx(s.groove.distances(0.0, 0)[1].c[0], rel=1e-15)
         for t in np.linspace(0.02, 1.0, 23):
             phi = to_radians(x := float(t * s.exit_deg))
             psi, psi1, *_ = w.derivatives(x)

@@ -70,7 +70,7 @@ class Cam(PinPath, kw_only=True):
         engagement = Engagement(
             0.0, path, slot, turned, groove=path, body=body, reactions=reactions
         )
-        ratio = parameter(path.distances(0.0, 0)[1].c[0])
+        ratio = parameter(path.crossing)
         return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
 
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import rising
 from geneva_cli.parts.turn.freedom import EXACT, free_angles, search_deg
 from geneva_cli.parts.turn.play import NEAR, Play, play_of, push_deg, windows
 from geneva_cli.parts.turn.turned import Pose, Turned
@@ -166,7 +167,7 @@ def positions(parts: Turned) -> Array:
     beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
     near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
-    return np.unique(np.concatenate((found, near)))
+    return rising(np.concatenate((found, near)))
 
 
 def _smallest(parts: Turned, at: Array, earlier: Earlier) -> tuple[Gap, Gap | None, Gap]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -46,6 +47,13 @@ class Gaps:
         self.left = math.inf
         self._sector()
         self.crank = Polyarc(crank) if crank else None
+
+    def with_crank(self, crank: list[Contour]) -> Gaps:
+        """The gaps of the same wheel and rollers, and of another crank's outline."""
+        out = copy.copy(self)
+        vars(out).pop("_stops", None)
+        out.crank = Polyarc(crank) if crank else None
+        return out
 
     def begin(self) -> None:
         """Count work from here on; more than WORK raises NotProved."""
@@ -101,9 +109,8 @@ class Gaps:
     def pose(self, input_deg: Array) -> Pose:
         """The positions at input angles (n,), degrees."""
         pins = [self.assembly.pin(i, input_deg) for i in range(len(self.assembly.rollers))]
-        return Pose(
-            self.assembly.wheel(input_deg), self.assembly.crank(input_deg), np.stack(pins, axis=1)
-        )
+        crank = self.assembly.crank(input_deg, pins[0])
+        return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
 
     def gap(self, pose: Pose, lead: Array, near: float) -> Array:
         """The smallest gap, mm (n,), the wheel turned by ``lead``, radians; see ``rollers``."""

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import rising
 from geneva_cli.parts.turn.freedom import search_deg, stopped, touching
 from geneva_cli.parts.turn.turned import Turned
 
@@ -94,7 +95,7 @@ def play_of(parts: Turned, fits: bool) -> Play:
     """
     found = _measured(parts, _places(parts), fits)
     for _ in range(CLOSER):
-        more = np.unique(np.concatenate([*_peaks(parts, found), *_closing(parts, found)]))
+        more = rising(np.concatenate([*_peaks(parts, found), *_closing(parts, found)]))
         if not len(more):
             break
         found = _merged(found, _measured(parts, more, fits))
@@ -127,7 +128,7 @@ def _places(parts: Turned) -> Array:
     for a, b, _, rests in windows(parts):
         near = close * min(CHANGE_DEG, 0.5 * (b - a))
         found += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
-    return np.unique(np.concatenate(found))
+    return rising(np.concatenate(found))
 
 
 def _measured(parts: Turned, at: Array, fits: bool) -> Play:
@@ -171,7 +172,7 @@ def _merged(a: Play, b: Play) -> Play:
 def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
     """Places that cut intervals, told by their first positions, into equal parts."""
     last = len(play.input_deg) - 2
-    i = np.unique(intervals[(intervals >= 0) & (intervals <= last)])
+    i = rising(intervals[(intervals >= 0) & (intervals <= last)])
     low, high = play.input_deg[i], play.input_deg[i + 1]
     wide = (high - low > NARROW)[:, None]
     share = np.arange(1, AROUND) / AROUND

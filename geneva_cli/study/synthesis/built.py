@@ -55,10 +55,9 @@ def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
     for other in _others(spec, set(names), fixed):
         if any(one.name in LOOSE and one.share > LOST for one in seen):
             break
-        failing = _other_failing(turns, other, seen)
-        if not failing:
+        seen = _other_failing(turns, other, seen)
+        if not seen:
             return Built(other, "")
-        seen = failing
     return Built(spec, ", ".join(names))
 
 

@@ -91,6 +91,8 @@ def _alike(spec: Spec) -> Spec:
     drive = spec.drive
     if spec.motion is None and drive.CRANKED:
         return spec.replace(drive=Crank(n_rpm=USUAL_RPM))
+    if drive.n_rpm == USUAL_RPM and drive.rollers == 1:
+        return spec
     return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM, rollers=1))
 
 
