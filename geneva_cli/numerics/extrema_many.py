@@ -235,15 +235,17 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
     return pairs.taken(_turns(pairs.left[2], pairs.right[2]))
 
 
-def unpredicted(left: Sample, middle: Sample, right: Sample, low: Array, high: Array) -> Mask:
-    """Whether the cubic through both neighbours misses the sample midway between them.
+def unpredicted(
+    left: Sample, middle: Sample, right: Sample, low: Array, high: Array, share: float = PREDICTED
+) -> Mask:
+    """Whether the cubic through both neighbours misses the sample midway by a share of the range.
 
     Or whether a cubic turns twice between samples whose slopes have the same sign.
     """
     width = right[0] - left[0]
     predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
     rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
-    missed: Mask = np.abs(middle[1] - predicted) > PREDICTED * (high - low) + rounding
+    missed: Mask = np.abs(middle[1] - predicted) > share * (high - low) + rounding
     missed |= goes_back(left, middle, rounding)
     return missed | goes_back(middle, right, rounding)
 

@@ -36,7 +36,7 @@ from geneva_cli.numerics.extrema_many import unpredicted
 from geneva_cli.numerics.flat_ends import flat_ends, second_turns
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
-from geneva_cli.numerics.samples_many import Samples, unpredicted_beside
+from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_beside
 from geneva_cli.numerics.spread import gathered, spread
 from geneva_cli.numerics.turns_many import Signed, turn
 
@@ -318,7 +318,7 @@ class _Search:
         self.tops.add_all(design, x, look.value[f.signs :])
         low, high = (side[:, design] for side in self.range)
         three = cells.at(0), (x, look.value, look.slope), cells.at(1)
-        missed = unpredicted(*three, low, high)
+        missed = unpredicted(*three, low, high, SHARE)
         wide = cells.x[1] - cells.x[0] > NARROW * (np.abs(cells.x[0]) + np.abs(cells.x[1]))
         known = self._bounded(design, cells.value[0], look.value, cells.value[1])
         open_ = self._matters(missed & known, design, *three).any(axis=0) & wide
