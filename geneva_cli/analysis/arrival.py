@@ -53,7 +53,7 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
     0.227929
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
-    if len(engagement.ahead_deg) == 1 or not spec.is_loaded:
+    if not engagement.paired or not spec.is_loaded:
         return None
     w = omega(spec.drive.n_rpm)
     unit, torque = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)

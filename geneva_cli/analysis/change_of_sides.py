@@ -58,7 +58,7 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
     Nowhere where a drag holds the roller on one wall.
     """
     motion, m = engagement.motion, len(drag)
-    if len(engagement.ahead_deg) > 1:  # gears hold the wheel until another roller stops it
+    if engagement.paired:  # gears hold the wheel until another roller stops it
         begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
         return Changes(np.arange(m), begins.astype(float))
     which, x, torque = landmarks(motion, "acceleration", m)

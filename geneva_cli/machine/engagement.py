@@ -312,6 +312,11 @@ class Engagement:
         return (0.0,)
 
     @property
+    def paired(self) -> bool:
+        """Whether one roller starts the wheel and another stops it, each in a slot of its own."""
+        return len(self.ahead_deg) > 1
+
+    @property
     def apart(self) -> float:
         """Half the angle between the slots of those rollers in the wheel, radians."""
         return self.half_step - self.through.half_step

@@ -127,7 +127,7 @@ def by_roller(mechanism: Mechanism) -> list[Passage]:
 
 def halves(engagement: Engagement) -> tuple[float, ...]:
     """Which half of a motion each of its rollers makes; 0 is the whole."""
-    return (0.0,) if len(engagement.ahead_deg) == 1 else (-1.0, 1.0)
+    return (-1.0, 1.0) if engagement.paired else (0.0,)
 
 
 def rollers(mechanism: Mechanism) -> int:

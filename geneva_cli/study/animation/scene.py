@@ -82,7 +82,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
         a, b = one.entry - turn.start, one.exit - turn.start
-        if len(one.engagement.ahead_deg) == 1:
+        if not one.engagement.paired:
             yield Phase(a, b, True, f"{which} moves the wheel")
         else:
             c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import NamedTuple, TypeGuard
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.keeps import keeps
 
 _FORM = re.compile(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*")
@@ -34,8 +35,8 @@ class Constraint(NamedTuple):
         """Whether a value keeps it, but for rounding; what does not apply to a design does not."""
         return is_number(value) and keeps(float(value), WORDS[self.sign], self.bound)
 
-    def room(self, value: float) -> float:
-        """How far inside the bound a value is, over the bound's size; negative outside."""
+    def room(self, value: N) -> N:
+        """How far inside the bound values are, over the bound's size; negative outside."""
         room = value - self.bound if self.sign == ">=" else self.bound - value
         return room / (abs(self.bound) or 1.0)
 

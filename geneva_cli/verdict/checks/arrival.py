@@ -10,7 +10,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     """The torque that resists, against what the wheel's inertia overcomes; None with two walls."""
-    if len(mechanism.engagements[0].ahead_deg) == 1:
+    if not mechanism.engagements[0].paired:
         return None
     from geneva_cli.analysis.arrival import arrival
 

@@ -50,7 +50,7 @@ def drag_words(mechanism: Mechanism) -> str:
     """What ends the change of sides; where one roller starts the wheel and another stops it, what
     makes it less: a drag would take the wheel off the second one.
     """
-    if any(len(engagement.ahead_deg) > 1 for engagement in mechanism.engagements):
+    if any(engagement.paired for engagement in mechanism.engagements):
         return "less slot_clearance_mm makes it less"
     from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 

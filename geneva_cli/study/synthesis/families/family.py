@@ -7,7 +7,9 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
+from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.classic import rollers_max
@@ -74,6 +76,15 @@ def machine(
     own = wish.frame or BARE
     found = drive(wish.n_rpm(m, motion_deg))
     return own.replace(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
+
+
+def can_be(spec: Spec) -> bool:
+    """Whether a drive goes with its wheel."""
+    try:
+        refuse_conflicts(spec)
+    except GenevaError:
+        return False
+    return True
 
 
 def natural_deg(wheel: Gearing) -> float:

@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.four_bar import FourBar
 from geneva_cli.machine.path_pairs import ends_at, newton, residual
 from geneva_cli.machine.path_wheels import followed
@@ -28,6 +27,7 @@ from geneva_cli.study.synthesis.families.coupler_costs import Costs, is_known
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
+    can_be,
     closed_span,
     machine,
     natural_deg,
@@ -71,9 +71,7 @@ def _task(wish: Wish, wheel: Gearing) -> WheelGoal | None:
     free = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
     if free is None:
         return None
-    try:
-        refuse_conflicts(_machine(wish, wheel, FourBar(**_EXAMPLE), free.low))
-    except GenevaError:
+    if not can_be(_machine(wish, wheel, FourBar(**_EXAMPLE), free.low)):
         return None
     frame = wish.frame or BARE
     given = frame.size.roller_radius_mm

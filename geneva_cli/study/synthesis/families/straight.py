@@ -10,8 +10,6 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.epicyclic import Epicyclic
@@ -23,6 +21,7 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
+    can_be,
     closed_span,
     holds,
     machine,
@@ -89,9 +88,7 @@ def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
         return machine(wish, wheel, drive, 1, natural)
 
     for fixed in PLANETS:
-        try:
-            refuse_conflicts(make("shockless", fixed))
-        except GenevaError:  # a wheel that it does not drive
+        if not can_be(make("shockless", fixed)):
             return
         yield Family(lambda x, fixed=fixed: make("shockless", fixed))  # type: ignore[misc]
         l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)

@@ -111,7 +111,7 @@ class _Search:
             u, v = np.where(better, us, u), np.where(better, vs, v)
             step = step * np.where(better, FARTHER, CLOSER)
         order = np.lexsort((*best[::-1], self.of))
-        rows = order[np.unique(self.of[order], return_index=True)[1]]
+        rows = order[np.flatnonzero(np.diff(self.of[order], prepend=-1))]  # the first of each wheel
         for i in rows[best[0][rows] == 0.0]:
             motion, axes, x = self.place(int(self.of[i]), u[i], v[i])
             wheel = self.wheels[self.of[i]].with_key("axes_deg", axes)
@@ -167,8 +167,7 @@ class _Search:
         at, (least, *values) = self._values(rows, u.ravel(), v.ravel())
         total = np.zeros(len(at))
         for bound, value in zip(self.bounds, values, strict=True):
-            room = value - bound.bound if bound.sign == ">=" else bound.bound - value
-            total += np.maximum(-room / (abs(bound.bound) or 1.0), 0.0)
+            total += np.maximum(-bound.room(value), 0.0)
         known = np.isfinite(total) & np.isfinite(least)
         off = self._far(rows[at], u.ravel()[at], v.ravel()[at], least)
         broken[at], far[at] = np.where(known, total, math.inf), np.where(known, off, math.inf)

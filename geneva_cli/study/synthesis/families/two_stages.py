@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.gear_sector import GearSector
 from geneva_cli.machine.drives.geneva_pair import GenevaPair
 from geneva_cli.machine.mechanism import build
@@ -20,6 +18,7 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
+    can_be,
     closed_span,
     holds,
     machine,
@@ -44,7 +43,7 @@ def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     that of the plain crank leaves the gears nothing to drive.
     """
     span = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
-    if span is None or not _can_be(BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))):
+    if span is None or not can_be(BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))):
         return
     z = wheel.z
 
@@ -77,12 +76,3 @@ def pairs(wish: Wish, wheel: Gearing) -> Iterator[Family]:
                 return GenevaPair(first_z=first_z, n_rpm=n)
 
             yield only(machine(wish, wheel, drive, m, natural))
-
-
-def _can_be(spec: Spec) -> bool:
-    """Whether a drive goes with a wheel."""
-    try:
-        refuse_conflicts(spec)
-    except GenevaError:
-        return False
-    return True
