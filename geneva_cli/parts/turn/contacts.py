@@ -36,36 +36,38 @@ def candidates(
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
     close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
     owner, piece = owner[close], piece[close]
-    owners, points = [owner], [np.column_stack((own.x0[piece], own.y0[piece]))]
-    arcs, lines = np.flatnonzero(other.arc), np.flatnonzero(~other.arc)
-    c, s = np.cos(angle)[owner, None], np.sin(angle)[owner, None]
+    found = [(owner, own.x0[piece], own.y0[piece])]
+    arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
+    c, s = np.cos(angle)[owner], np.sin(angle)[owner]
+    # a row for each of the other's pieces, which are few
     x, y = other.cx[arcs], other.cy[arcs]
-    centre = origin[owner, None, :] + np.stack((c * x - s * y, s * x + c * y), axis=2)
+    centre_x, centre_y = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
     x, y = other.dy[lines], -other.dx[lines]
-    normal = np.stack((c * x - s * y, s * x + c * y), axis=2)
+    normal_x, normal_y = c * x - s * y, s * x + c * y
 
     bent = np.flatnonzero(own.arc[piece])
-    middle = np.column_stack((own.cx, own.cy))[piece[bent], None, :]
-    facing = np.concatenate((centre[bent] - middle, normal[bent]), axis=1)
-    length = np.sqrt(facing[..., 0] ** 2 + facing[..., 1] ** 2)
-    facing = facing / np.maximum(length, 1e-300)[..., None]
-    i = piece[bent, None]
-    along = facing[..., 0] * own.mx[i] + facing[..., 1] * own.my[i]
+    i = piece[bent]
+    middle_x, middle_y = own.cx[i], own.cy[i]
+    facing_x = np.concatenate((centre_x[:, bent] - middle_x, normal_x[:, bent]))
+    facing_y = np.concatenate((centre_y[:, bent] - middle_y, normal_y[:, bent]))
+    length = np.maximum(np.sqrt(facing_x**2 + facing_y**2), 1e-300)
+    facing_x, facing_y = facing_x / length, facing_y / length
+    along = facing_x * own.mx[i] + facing_y * own.my[i]
     for side in (1.0, -1.0):
-        pair, which = np.nonzero(side * along >= own.cos_half[i])
-        owners.append(owner[bent[pair]])
-        radius = side * own.radius[piece[bent[pair]], None]
-        points.append(middle[pair, 0] + radius * facing[pair, which])
+        which, pair = np.nonzero(side * along >= own.cos_half[i])
+        radius = side * own.radius[i[pair]]
+        x = middle_x[pair] + radius * facing_x[which, pair]
+        y = middle_y[pair] + radius * facing_y[which, pair]
+        found.append((owner[bent[pair]], x, y))
 
     flat = np.flatnonzero(~own.arc[piece])
-    i = piece[flat, None]
-    ax, ay = centre[flat, :, 0] - own.x0[i], centre[flat, :, 1] - own.y0[i]
+    i = piece[flat]
+    ax, ay = centre_x[:, flat] - own.x0[i], centre_y[:, flat] - own.y0[i]
     share = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
-    pair, which = np.nonzero((share > 0.0) & (share < 1.0))
-    t, i = share[pair, which], piece[flat[pair]]
-    owners.append(owner[flat[pair]])
-    points.append(np.column_stack((own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i])))
+    which, pair = np.nonzero((share > 0.0) & (share < 1.0))
+    t, i = share[which, pair], i[pair]
+    found.append((owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]))
 
-    which_, at = np.concatenate(owners), np.concatenate(points)
-    inside = ((at - origin[which_]) ** 2).sum(axis=1) < reach * reach
-    return which_[inside], at[inside]
+    owner, x, y = (np.concatenate(each) for each in zip(*found, strict=True))
+    inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
+    return owner[inside], np.column_stack((x[inside], y[inside]))
