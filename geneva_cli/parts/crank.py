@@ -24,7 +24,7 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
-from geneva_cli.parts.locking_rings import LAYER, rings
+from geneva_cli.parts.locking_rings import LAYER, rings, seen, towards
 from geneva_cli.parts.reliefs import SAME, Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.parts.sizes import Sizes
 
@@ -68,9 +68,9 @@ def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """A relief as wide as the wheel needs it: offset slots turn their horns past its edge."""
-    _, direction = swept(one.motion, 1)
     middle = 0.5 * (one.start + one.end)
-    off = np.remainder(direction - middle + math.pi, math.tau) - math.pi
+    beyond = towards(*swept(one.motion, 1), middle + math.pi, math.pi - one.half)
+    off = seen(*beyond, middle).direction
     spare = sizes.relief / sizes.lock
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
     start = middle + low - spare if low < -one.half - SAME else one.start

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -33,6 +33,7 @@ CONTACT = CURVED
 TRIES = 5
 SPARE = 3.0  # times an overlap that was found, kept more from the wheel
 SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
+SOME = 16  # of which one of so many tells most reliefs that do not
 
 
 class Outlines(NamedTuple):
@@ -92,10 +93,6 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     return Outlines(where, size, walls, wheel, crank, relief, gaps, close, fine)
 
 
-def _sweep(bare: Gaps) -> Callable[[int, int], tuple[Array, Array]]:
-    return lambda i, every: bare.swept(i, SWEPT_DEG, every)
-
-
 def slot_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
@@ -111,42 +108,42 @@ def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
     The arc leaves the most of the disc and is one cut; where it collides, as at many slots, the
     whole sector is cut down to where the wheel never comes.
     """
-    assembly, sizes, swept = bare.assembly, bare.sizes, _sweep(bare)
+    assembly, sizes = bare.assembly, bare.sizes
     if not sizes.lock:
         return [], "none", bare
     asked = assembly.mechanism.spec.size.relief
-    arcs = is_whole(assembly, sizes) and not without_lock(assembly)
-    arcs &= has_arcs(assembly, sizes.lock)
-    kinds = [asked] if asked else ["arc", "sector"] if arcs else ["sector"]
-    for kind in kinds:
-        crank = crank_contours(assembly, sizes, kind, swept)
+    whole = is_whole(assembly, sizes)
+    swept = cache(lambda i, every: bare.swept(i, SWEPT_DEG, every))
+    if whole and not asked and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
+        crank = crank_contours(assembly, sizes, "arc", swept)
         gaps = bare.with_crank(crank)
+        if all(_overlap(gaps, close, every) <= close for every in (SOME, 1)):
+            return crank, "arc", gaps
+    kind, spare = asked or "sector", 0.0
+    crank = crank_contours(assembly, sizes, kind, swept)
+    gaps = bare.with_crank(crank)
+    for _ in range(0 if whole else TRIES):
         overlap = _overlap(gaps, close)
         if overlap <= close:
-            return crank, kind, gaps
-    spare = 0.0
-    for _ in range(0 if is_whole(assembly, sizes) else TRIES):
+            break
         # Between two of the places that were looked at the wheel came nearer still.
         spare += SPARE * overlap + 10.0 * close
         crank = crank_contours(assembly, sizes, kind, swept, spare)
         gaps = bare.with_crank(crank)
-        overlap = _overlap(gaps, close)
-        if overlap <= close:
-            break
     return crank, kind, gaps
 
 
-def _overlap(gaps: Gaps, close: float) -> float:
-    """The greatest overlap of crank and wheel in all motions, mm; wider gaps are not told apart
-    than by ``close``.
+def _overlap(gaps: Gaps, close: float, every: int = 1) -> float:
+    """The greatest overlap of crank and wheel in all motions, mm, or at some of the places that are
+    looked at; wider gaps are not told apart than by ``close``.
     """
     least = 0.0
     for engagement, behind in gaps.assembly.motions:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)
         at = (
             behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
-        )
+        )[::every]
         # without rollers, which lock nothing
-        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((count, 0, 2)))
+        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
         least = min(least, float(gaps.locking(pose, near=close).min()))
     return -least

@@ -11,7 +11,7 @@ from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts import locking_rings, outlines
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.locking_rings import Reached, beyond, inner_arc
+from geneva_cli.parts.locking_rings import Reached, beyond, inner_arc, seen, towards
 from geneva_cli.parts.sizes import sizes
 
 
@@ -37,3 +37,18 @@ def test_sectors_are_those_of_all_places(monkeypatch):
     known = outlines.outlines(build(spec))
     monkeypatch.setattr(locking_rings, "beyond", lambda *_: False)
     assert outlines.outlines(build(spec)).crank == known.crank
+
+
+def test_places_towards_a_direction_are_all_that_are():
+    """None within the angle is missed, and few beside it are with them."""
+    some = np.random.default_rng(4)
+    for half in (0.0, 1e-3, 0.4, 0.5 * math.pi, 2.0, math.pi):
+        middle = some.uniform(-7.0, 7.0)
+        turn = np.concatenate((some.uniform(-math.pi, math.pi, 4000), (-half, half)))
+        radius = 10.0 ** some.uniform(-3.0, 3.0, len(turn))
+        x, y = radius * np.cos(middle + turn), radius * np.sin(middle + turn)
+        near = towards(x, y, middle, half)
+        assert np.isin(x[np.abs(turn) <= half], near[0]).all()
+        off = seen(*near, middle)
+        assert (np.abs(off.direction) <= half + 1e-4).all()
+        assert np.isin(off.radius, np.hypot(x, y)).all()

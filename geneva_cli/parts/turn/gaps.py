@@ -30,6 +30,7 @@ SAGITTA = 2e-6  # of the centre distance: how far an arc's samples may miss it
 SAME = 1e-9  # of the centre distance: corners nearer to each other are one
 TOUCH = 1e-7  # of the locking disc: what lies in it by less touches it
 WORK = 1e8  # distances between points and pieces in a full turn, at most: about 5 s
+BLOCK = 1 << 19  # points of the wheel at places that are looked at together: in the cache
 LONGEST = 0.02  # of the centre distance, between samples of a line
 
 
@@ -185,13 +186,23 @@ class Gaps:
     def swept(self, number: int, step_deg: float, every: int = 1) -> tuple[Array, Array]:
         """Where on the crank the wheel's points come within the locking disc in one motion.
 
-        Their distances from the crank's axis, mm, and directions in the crank's frame, radians.
-        The wheel is looked at after so many degrees of the input, or at some of these places.
+        In the crank's frame, mm: x and y. The wheel is looked at after so many degrees of the
+        input, or at some of these places.
         """
         engagement, behind = self.assembly.motions[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
         at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)[::every]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
+        step = max(1, BLOCK // len(self._wheel_points[0]))
+        blocks = [
+            self._within_disc(turn[i : i + step], pose[i : i + step])
+            for i in range(0, len(at), step)
+        ]
+        x, y = zip(*blocks, strict=True)
+        return np.concatenate(x), np.concatenate(y)
+
+    def _within_disc(self, turn: Array, pose: Array) -> tuple[Array, Array]:
+        """The wheel's points within the locking disc, in the crank's frame, at some places."""
         reach = self.sizes.lock * (1.0 - TOUCH)
         # Only in directions near to that of the crank's axis is anything within reach of it.
         points, places = self._wheel_points
@@ -202,8 +213,7 @@ class Gaps:
         inside = np.flatnonzero(x * x + y * y < reach * reach)
         x, y, owner = x[inside], y[inside], owner[inside]
         c, s = np.cos(turn - pose)[owner], np.sin(turn - pose)[owner]
-        x, y = x * c - y * s, x * s + y * c
-        return np.hypot(x, y), np.arctan2(y, x)
+        return x * c - y * s, x * s + y * c
 
     @cached_property
     def _wheel_points(self) -> tuple[Array, Around]:

@@ -88,18 +88,26 @@ def windows(parts: Turned) -> Iterator[Window]:
             yield Window(exit_, following, i, True)
 
 
-def play_of(parts: Turned, fits: bool) -> Play:
-    """The play over a turn, ever closer where it is greatest and where it closes fastest.
+def no_play() -> Play:
+    """The play where nothing has been looked at."""
+    none, never = np.zeros(0), np.zeros(0, dtype=bool)
+    return Play(none, none, none, never, never, none, none, none)
+
+
+def plays(parts: Turned, fits: bool) -> Iterator[Play]:
+    """The play over a turn at the places looked at first, and then in all: ever closer where it is
+    greatest and where it closes fastest.
 
     ``fits`` says that no parts overlap in the wheel's own positions.
     """
     found = _measured(parts, _places(parts), fits)
+    yield found
     for _ in range(CLOSER):
         more = rising(np.concatenate([*_peaks(parts, found), *_closing(parts, found)]))
         if not len(more):
             break
         found = _merged(found, _measured(parts, more, fits))
-    return found
+    yield found
 
 
 def push_deg(parts: Turned, play: Play) -> Array:
