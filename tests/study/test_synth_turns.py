@@ -6,6 +6,7 @@ import pytest
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.gear_sector import GearSector
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
@@ -13,12 +14,12 @@ from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
-from geneva_cli.parts import proof
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.glance import gap_about, loose_about
+from geneva_cli.study.synthesis import turns
 from geneva_cli.study.synthesis.built import built, built_together
 from geneva_cli.study.synthesis.looks import gap_at_rest, look
-from geneva_cli.study.synthesis.parts import exact, with_roller
+from geneva_cli.study.synthesis.parts import USUAL, exact, with_roller
 from geneva_cli.study.synthesis.reading import read_wish
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.turns import Failing, Turns, same_turn
@@ -41,8 +42,8 @@ def test_what_turns_alike_is_turned_once(wheel, monkeypatch):
     specs = [Spec(wheel, drive) for drive in drives]
     assert len({same_turn(spec) for spec in specs}) == 1
     turned = []
-    whole = proof.full_turn
-    monkeypatch.setattr(proof, "full_turn", lambda parts: turned.append(1) or whole(parts))
+    whole = turns.turning
+    monkeypatch.setattr(turns, "turning", lambda parts: turned.append(1) or whole(parts))
     found = built_together(specs)
     assert len(turned) == 1
     assert [(one.spec, one.trouble) for one in found] == [(spec, "") for spec in specs]
@@ -63,15 +64,16 @@ def test_other_rollers_and_laws_turn_otherwise():
 def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
     """With the next roller, at the place where a larger one touched: the whole turn agrees."""
     L = build(four_bar).center_distance_mm
-    turns = Turns()
+    known = Turns()
     large, next_, fits = (with_roller(four_bar, exact(x * L)) for x in (0.05, 0.04, 0.025))
-    seen = turns.failing(build(large))
+    seen = known.failing(build(large))
     assert [one.name for one in seen] == ["gap_mm"]
+    assert [one.name for one in Turns().first_failing(build(large))] == ["gap_mm"]
     parts = Proof(build(same_turn(next_))).turned
     assert gap_about(parts, seen[0].at_deg) < -parts.contact
-    assert turns.failing(build(next_), seen) == seen
+    assert known.some_failing(build(next_), seen) == seen
     assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
-    assert turns.failing(build(fits), seen) == []
+    assert known.some_failing(build(fits), seen) == []
 
 
 def test_a_play_that_fails_is_found_where_it_failed_before():
@@ -86,7 +88,7 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     assert largest.deg > finds_slot(whole.turned)
     assert 0.9 < loose_about(whole.turned, largest.at_deg) / largest.deg <= 1.0 + 1e-6
     seen = [Failing("hand_over_play_deg", largest.at_deg)]
-    assert Turns().failing(build(with_roller(spec, 4.0)), seen) == seen
+    assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
 
 
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
@@ -132,14 +134,31 @@ def test_a_wheel_that_is_free_by_far_is_given_up(wheel, alpha0_deg, radii, end, 
     free as lets that find its slot. Six more radii are usual, each of which would be turned.
     """
     tried = []
-    whole = Turns.failing
+    whole = Turns._turn
 
-    def failing(turns, machine, seen=()):
+    def turn(known, machine):
         tried.append(machine.roller_radius_mm)
-        return whole(turns, machine, seen)
+        return whole(known, machine)
 
-    monkeypatch.setattr(Turns, "failing", failing)
+    monkeypatch.setattr(Turns, "_turn", turn)
     spec = Spec(wheel, Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0_deg))
     found = built(spec)
-    assert tried == radii
+    assert [*dict.fromkeys(tried)] == radii
     assert (found.trouble, found.spec.roller_radius_mm(100.0)) == end
+
+
+MENDED = [  # what is found to fail with the usual roller, and the roller that mends it, mm
+    (Spec(External(21), GearSector(sector_deg=33.0)), "rollers_apart_mm", 3.0),
+    (Spec(External(21, offset_mm=10.0), Crank(rollers=2)), "gap_mm", 3.0),
+]
+
+
+@pytest.mark.parametrize("spec, name, radius", MENDED, ids=[name for _, name, _ in MENDED])
+def test_the_first_roller_that_passes_every_check_is_taken(spec, name, radius):
+    """As trying one after the other has it, with all their checks."""
+    assert name in [c.name for c in checks(build(spec)) if c.passes is False]
+    L = build(spec).center_distance_mm
+    sized = (with_roller(spec, exact(0.01 * percent * L)) for percent in USUAL)
+    first = next(s for s in sized if all(c.passes is not False for c in checks(build(s))))
+    assert built(spec) == (first, "")
+    assert first.size.roller_radius_mm == radius

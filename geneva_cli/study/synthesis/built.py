@@ -10,15 +10,11 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.study.synthesis.looks import look
 from geneva_cli.study.synthesis.parts import SPARE, USUAL, exact, with_roller
-from geneva_cli.study.synthesis.turns import LOOSE, Failing, Turns
+from geneva_cli.study.synthesis.turns import LOST, Failing, Turns
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
-# Times the play that lets a roller find its slot: where the wheel is as free as that between lock
-# and slot, no smaller roller helps. Of cams of 5 to 12 slots those with up to 3.1 were mended so,
-# and none with 8.4 or more.
-LOST = 6.0
 UNDERCUT = "undercut_mm"
 UNDERCUTS = {UNDERCUT: MOTION[UNDERCUT]}
 UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # what no other roller helps
@@ -47,18 +43,27 @@ def built_together(specs: Sequence[Spec], fixed: frozenset[str] = frozenset()) -
 
 
 def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
-    trouble = _failing(turns, spec)
-    if not trouble:
+    machine = build(spec)
+    motion = _of_motion(machine)
+    if {one.name for one in motion} & UNSIZED:  # no need to turn them
+        return Built(spec, _said(motion))
+    found = seen = [*motion, *turns.first_failing(machine)]
+    if not found:
         return Built(spec, "")
-    names = [one.name for one in trouble]
-    seen = trouble
-    for other in _others(spec, set(names), fixed):
-        if any(one.name in LOOSE and one.share > LOST for one in seen):
+    if {one.name for one in found} <= SHAFT:  # is that all?
+        found = seen = turns.failing(machine)
+    for other in _others(spec, {one.name for one in found}, fixed):
+        if any(one.looser(LOST) for one in found):
             break
-        seen = _other_failing(turns, other, seen)
-        if not seen:
+        found = _other_failing(turns, other, seen)
+        if not found:
             return Built(other, "")
-    return Built(spec, ", ".join(names))
+        seen = [*found, *seen]
+    return Built(spec, _said([*motion, *turns.failing(machine)]))
+
+
+def _said(failing: Sequence[Failing]) -> str:
+    return ", ".join(one.name for one in failing)
 
 
 def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
@@ -79,15 +84,6 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
             yield with_roller(spec, other)
 
 
-def _failing(turns: Turns, spec: Spec) -> list[Failing]:
-    """The checks that fail."""
-    machine = build(spec)
-    before = _of_motion(machine)
-    if {one.name for one in before} & UNSIZED:  # no need to turn them
-        return before
-    return [*before, *turns.failing(machine)]
-
-
 def _other_failing(turns: Turns, spec: Spec, seen: Sequence[Failing]) -> list[Failing]:
     """Some of the checks that fail with other sizes than those of which some have been ``seen`` to.
 
@@ -96,7 +92,7 @@ def _other_failing(turns: Turns, spec: Spec, seen: Sequence[Failing]) -> list[Fa
     machine = build(spec)
     named = LIMITS if UNDERCUT not in {one.name for one in seen} else LIMITS | UNDERCUTS
     before = [Failing(c.name) for c in motion_checks(named, machine) if c.passes is False]
-    return before or turns.failing(machine, seen) or _of_motion(machine)
+    return before or turns.some_failing(machine, seen) or _of_motion(machine)
 
 
 def _of_motion(machine: Mechanism) -> list[Failing]:

@@ -6,7 +6,7 @@ they go through: machines that differ in it, or in the speed, are turned once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -14,6 +14,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import NotProved
 from geneva_cli.parts.turn.glance import gap_about, loose_about
 from geneva_cli.parts.turn.turned import Turned
@@ -23,6 +24,10 @@ from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import shell_checks, static_checks, turn_checks
 
 GAPS, LOOSE = {"gap_mm", "idle_roller_mm"}, {"hand_over_play_deg"}  # told by a few positions
+# Times the play that lets a roller find its slot: where the wheel is as free as that between lock
+# and slot, no smaller roller helps. Of cams of 5 to 12 slots those with up to 3.1 were mended so,
+# and none with 8.4 or more.
+LOST = 6.0
 CLEARLY = 1.0 + 1e-6  # times a limit: what is beyond it is so whatever the rounding
 
 
@@ -34,6 +39,10 @@ class Failing(NamedTuple):
     name: str
     at_deg: float | None = None
     share: float = 0.0
+
+    def looser(self, share: float) -> bool:
+        """Whether the wheel is so many times as free between lock and slot as it may be."""
+        return self.name in LOOSE and self.share > share
 
 
 def same_turn(spec: Spec) -> Spec:
@@ -49,39 +58,98 @@ class Turns:
     """Machines as they are turned, each once."""
 
     def __init__(self) -> None:
-        self._proofs: dict[Spec, Proof] = {}
-        self._shown: dict[Spec, list[Failing]] = {}
+        self._turns: dict[Spec, _Turn] = {}
 
-    def failing(self, machine: Mechanism, seen: Iterable[Failing] = ()) -> list[Failing]:
+    def failing(self, machine: Mechanism) -> list[Failing]:
         """The checks of a machine's parts that fail; for parts that cannot be made the key in the
         way.
-
-        With what has been ``seen`` to fail with other sizes, the first that is found to fail: what
-        stands still, and the places where those failed, are looked at before a whole turn.
         """
+        turn = self._turn(machine)
+        return [*turn.standing(machine), *turn.every()]
+
+    def first_failing(self, machine: Mechanism) -> list[Failing]:
+        """Those that fail while the parts stand still; where none does, the first that are found
+        to in the turn.
+        """
+        turn = self._turn(machine)
+        return turn.standing(machine) or turn.first()
+
+    def some_failing(self, machine: Mechanism, seen: Iterable[Failing]) -> list[Failing]:
+        """The same, but the places where checks have been ``seen`` to fail with other sizes are
+        looked at before.
+        """
+        turn = self._turn(machine)
+        return turn.again(seen) or turn.standing(machine) or turn.first()
+
+    def _turn(self, machine: Mechanism) -> _Turn:
         own = same_turn(machine.spec)
-        if own not in self._proofs:
-            stands = machine if own == machine.spec else build(own)
-            self._proofs[own] = Proof(stands, advice=False)
-        proof = self._proofs[own]
+        if own not in self._turns:
+            self._turns[own] = _Turn(machine if own == machine.spec else build(own))
+        return self._turns[own]
+
+
+class _Turn:
+    """The parts of a machine and their full turn, as far as it has been looked at."""
+
+    def __init__(self, machine: Mechanism) -> None:
+        self._parts: Turned | None = None
+        self._failing: list[Failing] = []
+        self._closer: Iterator[list[Failing]] = iter(())
+        self._begun = False
         try:
-            parts: Any = proof.turned
+            self._parts = Proof(machine, advice=False).turned
+            self._closer = _looks(self._parts)
         except GenevaError as error:
-            return [Failing(str(error.key[-1]) if error.key else "outline")]
+            self._refused = [Failing(str(error.key[-1]) if error.key else "outline")]
+
+    def standing(self, machine: Mechanism) -> list[Failing]:
+        """The checks that fail of parts that stand still, of a machine that turns likewise."""
+        if self._parts is None:
+            return self._refused
+        parts: Any = self._parts
         turned = parts.assembly._replace(given=machine, to_input=machine.spec.drive.input_deg)
         parts = parts._replace(assembly=turned)
         flat = machine.spec.wheel.FLAT
-        found = _failing(static_checks(parts) if flat else shell_checks(parts))
-        if seen and (found or own not in self._shown):
-            found = found or [one for one in seen if _fails_there(proof.turned, one)]
-            if found:
-                return found
-        if own not in self._shown:
-            try:
-                self._shown[own] = _failing(turn_checks(proof.turned, proof.turn))
-            except NotProved:
-                self._shown[own] = [Failing("full_turn")]
-        return [*found, *self._shown[own]]
+        return _failing(static_checks(parts) if flat else shell_checks(parts))
+
+    def every(self) -> list[Failing]:
+        """The checks of the turn that fail."""
+        while self._look():
+            pass
+        return self._failing
+
+    def first(self) -> list[Failing]:
+        """The first that are found to: looked at closer, gaps are no greater and plays no less."""
+        while not self._sure() and self._look():
+            pass
+        return self._failing
+
+    def again(self, seen: Iterable[Failing]) -> list[Failing]:
+        """Those of some that fail where they did with other sizes, before it is looked at."""
+        parts = None if self._begun else self._parts
+        return [one for one in seen if _fails_there(parts, one)] if parts else []
+
+    def _sure(self) -> bool:
+        """Whether some fail, and a play that is nearly enough to give up on is known."""
+        nearly = any(one.looser(0.5 * LOST) and not one.looser(LOST) for one in self._failing)
+        return bool(self._failing) and not nearly
+
+    def _look(self) -> bool:
+        """Look closer, if there is more to be seen."""
+        found = next(self._closer, None)
+        if found is None:
+            return False
+        self._begun, self._failing = True, found
+        return True
+
+
+def _looks(parts: Turned) -> Iterator[list[Failing]]:
+    """The checks of a turn that are found to fail, as it is looked at ever closer."""
+    try:
+        for turn in turning(parts):
+            yield _failing(turn_checks(parts, turn))
+    except NotProved:
+        yield [Failing("full_turn")]
 
 
 def _failing(checks: Iterable[Check]) -> list[Failing]:
