@@ -20,7 +20,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, setting
-from geneva_cli.analysis.loads.groups_many import GROUP, is_analytic
+from geneva_cli.analysis.loads.groups_many import is_analytic, parts
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
@@ -62,11 +62,10 @@ class Swings(NamedTuple):
 
 def swings_of_many(mechanism: Mechanism, mean: Array) -> Swings:
     """Of designs the means (m,) of whose input torque are known; of one without a mean infinite."""
-    parts = []
-    for i in range(0, len(mean), GROUP):
-        part = slice(i, i + GROUP)
-        parts.append(_group(taken(mechanism, part), mean[part]))
-    return Swings(*(np.concatenate(row) for row in zip(*parts, strict=True)))
+    energy, returned = np.empty((2, len(mean)))
+    for part in parts(setting(mechanism).friction, len(mean)):
+        energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
+    return Swings(energy, returned)
 
 
 def _group(mechanism: Mechanism, mean: Array) -> Swings:
@@ -74,16 +73,16 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
     given, analytic, end = setting(mechanism), is_analytic(mechanism.spec), None
-    parts, returned = [0.0 * mean], np.zeros(len(mean))
+    each, returned = [0.0 * mean], np.zeros(len(mean))
     for engagement in mechanism.engagements:
         if end is not None:
             dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
-            parts.append(-mean * dwell)
+            each.append(-mean * dwell)
         works, back = _works(engagement, given, mean, bounded, analytic)
-        parts.append(works)
+        each.append(works)
         returned += back
         end = engagement.mid_deg + engagement.exit_deg
-    sums = np.cumsum(np.hstack(parts), axis=1)
+    sums = np.cumsum(np.hstack(each), axis=1)
     energy = sums.max(axis=1) - sums.min(axis=1)
     return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
 

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import groups, is_analytic
+from geneva_cli.analysis.loads.groups_many import is_analytic, of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
@@ -132,8 +132,11 @@ def _of(
     every: Machine, names: Sequence[str], sized: bool, told: Collection[str], analytic: bool
 ) -> tuple[Array, Array, Array | None]:
     """The same for one engagement, at its own input angles."""
-    parts = [_group(Loaded(some, names), n, sized, told, analytic) for some, n in groups(every)]
-    most, x, whole = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
+
+    def found(some: Machine, n: int) -> tuple[Array, Array, Array]:
+        return _group(Loaded(some, names), n, sized, told, analytic)
+
+    most, x, whole = of_groups(every, found)
     return most, x, whole if told else None
 
 

@@ -10,9 +10,18 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import NEAR, mirrored
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import groups, is_analytic
+from geneva_cli.analysis.loads.groups_many import is_analytic, of_groups
 from geneva_cli.analysis.loads.inertia_many import is_balanced, squares
-from geneva_cli.analysis.loads.loaded_many import NONE, REACTIONS, At, Loaded, Signs, look, machine
+from geneva_cli.analysis.loads.loaded_many import (
+    NONE,
+    REACTIONS,
+    At,
+    Loaded,
+    Machine,
+    Signs,
+    look,
+    machine,
+)
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import SQUARED
 from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of, stretches_of
@@ -58,16 +67,11 @@ def means_of_many(
     given, analytic = setting(mechanism), is_analytic(mechanism.spec)
     lent, sources = sources_of(mechanism, names)
     every = [machine(engagement, given, sources, NONE) for engagement in mechanism.engagements]
-    sums = sum(
-        np.concatenate(
-            [
-                _sums_of(Loaded(some, sources), n, "mean" in told, analytic)
-                for some, n in groups(one)
-            ],
-            axis=1,
-        )
-        for one in every
-    )
+
+    def found(some: Machine, n: int) -> tuple[Array]:
+        return (_sums_of(Loaded(some, sources), n, "mean" in told, analytic),)
+
+    sums = sum(of_groups(one, found)[0] for one in every)
     means = means_from(mechanism, sources, np.asarray(sums), "mean" in told)
     return {name: means[source].times(share) for name, (source, share) in lent.items()}
 

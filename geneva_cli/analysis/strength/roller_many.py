@@ -20,7 +20,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import groups
+from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.loaded_many import (
     NONE,
     Loaded,
@@ -57,9 +57,8 @@ def by_roller_of_many(mechanism: Mechanism, ways: list[Passage]) -> list[Passage
 
 def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> Passage:
     every = machine(engagement, setting(mechanism), FORCE, NONE)
-    found = [_group(some, n, half) for some, n in groups(every)]
-    rows = [parameter(np.concatenate(row)) for row in zip(*found, strict=True)]
-    return Passage(*rows)
+    (rows,) = of_groups(every, lambda some, n: (_group(some, n, half),))
+    return Passage(*map(parameter, rows))
 
 
 def _group(every: Machine, n: int, half: float) -> Array:
