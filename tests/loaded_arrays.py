@@ -43,6 +43,15 @@ MISSED = {
             0.09580304,
             96.928497,
         ),
+        # the wheel goes back for a moment before it comes to rest, within one cell
+        (
+            *(-0.13199168018360924, 0.7000262317959413, 2.3695859425036523, 20.787223202156),
+            *(0.5589043052310345, 0.0, 25.310698818037014),
+        ),
+        (
+            *(-0.12597258982891074, -0.07557551071054291, 1.0553541030921432, 27.087099526101316),
+            *(0.6295818193917626, 0.0, 12.36555069821635),
+        ),
     ),
     # a turn between slopes that both are no more than a billionth of the range: all digits count
     "sine-group": (

@@ -13,6 +13,7 @@ from geneva_cli.numerics.roots import PREDICTED, TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.jet import Array
 
 MIDDLE = 3.0  # of the quartiles' distance: what is further out is near a pole
@@ -56,6 +57,7 @@ class Turns(NamedTuple):
     row: Whole  # the function's number
     rises: Array  # 1.0 before a maximum, -1.0 before a minimum
     design: Whole
+    span: Whole
     positive: Mask  # (signs, k)
     left: Array  # place, value, slope: (3, k)
     right: Array
@@ -83,7 +85,31 @@ class Beside(NamedTuple):
         return self.x[end], self.value[end], self.slope[end]
 
 
-Parts = TypeVar("Parts", Cells, Turns, Cuts, Beside)
+class Across(NamedTuple):
+    """Three neighbouring samples about cells in which signs change, with two choices of the signs.
+
+    The functions are smooth there with either; ``cell`` are the numbers of the cells, of which
+    those in which two signs change are here twice.
+    """
+
+    cell: Whole  # (k,)
+    changes: Mask  # which signs do: (signs, k)
+    known: Mask  # whether the others are the same with either choice: (k,)
+    first: Mask  # whether the cell is the first of the two between the samples: (2, k)
+    x: Array  # (2, 3, k)
+    value: Array  # (2, functions, 3, k)
+    slope: Array
+
+    def samples(self, choice: int) -> tuple[Sample, Sample, Sample]:
+        """The three, with one choice of the signs."""
+        left, middle, right = (
+            (self.x[choice, i], self.value[choice, :, i], self.slope[choice, :, i])
+            for i in range(3)
+        )
+        return left, middle, right
+
+
+Parts = TypeVar("Parts", Cells, Turns, Cuts, Beside, Across)
 
 
 def taken(parts: Parts, where: Any) -> Parts:
@@ -217,7 +243,7 @@ class Tops:
         both = [(2 * k, high), (2 * k + 1, -low)]
         sides = [(k, np.maximum(-low, high))] if self.sized else both
         passes = [
-            (self.most[number, design] < np.inf) & ~(reach < self.most[number, design])
+            (self.most[number, design] < np.inf) & ~(reach <= self.most[number, design])
             for number, reach in sides
         ]
         return np.asarray(np.logical_or.reduce(passes))
@@ -284,15 +310,18 @@ def turns_in(row: int, k: int, cells: Cells, range_: Range, where: Mask) -> Turn
     level = range_.level(row, cells.design) / (b - a)
     here = np.flatnonzero(may_turn(d, e, level) & where)
     left, right = (np.stack([one[here] for one in end]) for end in ((a, v, d), (b, w, e)))
-    level, design = level[here], cells.design[here]
-    return turns_of(k, design, level, cells.positive[0][:, here], left, right)
+    of = cells.design[here], cells.span[here]
+    return turns_of(k, of, level[here], cells.positive[0][:, here], left, right)
 
 
 def turns_of(
-    k: int, design: Whole, level: Array, positive: Mask, left: Array, right: Array
+    k: int, of: tuple[Whole, Whole], level: Array, positive: Mask, left: Array, right: Array
 ) -> Turns:
-    """Turns of the k-th wanted function; a slope that beside the other one is rounding is 0."""
+    """Turns of the k-th wanted function ``of`` designs and spans.
+
+    A slope that beside the other one is rounding is 0.
+    """
     small = np.abs(np.stack((left[2], right[2]))) <= level
     for end, flat, steep in ((left, small[0], ~small[1]), (right, small[1], ~small[0])):
         end[2, flat & steep] = 0.0
-    return Turns(np.full(len(design), k), left[0], design, positive, left, right)
+    return Turns(np.full(len(of[0]), k), left[0], *of, positive, left, right)

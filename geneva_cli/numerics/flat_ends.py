@@ -33,8 +33,8 @@ def flat_ends(row: int, k: int, cells: Cells, tops: Tops, where: Mask) -> Turns:
     slope = np.where(first, left[2], right[2])
     # falling inwards from the one, or rising to the other, it is a greatest value; or a least one
     rises, rise = np.where(first, -1.0, 1.0) * np.sign(slope), right[1] - left[1]
-    design, number = cells.design[few], np.full(len(few), k)
-    ends = Turns(number, rises, design, cells.positive[0][:, few], left, right)
+    of = cells.design[few], cells.span[few]
+    ends = Turns(np.full(len(few), k), rises, *of, cells.positive[0][:, few], left, right)
     return taken(ends, (rise * slope > 0.0) & _extreme(tops, ends))
 
 
@@ -65,7 +65,7 @@ def second_turns(f: Signed, tops: Tops, ends: Turns) -> Turns:
     ends, there, first = taken(ends, inside), there[inside], first[inside]
     if not len(inside):
         return ends
-    value, rise, _ = jets(f, there, ends, np.arange(len(inside)))
+    value, rise, *_ = jets(f, there, ends, np.arange(len(inside)))
     cut = np.stack((there, value, rise))
     left, right = np.where(first, cut, ends.left), np.where(first, ends.right, cut)
     return taken(ends._replace(left=left, right=right), left[2] * right[2] < 0.0)

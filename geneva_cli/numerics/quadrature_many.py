@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
-BLOCK = 512  # spans at a time: their places lie in the processor's cache
+BLOCK = 1024  # spans at a time: their places lie in the processor's cache
 NODES = 20  # of a load between its cuts most are settled by so many
 FEW = 12  # and by so many where the span is below a share of its design's widest
 NARROW = 0.25

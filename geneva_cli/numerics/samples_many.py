@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
+from geneva_cli.numerics.between_samples import MISSES
 from geneva_cli.numerics.cells import Beside, Cells, Range, Turns, may_turn, turns_of
-from geneva_cli.numerics.cubics import cubic, touches
+from geneva_cli.numerics.cubics import between, cubic, misses_of_cells, touches
 from geneva_cli.numerics.extrema_many import ROUNDING, goes_back
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ T = TypeVar("T", "Array", "Mask")
 # Of the range, by which a cubic may miss a sample: of loads beside a pole, which one of three times
 # this share predicts, an extreme of one in 100,000 is passed over, by 1e-5 to 1e-4.
 SHARE = 3e-3
+NEARLY = 4.0  # times as much, where slopes tell that a cell's own cubic misses by less than
+CELL = 0.375  # of that share
 
 
 class Matters(Protocol):
@@ -45,6 +48,11 @@ class Samples(NamedTuple):
         """The cells, between each sample and the next, in which a sign changes: (m, k - 1)."""
         changes: Mask = self.positive[..., :-1] != self.positive[..., 1:]
         return np.asarray(changes.any(axis=0))
+
+    def numbers(self, where: Mask) -> tuple[Whole, Whole]:
+        """Of some of the cells the number of the design among these, and of the sample before."""
+        column, row = np.divmod(_numbers(where), len(self.design))
+        return row, column
 
     def cells(self, where: Mask) -> Cells:
         """Some of the cells."""
@@ -76,7 +84,10 @@ class Samples(NamedTuple):
             for part in (slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2))
         )
         low, high = range_.low[:, self.design], range_.high[:, self.design]
-        missed = unpredicted_at(left, middle, right, low[..., None], high[..., None])
+        strict = (np.arange(len(value)) < signs)[:, None]
+        missed = unpredicted_at(
+            left, middle, right, low[..., None], high[..., None], strict[..., None]
+        )
         crossed = differ[:, ::2] | differ[:, 1::2]
         held = None if bounded.all() else range_.holds(self.design, value)
         if held is not None:
@@ -94,7 +105,7 @@ class Samples(NamedTuple):
         last = differ.shape[1] - 1
         alone = (other < 0) | (other > last) | differ[row, np.clip(other, 0, last)]
         one, two, three = (self._three(index, odd + i) for i in (-1, 0, 1))
-        missed = unpredicted_at(one, two, three, low[:, row], high[:, row])
+        missed = unpredicted_at(one, two, three, low[:, row], high[:, row], strict)
         if held is not None:
             within = [self._at(index, odd + i, held) for i in (-1, 0, 1)]
             missed &= bounded[:, row] | np.logical_and.reduce(within)
@@ -110,7 +121,8 @@ class Samples(NamedTuple):
         rows = self.x, self.value[row], slope
         left, right = (np.stack([self._at(index, end, one) for one in rows]) for end in (0, 1))
         positive = self._at(index, 0, self.positive)
-        return turns_of(k, self._designs(index), _flat(level)[index], positive, left, right)
+        of = self._designs(index), np.full(len(index), self.span)
+        return turns_of(k, of, _flat(level)[index], positive, left, right)
 
     def _designs(self, index: Whole) -> Whole:
         """The designs of some cells or samples."""
@@ -137,24 +149,32 @@ def _numbers(where: Mask) -> Whole:
     return np.flatnonzero(_flat(where))
 
 
-def unpredicted_at(left: Sample, middle: Sample, right: Sample, low: Array, high: Array) -> Mask:
-    """As of ``unpredicted``, of a sample that is anywhere between its neighbours."""
+def unpredicted_at(
+    left: Sample, middle: Sample, right: Sample, low: Array, high: Array, strict: Mask
+) -> Mask:
+    """As of ``unpredicted``, of a sample that is anywhere between its neighbours.
+
+    ``strict`` are functions that must not be 0 unseen: of those it is not enough that the cubic of
+    a cell is good where they come near 0, for they may have been beyond it.
+    """
     rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
-    missed: Mask = np.abs(middle[1] - _between(left, right, middle[0])) > (
-        SHARE * (high - low) + rounding
-    )
+    off, room = middle[1] - between(left, right, middle[0]), SHARE * (high - low) + rounding
+    off = np.abs(off)
+    missed: Mask = off > room
+    where = np.nonzero(missed & (off < NEARLY * room))
+    if len(where[0]):
+
+        def few(sample: Sample) -> Sample:
+            x, v, d = (np.broadcast_to(p, off.shape)[where] for p in sample)
+            return x, v, d
+
+        three = few(left), few(middle), few(right)
+        nearest = np.minimum.reduce([np.abs(v) for _, v, _ in three])
+        far = ~np.broadcast_to(strict, off.shape)[where] | (nearest > MISSES * off[where])
+        good = misses_of_cells(*three) <= CELL * np.broadcast_to(room, off.shape)[where]
+        missed[where] = ~(far & good)
     missed |= goes_back(left, middle, rounding)
     return missed | goes_back(middle, right, rounding)
-
-
-def _between(left: Sample, right: Sample, x: Array) -> Array:
-    """As of ``cubic``, of several functions at the same places."""
-    width = right[0] - left[0]
-    t = (x - left[0]) / width
-    rest = 1.0 - t
-    near, far, bulge = rest * rest * (1.0 + 2.0 * t), t * t * (1.0 + 2.0 * rest), t * rest * width
-    value: Array = left[1] * near + right[1] * far + (left[2] * rest - right[2] * t) * bulge
-    return value
 
 
 def unpredicted_beside(outer: Sample, near: Sample, far: Sample, low: Array, high: Array) -> Mask:

@@ -20,6 +20,7 @@ from geneva_cli.numerics.between_samples import limits
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
+    Across,
     Beside,
     Cells,
     Cuts,
@@ -31,26 +32,28 @@ from geneva_cli.numerics.cells import (
     taken,
     turns_in,
 )
+from geneva_cli.numerics.crossings import about, matters
 from geneva_cli.numerics.cubics import touches, zero_of_cubic
 from geneva_cli.numerics.extrema_many import unpredicted
 from geneva_cli.numerics.flat_ends import flat_ends, second_turns
+from geneva_cli.numerics.poles import goes_one_way
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
 from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_beside
 from geneva_cli.numerics.spread import gathered, spread
-from geneva_cli.numerics.turns_many import Signed, turn
+from geneva_cli.numerics.turns_many import NOISE, Doubted, Signed, turn
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Which, Whole
     from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.poles import Three
 
-BLOCK = 1024  # designs sampled at a time: so many lie in the processor's cache
+BLOCK = 2048  # designs sampled at a time: so many lie in the processor's cache
 CELLS = 8  # of a span, to begin with
 ENDED = 1e-6  # share of a cell: after so short a step, what is left of a zero is rounding
 NARROWEST = 0.25  # share of a span: samples are spread no more than by this
 NARROW = 1e-9  # share of a place: a cell no wider is not halved
-NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
 _HALF = np.arange(CELLS // 2) / CELLS
 
 
@@ -69,15 +72,17 @@ def search(
     sized: bool,
     known: Sequence[tuple[int, Array, Array]] = (),
     w: Array | None = None,
+    cuts: bool = True,
 ) -> Found:
     """Of n designs over their spans, one after the other: (n, 1) the ends of each.
 
     A span that ends before it begins is none. ``known`` are values that no span reaches: a wanted
     function's number, and of each design the place and the value, NaN where there is none.
-    ``sized`` is as of ``Tops``. Samples are spread about 0 by ``w`` (n, 1), or even.
+    ``sized`` is as of ``Tops``. Samples are spread about 0 by ``w`` (n, 1), or even. Without
+    ``cuts`` a change of sign is looked for only where an extreme may be beside it.
     """
     with np.errstate(all="ignore"):
-        return _Search(f, n, sized, known, w).found(spans)
+        return _Search(f, n, sized, known, w, cuts).found(spans)
 
 
 def places(a: Array, b: Array) -> Array:
@@ -94,12 +99,15 @@ class _Search:
         sized: bool,
         known: Sequence[tuple[int, Array, Array]],
         w: Array | None,
+        cuts: bool,
     ) -> None:
-        self.f, self.n, self.w = f, n, w
+        self.f, self.n, self.w, self.all_cuts = f, n, w, cuts
         self.tops = Tops(f.wanted, n, sized)
         self.range = Range(*np.full((2, f.signs + f.wanted, n), np.inf) * [[[1.0]], [[-1.0]]])
         self.cells: list[Cells] = []  # to be looked at again
         self.crossed: list[tuple[Cells, Beside]] = []  # in which a sign changes
+        self.across: list[Across] = []
+        self.crossings = 0  # how many cells those are
         self.turns: list[Turns] = []
         self.flat: list[Turns] = []  # that may turn twice
         self.cuts: list[Cuts] = []
@@ -110,22 +118,31 @@ class _Search:
 
     def found(self, spans: Sequence[tuple[Array, Array]]) -> Found:
         for i in range(0, self.n, BLOCK):
-            part = slice(i, i + BLOCK)
+            part, every = slice(i, i + BLOCK), []
             for number, (a, b) in enumerate(spans):
-                there = (b > a)[:, 0]
-                self._sample(a[part], np.maximum(a, b)[part], there[part], part, number)
+                if (b > a)[part].any():
+                    every.append(self._sampled(a[part], b[part], part, number))
+            # a cell is judged by what is known of all spans
+            for samples, there in every:
+                self._judge(samples, there)
         cells = joined(self.cells)
         self.cuts.append(_cuts(cells, cells, np.zeros(0, dtype=int)))
         self._settle(joined([cells, *self._crossed()]))
-        if self.flat:
-            self.turns.append(self.tops.hopeful(second_turns(self.f, self.tops, joined(self.flat))))
-        if self.turns:
-            turn(self.f, self.range, self.tops, joined(self.turns))
+        for _ in range(DEEPEST):
+            if self.flat:
+                flat, self.flat = joined(self.flat), []
+                self.turns.append(self.tops.hopeful(second_turns(self.f, self.tops, flat)))
+            turns, self.turns = self.turns, []
+            doubted = turn(self.f, self.range, self.tops, joined(turns)) if turns else []
+            if not doubted:
+                break
+            self._settle(joined([half for one in doubted for half in self._parted(one)]))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
 
-    def _sample(self, a: Array, b: Array, there: Mask, part: slice, number: int) -> None:
-        """One span of some designs: what is to be looked at again, and where functions turn."""
-        f = self.f
+    def _sampled(self, a: Array, b: Array, part: slice, number: int) -> tuple[Samples, Mask]:
+        """One span of some designs, and which of them have one."""
+        f, there = self.f, (b > a)[:, 0]
+        b = np.maximum(a, b)
         # Designs lie side by side in memory: each operation runs along all of them.
         x = places(a, b) if self.w is None else spread_places(a, b, self.w[part])
         at = f.at(x, part, 1)
@@ -135,12 +152,20 @@ class _Search:
         size = np.abs(value[: f.signs]).max(axis=2)
         for end, beside in ((0, 1), (-1, -2)):
             self._sign_end(at, x, positive, value, slope, size, end, beside)
-        samples = Samples(design, number, x, positive, value, slope)
         full: Which = slice(None) if there.all() else there
         self.range.widen(design[full], value[:, full])
         self.tops.add_samples(design[full], x[full], value[f.signs :, full])
-        differ = samples.differ
-        open_ = samples.open(self.range, self._bounded(design), differ, self._matters)
+        samples = Samples(design, number, x, positive, value, slope)
+        crosses = samples.differ & there[:, None]
+        if not self.all_cuts:
+            self.across += about(f, samples, at, crosses, self.crossings)
+            self.crossings += int(np.count_nonzero(crosses))
+        return samples, there
+
+    def _judge(self, samples: Samples, there: Mask) -> None:
+        """What is to be looked at again, and where functions turn."""
+        f, differ = self.f, samples.differ
+        open_ = samples.open(self.range, self._bounded(samples.design), differ, self._matters)
         closed, differ = ~(open_ | differ) & there[:, None], differ & there[:, None]
         self.cells.append(samples.cells(open_ & there[:, None]))
         self.crossed.append((samples.cells(differ), samples.beside(differ)))
@@ -191,22 +216,46 @@ class _Search:
     def _matters(
         self, missed: Mask, design: Whole, left: Sample, middle: Sample, right: Sample
     ) -> Mask:
-        """Of functions that are not predicted, those whose sign counts or that may pass a top.
+        """Of functions that are not predicted those that may pass a top.
 
-        Where one whose sign counts is not predicted, it may be 0 twice: it is always looked at.
+        Or may be 0, if their sign counts: twice then.
         """
-        signs = self.f.signs
-        where = np.nonzero(missed[signs:])
-        if len(where[0]):
+        where = np.nonzero(missed)
+        if not len(where[0]):
+            return missed
 
-            def there(sample: Sample) -> Sample:
-                x, v, d = (np.broadcast_to(p, missed.shape)[signs:][where] for p in sample)
-                return x, v, d
+        def there(sample: Sample) -> Sample:
+            x, v, d = (np.broadcast_to(p, missed.shape)[where] for p in sample)
+            return x, v, d
 
-            found = limits(there(left), there(middle), there(right))
-            passes = self.tops.may_pass(where[0], design[where[1]], *found)
-            missed[signs:][where] = passes
+        low, high = limits(there(left), there(middle), there(right))
+        row = where[0] - self.f.signs
+        may = ~((low > 0.0) | (high < 0.0))
+        some = np.flatnonzero(row >= 0)
+        own = row[some], design[where[1][some]], low[some], high[some]
+        may[some] = self.tops.may_pass(*own)
+        self._without_poles(may, where, (left, middle, right))
+        missed[where] = may
         return missed
+
+    def _without_poles(self, may: Mask, where: tuple[Whole, ...], three: Three) -> None:
+        """Those that go one way to a pole, or from it, may not pass a top between samples."""
+        if not self.f.rooms:
+            return
+        some = np.flatnonzero(may & (where[0] >= self.f.signs))
+        index = tuple(one[some] for one in where)
+
+        def at(sample: Sample) -> tuple[Sample, Sample]:
+            x, v, d = sample
+            x = np.broadcast_to(x, v.shape[1:])[index[1:]]
+            room, slope = np.ones(len(some)), np.zeros(len(some))
+            for row in self.f.rooms:
+                r, s = v[row][index[1:]], d[row][index[1:]]
+                room, slope = room * r, slope * r + room * s
+            return (x, v[index], d[index]), (x, room, slope)
+
+        of, rooms = zip(*map(at, three), strict=True)
+        may[some] = ~goes_one_way(of, rooms, SHARE)
 
     def _look(
         self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
@@ -215,12 +264,29 @@ class _Search:
         positive, c = self.f.look(at, None if forced is None else forced[..., None], asked)
         return Look(positive[..., 0], c[0][..., 0], c[1][..., 0] * DEGREE)
 
+    def _parted(self, doubted: Doubted) -> tuple[Cells, Cells]:
+        """The cells of turns that have another sign than they, in two at those."""
+        f, (turns, x) = self.f, doubted
+        a, b = turns.left[0], turns.right[0]
+        inside = (a < x) & (x < b)
+        turns, x, a, b = taken(turns, inside), x[inside], a[inside], b[inside]
+        own = np.where(turns.positive, 1.0, -1.0)
+        looks = [self._look(f.at(end[:, None], turns.design, 1), own) for end in (a, b)]
+        ends = [np.stack(pair) for pair in zip(*looks, strict=True)]
+        here = self._look(f.at(x[:, None], turns.design, 1))
+        self.tops.add_all(turns.design, x, here.value[f.signs :])
+        cells = Cells(turns.design, turns.span, np.stack((a, b)), *ends)
+        return cells.parted(x, (here, here))
+
     def _crossed(self) -> list[Cells]:
         """Of cells cut where a sign changes, the parts that must be looked at again.
 
         A part and the sample beside it in which no sign changes are judged together.
         """
         cells, beside = (joined(parts) for parts in zip(*self.crossed, strict=True))
+        if self.across:
+            which = matters(self.f, cells, joined(self.across), self.range, self.tops)
+            cells, beside = taken(cells, which), taken(beside, which)
         out = []
         for end, part in enumerate(self._cut(cells)):
             low, high = (side[:, part.design] for side in self.range)

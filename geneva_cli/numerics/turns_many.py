@@ -5,7 +5,7 @@ that may pass what is known of their design.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 TURNED = 1e-5  # share of a cell: after so short a step, its value is rounding
 BESIDE = 0.01  # share of a cell: Newton begins no nearer to its ends
+NOISE = 1e-12  # share of a function's greatest size below which its sign is rounding
 BENT = 1e-7  # share of a function's range: a smaller bend over a cell may be rounding
 
 
@@ -31,12 +32,16 @@ class Signed(Protocol):
 
     signs: int  # how many of the functions have a sign that counts
     wanted: int  # how many others are looked for
+    rooms: Sequence[int]  # of the first: which are above 0, and 0 where wanted ones have a pole
 
     def at(self, x: Array, which: Which, order: int) -> Any:
         """What the functions of some designs are made of, at places (m, k) in degrees."""
 
     def column(self, at: Any, number: int) -> Any:
         """The same at one place of each design."""
+
+    def picked(self, at: Any, row: Whole, column: Whole) -> Any:
+        """The same at some of the places, by the numbers of design and place: (m, 1)."""
 
     def look(
         self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
@@ -49,38 +54,53 @@ class Signed(Protocol):
         """
 
 
-def turn(f: Signed, range_: Range, tops: Tops, turns: Turns) -> None:
+class Doubted(NamedTuple):
+    """Turns with another sign than their cell: there one changes twice, unseen."""
+
+    turns: Turns
+    x: Array  # (k,)
+
+
+def turn(f: Signed, range_: Range, tops: Tops, turns: Turns) -> list[Doubted]:
     """Newton on every turn that may still be the greatest: the most hopeful ones of all first."""
     turns = tops.hopeful(_bent(f, range_, tops.hopeful(turns)))
     first = tops.first(turns)
-    _refined(f, tops, taken(turns, first))
-    _refined(f, tops, tops.hopeful(taken(turns, ~first)))
+    doubted = _refined(f, range_, tops, taken(turns, first))
+    return doubted + _refined(f, range_, tops, tops.hopeful(taken(turns, ~first)))
 
 
-def _refined(f: Signed, tops: Tops, turns: Turns) -> None:
+def _refined(f: Signed, range_: Range, tops: Tops, turns: Turns) -> list[Doubted]:
     if not len(turns.row):
-        return
+        return []
 
     a, b = turns.left[0], turns.right[0]
     tiny = np.finfo(float).tiny
     at_a, at_b = (np.abs(end[2]) <= tiny for end in (turns.left, turns.right))
+    size = range_.size(turns.design)[: f.signs]
 
-    def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array]:
-        value, slope, bend = jets(f, x, turns, live)
+    def slope_of(x: Array, live: Whole) -> tuple[Array, Array, Array, Array]:
+        value, slope, bend, *signed = jets(f, x, turns, live)
         # an end that is stationary itself is divided out of the slope that Newton sees
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
-        return slope, bend - slope * np.nan_to_num(others), value
+        least = (np.stack(signed) / size[:, live]).min(axis=0, initial=np.inf)
+        return slope, bend - slope * np.nan_to_num(others), value, least
 
     width = b - a
     start = turn_of_cubic(turns.left, turns.right)
     start = np.clip(start, a + BESIDE * width, b - BESIDE * width)
     slopes = np.where(at_a, np.nan, turns.left[2]), np.where(at_b, np.nan, turns.right[2])
     found = newton_many(slope_of, a, b, start, turns.rises < 0.0, TURNED, slopes)
-    x, rise, (_, _, value) = found
+    x, rise, (_, _, value, least) = found
     value = value + np.where(np.isnan(rise), 0.0, rise)  # a size that is zero has no slope
     top = np.abs(value) if tops.sized else turns.rises * value
     x = np.where(np.isnan(x), start, x)
+    other = least < -NOISE
+    if other.any():
+        keep = ~other
+        tops.add(tops.number(turns.row, turns.rises)[keep], turns.design[keep], x[keep], top[keep])
+        return [Doubted(taken(turns, other), x[other])]
     tops.add(tops.number(turns.row, turns.rises), turns.design, x, top)
+    return []
 
 
 def _bent(f: Signed, range_: Range, turns: Turns) -> Turns:
@@ -105,15 +125,20 @@ def _bent(f: Signed, range_: Range, turns: Turns) -> Turns:
     return turns
 
 
-def jets(f: Signed, x: Array, turns: Turns, live: Whole) -> tuple[Array, Array, Array]:
-    """Value, slope and bend, by degrees, of the functions of some turns, each at its place."""
+def jets(f: Signed, x: Array, turns: Turns, live: Whole) -> list[Array]:
+    """Value, slope and bend, by degrees, of the functions of some turns, each at its place.
+
+    After them those whose signs count, each times the sign that it has in the cell.
+    """
     forced = np.where(turns.positive[:, live], 1.0, -1.0)[..., None]
-    row, out = turns.row[live], np.empty((3, len(live)))
+    row, out = turns.row[live], np.empty((3 + f.signs, len(live)))
     for k in range(f.wanted):
         here = np.flatnonzero(row == k)
         if len(here):
             at = f.at(x[here, None], turns.design[live[here]], 2)
             _, c = f.look(at, forced[:, here], (k,))
-            out[:, here] = [one[-1, :, 0] for one in c]
-    value, slope, bend = out
-    return value, slope * DEGREE, 2.0 * bend * DEGREE * DEGREE
+            out[:3, here] = [one[-1, :, 0] for one in c]
+            out[3:, here] = (c[0][:-1] * forced[:, here])[..., 0]
+    out[1] *= DEGREE
+    out[2] *= 2.0 * DEGREE * DEGREE
+    return list(out)

@@ -130,10 +130,40 @@ def test_the_least_of_a_size_is_nothing():
 
 @pytest.mark.parametrize("name", MISSED)
 def test_what_was_stepped_over_is_found(name):
-    """Dense samples pass no extreme of designs of which one was missed, together or one by one."""
+    """Dense samples pass no extreme of designs of which one was missed, together or one by one.
+
+    And what is told of each together is what is told of it alone.
+    """
     spec, varied, found = missed(name)
+    every = one_by_one(spec, varied, found)
     assert (beyond(found, 3000, 7) <= 1e-12).all()
-    assert (beyond(found, 3000, 7, one_by_one(spec, varied, found)) <= 1e-12).all()
+    assert (beyond(found, 3000, 7, every) <= 1e-12).all()
+
+    def same(one, other, size):
+        with np.errstate(invalid="ignore"):
+            return ((one == other) | (np.abs(one - other) <= 1e-12 * size)).all()
+
+    for load, together in summaries_of_many(found.machine, NAMES, told=()).items():
+        size = np.maximum(np.abs(every[load].max), np.abs(every[load].min))
+        assert same(together.max, every[load].max, size), load
+        assert same(together.min, every[load].min, size), load
+        # where one is asked for alone, others' cuts bring nothing to light
+        assert same(greatest_of_many(found.machine, [load])[load].max, size, size), load
+
+
+def test_no_friction_among_designs_with():
+    """Where the force has no bound, the torque without friction has one: 28.93 N m."""
+    spec = MACHINES["modified-sine"][0].replace(load=Load(inertia_kgm2=1.0, torque_Nm=5.0))
+    found = many(spec, {"load.friction": np.array([0.1, 0.0, 0.2])})
+    for one in (
+        greatest_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].max,
+        summaries_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms,
+        means_of_many(found.machine, ["power_W"])["power_W"].rms,
+    ):
+        assert np.isinf(one).tolist() == [True, False, True]
+    told = summaries(Cycle(build(spec)))["input_torque_Nm"]
+    here = summaries_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"]
+    assert (here.max[1], here.rms[1]) == pytest.approx((told.max, told.rms), rel=1e-13)
 
 
 @pytest.mark.parametrize("name", ["crank", "internal", "side-crank", "offset", "elliptical gears"])

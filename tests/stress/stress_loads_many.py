@@ -6,7 +6,8 @@ Random designs of every machine (those of tests/design_arrays.py), each under a 
 with friction and without: the greatest and least of every quantity that is known of it is held
 against a scan that knows no search, of other places in each design. All are asked for together, and
 some one at a time, as a sweep does: what cuts the motion for one quantity brings another's extreme
-to light. One row a machine; the exit status is 1 where a place of the scan passes an extreme.
+to light. Their greatest sizes alone are looked for too, which need no cut where none can be. One
+row a machine; the exit status is 1 where a place of the scan passes an extreme.
 """
 
 import math
@@ -18,7 +19,7 @@ from loaded_arrays import beyond, loaded
 from many_options import options
 
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.many import summaries_of_many
+from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import known_quantities
 
 CHUNK = 4_096  # designs built together
@@ -43,10 +44,19 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
         for one in [name for name in ALONE if name in names]:
             together = summaries_of_many(found.machine, (one,), told=())
             over = np.hstack((over, beyond(found, places, seed, together, (one,))))
+            over = np.hstack((over, off(found.machine, one, together[one])))
         done += len(over)
         missed += int((over > MORE).any(axis=1).sum())
         most = max(most, float(over.max()))
     return done, missed, most, time.process_time() - start
+
+
+def off(machine, name, ends):
+    """By what share a greatest size, which is looked for another way, is off the greater extreme."""
+    size = np.maximum(np.abs(ends.max), np.abs(ends.min))
+    found = greatest_of_many(machine, [name])[name].max
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(found == size, 0.0, np.abs(found / size - 1.0))[:, None]
 
 
 def main():

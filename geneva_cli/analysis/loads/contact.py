@@ -7,6 +7,7 @@ tangent t points away from the wheel's axis: M . t > 0, M being the roller's cen
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
@@ -15,6 +16,7 @@ from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sqrt
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
 NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
@@ -74,18 +76,30 @@ def mirrored(at: Contact[Jet]) -> Contact[Jet]:
 def column(at: Contact[Jet], number: int) -> Contact[Jet]:
     """The contact at one of the places (n, k) of each design: (n, 1)."""
 
+    def of(c: Array) -> Array:
+        return c if c.shape[-1] == 1 else c[..., number : number + 1 or None]
+
+    return _changed(at, of)
+
+
+def picked(at: Contact[Jet], row: Whole, column: Whole) -> Contact[Jet]:
+    """The contact at some of the places (n, k), by the numbers of design and place: (m, 1)."""
+
+    def of(c: Array) -> Array:
+        return c[row if len(c) > 1 else 0, column if c.shape[-1] > 1 else 0, None]
+
+    return _changed(at, of)
+
+
+def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]:
+    """The contact with every array changed."""
+
     def of(jet: Jet) -> Jet:
-        return Jet([_column(c, number) for c in jet.c])
+        return Jet([c if isinstance(c, float) else change(c) for c in jet.c])
 
     *jets, held = at
     loads = held and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in held)
     return Contact._make([*map(of, jets), loads])
-
-
-def _column(c: Number, number: int) -> Number:
-    if isinstance(c, float) or c.shape[-1] == 1:
-        return c
-    return c[..., number : number + 1 or None]
 
 
 def _turned(c: Number, same: bool) -> Number:

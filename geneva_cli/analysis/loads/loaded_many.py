@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored
+from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored, picked
 from geneva_cli.analysis.loads.cycle import Quantity
 from geneva_cli.analysis.loads.forces import Row, Setting, Worked, gain, sliding, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant
@@ -27,7 +27,7 @@ from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.cells import Cuts
     from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array, Number
@@ -95,6 +95,7 @@ class Loaded:
         # p v is 0 where the sliding is, in a notch that may lie beside a pole
         self.kinds = kinds(engagement, given, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
+        self.rooms: Sequence[int] = [i for i, kind in enumerate(self.kinds) if kind in ROOMS]
         own = any(name not in QUANTITIES for name in names)
         held = own or any(name in REACTIONS for name in names)
         self.reactions = held and engagement.reactions is not None
@@ -172,6 +173,12 @@ class Loaded:
         given, found, shape, wanted = at
         return given, column(found, number), (*shape[:-1], 1), wanted
 
+    def picked(self, at: At, row: Whole, column: Whole) -> At:
+        """The same at some of the places, by the numbers of design and place: (m, 1)."""
+        given, found, _, wanted = at
+        given, wanted = taken((given, wanted), row)
+        return given, picked(found, row, column), (len(row), 1), wanted
+
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
@@ -205,10 +212,11 @@ class Signs:
     """Of designs under their load the functions alone whose signs count."""
 
     wanted = 0
+    rooms: Sequence[int] = ()
 
     def __init__(self, load: Loaded) -> None:
         self.load, self.signs = load, load.signs
-        self.at, self.column = load.at, load.column
+        self.at, self.column, self.picked = load.at, load.column, load.picked
 
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None

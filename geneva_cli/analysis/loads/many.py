@@ -146,7 +146,8 @@ def _group(
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
-    found = search(load, spans, n, sized, load.at_mid_motion(n), load.spread)
+    known = load.at_mid_motion(n)
+    found = search(load, spans, n, sized, known, load.spread, cuts=bool(told))
     if not told:
         return found.most, found.x, found.most
     pieces = stretches_of(load, spans, found.cuts)
