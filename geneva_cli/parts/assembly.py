@@ -40,6 +40,7 @@ class Assembly(NamedTuple):
     L: float
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
+    span_deg: float  # of which so much is looked at: all of it, or as much as repeats itself
     motions: tuple[tuple[Engagement, float], ...]
     rollers: tuple[tuple[Engagement, float], ...]
     slots: tuple[tuple[Engagement, float], ...]
@@ -182,7 +183,7 @@ def assembled(mechanism: Mechanism) -> Assembly:
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN
     around = _around(mechanism)
-    return Assembly(mechanism, L, sign, turn, motions, rollers, *around, given, to_input)
+    return Assembly(mechanism, L, sign, turn, turn, motions, rollers, *around, given, to_input)
 
 
 def _same(input_deg: float) -> float:

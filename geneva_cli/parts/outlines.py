@@ -58,6 +58,10 @@ class Outlines(NamedTuple):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
+    def over(self, assembly: Assembly) -> Outlines:
+        """The same parts where another assembly has them."""
+        return self._replace(assembly=assembly)
+
     def in_wheel(self, motion: int, at: Array) -> Array:
         """Where a motion's roller is in the wheel's frame, mm, at input angles (n,): (n, 2)."""
         return turned_points(self.assembly.driving(motion, at), -self.assembly.wheel(at))

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 NEAR = 0.02  # radians: wider gaps are not told apart
 BESIDE = 1e-6  # of an arc: beside a corner, which may lie on an edge where all else overlaps
 SHARES = (0.0, BESIDE, 0.5, 1.0 - BESIDE)  # of an arc: where it is looked at
+SAME = 1e-9  # radians: arcs nearer to each other are one
 ROUNDING = 1e-7  # radians, of a cosine's angle
 
 
@@ -86,6 +87,16 @@ class BallGaps:
             columns.append(self.found.radius_mm * (away - self.found.roller))
         out: Array = np.minimum(np.column_stack(columns), near)
         return out
+
+    def repeats(self, count: int) -> bool:
+        """Whether wheel and crank are as before after a slot and a turn over ``count``."""
+        first, step = self.sectors[:1], 2.0 * np.pi / count
+        return len(self.sectors) in (0, count) and all(
+            np.abs(about(one.middle, np.full(len(one), -k * step)) - sector.middle).max() < SAME
+            and np.abs(one.sweep - sector.sweep).max() < SAME
+            for one in first
+            for k, sector in enumerate(self.sectors)
+        )
 
     def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
         """How far the wheel can be turned until parts overlap by ``close`` mm; see ``Gapped``."""

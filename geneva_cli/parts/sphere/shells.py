@@ -51,6 +51,10 @@ class Shells(NamedTuple):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.ball.radius_mm
 
+    def over(self, assembly: Assembly) -> Shells:
+        """The same parts where another assembly has them."""
+        return self._replace(assembly=assembly)
+
     def in_wheel(self, motion: int, at: Array) -> Array:
         """Where a motion's roller is in the wheel's frame, mm, at input angles (n,): (n, 3)."""
         out: Array = self.ball.radius_mm * self.gaps.in_wheel(motion, at)

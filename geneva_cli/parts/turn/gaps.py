@@ -72,24 +72,19 @@ class Gaps:
 
     def _sector(self) -> None:
         """Let one slot and its neighbours stand for a wheel that is alike from slot to slot."""
-        self.pitch = math.tau / len(self.assembly.slots) if self._repeats() else 0.0
+        # inside, the outline runs clockwise
+        count, sense = len(self.assembly.slots), self.assembly.sign
+        repeats = _repeats(self.wheel, count, SAME * self.assembly.L, sense)
+        self.pitch = math.tau / count if repeats else 0.0
         middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
         reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
         keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
         self.around = self.wheel.subset(keep) if self.pitch else self.wheel
 
-    def _repeats(self) -> bool:
-        """Whether the wheel's outline is the same from slot to slot: its corners and its arcs."""
-        wheel, count = self.wheel, len(self.assembly.slots)
-        if len(wheel) % count:
-            return False
-        each = len(wheel) // count
-        angle = math.tau / count * self.assembly.sign  # inside, the outline runs clockwise
-        corners = np.column_stack((wheel.x0, wheel.y0))
-        after = turned_points(np.roll(corners, each, axis=0), np.full(len(wheel), angle))
-        same = np.abs(after - corners).max() < SAME * self.assembly.L
-        bends = np.column_stack((wheel.sense, wheel.cos_half))
-        return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME)
+    def repeats(self, count: int) -> bool:
+        """Whether wheel and crank are as before after a slot and a turn over ``count``."""
+        alike = self.crank is None or _repeats(self.crank, count, SAME * self.assembly.L)
+        return bool(self.pitch) and alike
 
     def _to_wheel(self, points: Array, reach: float) -> Array:
         """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""
@@ -232,6 +227,18 @@ class Gaps:
         """The crank's axis in the wheel's frame, (n, 2)."""
         out: Array = self.assembly.L * np.column_stack((np.cos(turn), -np.sin(turn)))
         return out
+
+
+def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> bool:
+    """Whether an outline is the same so many times round its origin: its corners and its arcs."""
+    each, rest = divmod(len(outline), count)
+    if rest:
+        return False
+    corners = np.column_stack((outline.x0, outline.y0))
+    angle = np.full(len(outline), math.tau / count * sense)
+    same = np.abs(turned_points(np.roll(corners, each, axis=0), angle) - corners).max() < near
+    bends = np.column_stack((outline.sense, outline.cos_half))
+    return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME)
 
 
 def turned_points(points: Array, angle: Array) -> Array:

@@ -80,7 +80,7 @@ def windows(parts: Turned) -> Iterator[Window]:
     assembly, motions = parts.assembly, parts.assembly.motions
     for i, (engagement, behind) in enumerate(motions):
         after, later = motions[(i + 1) % len(motions)]
-        turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
+        turns = assembly.span_deg if i + 1 == len(motions) else 0.0
         entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
         following = later + turns + after.entry_deg
         yield Window(entry, exit_, i, False)
@@ -144,7 +144,7 @@ def _measured(parts: Turned, at: Array, fits: bool) -> Play:
     back, on = stopped(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
-    last = assembly.start_deg + assembly.turn_deg
+    last = assembly.start_deg + assembly.span_deg
     for a, b, motion, rests in windows(parts):
         here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
         if not len(here):

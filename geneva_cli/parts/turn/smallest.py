@@ -81,7 +81,7 @@ def smallest_gaps(parts: Turned, earlier: Earlier) -> Iterator[SmallestGaps]:
 def positions(parts: Turned) -> Array:
     """Input angles of one turn, between which no part moves by much of the thinnest feature."""
     assembly, sizes = parts.assembly, parts.sizes
-    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, 721)
+    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
     crank = np.unwrap(assembly.crank(grid))
     way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
     feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
@@ -92,7 +92,7 @@ def positions(parts: Turned) -> Array:
     ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
     beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
     near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
-    near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
+    near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
     return rising(np.concatenate((found, near)))
 
 

@@ -58,6 +58,9 @@ class Gapped(Protocol):
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """The gap between what locks on the crank and the wheel, (n,)."""
 
+    def repeats(self, count: int) -> bool:
+        """Whether wheel and crank are as before after a slot and a turn over ``count``."""
+
     def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
         """How far the wheel can be turned from positions where nothing overlaps by ``close`` mm.
 
@@ -119,6 +122,9 @@ class Turned(Protocol):
     @property
     def contact(self) -> float:
         """The overlap, mm, up to which parts count as touching."""
+
+    def over(self, assembly: Assembly) -> Turned:
+        """The same parts where another assembly has them."""
 
     def in_wheel(self, motion: int, at: Array) -> Array:
         """The centre of a motion's roller in the wheel's frame, mm, at input angles (n,).

@@ -17,6 +17,7 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import NotProved
 from geneva_cli.parts.turn.glance import gap_about, loose_about
+from geneva_cli.parts.turn.once import looked_at_once
 from geneva_cli.parts.turn.turned import Turned
 from geneva_cli.study.synthesis.wish import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
@@ -146,7 +147,7 @@ class _Turn:
 def _looks(parts: Turned) -> Iterator[list[Failing]]:
     """The checks of a turn that are found to fail, as it is looked at ever closer."""
     try:
-        for turn in turning(parts):
+        for turn in turning(looked_at_once(parts)):
             yield _failing(turn_checks(parts, turn))
     except NotProved:
         yield [Failing("full_turn")]
