@@ -15,6 +15,7 @@ from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
 from geneva_cli.machine.path_wheels import Search, wheels
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
+from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
         found = search.wheels
         best = chosen(some, found, goal if goal is None else goal[part])
         out[:, part[found.which[best]]] = *found.phi[best].T, found.sense[best]
-        for i in np.unique(search.doubtful.which).tolist():
+        for i in rising(search.doubtful.which).tolist():
             alone[start + i] = search.of(i)
     entry, exit_, sense = out[:, :, None]
     return Fits(entry, exit_, sense, alone)

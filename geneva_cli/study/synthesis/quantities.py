@@ -5,18 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.study.fields import Pick, pick
+from geneva_cli.spec.load_named import load_named
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number, refuse_contradictions
 from geneva_cli.study.synthesis.rows import Row
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
+
+if TYPE_CHECKING:
+    from geneva_cli.study.fields import Pick
 
 Cells: TypeAlias = list[float | int | str | bool | None]  # of one machine
 
@@ -42,6 +45,7 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     sort = wish.sort.lstrip("-")
     wanted = [b.name for b in wish.bounds]
     machine = build(spec)
+    pick = load_named("study.fields:pick")  # with all that a report has: most wishes name nothing
     of_sort = pick([sort], machine, "--sort").names if sort else ()
     of_bounds = pick(wanted, machine, "--subject-to").asked if wanted else ()
     found = pick([*of_sort, *of_bounds], machine)
