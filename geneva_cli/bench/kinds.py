@@ -23,7 +23,7 @@ from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
 from geneva_cli.spec.tables import Size
 
-DESIGNS, QUICK, FEW = 50_000, 100, 2_000
+DESIGNS, QUICK, FEW = 50_000, 100, 4_096
 CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
 
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from geneva_cli.machine.engagement import Vector, cross
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 
 class LinkTurning(NamedTuple):
@@ -21,7 +21,7 @@ class LinkTurning(NamedTuple):
     def __call__(self, tau: Number, order: int) -> Jet:
         """Radians an input radian, positive with the wheel, ``tau`` radians after mid-motion."""
         x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
-        return atan2(y, x).derivative() * self.sense
+        return turning(x, y) * self.sense
 
 
 class LinkReactions(NamedTuple):
