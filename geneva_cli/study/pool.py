@@ -23,11 +23,16 @@ AHEAD = 4  # results that may wait for each worker, so that memory stays bounded
 
 
 def mapped(
-    work: Callable[[T], R], items: Iterable[T], workers: int, what: str = "designs"
+    work: Callable[[T], R],
+    items: Iterable[T],
+    workers: int,
+    what: str = "designs",
+    meanwhile: Callable[[], None] | None = None,
 ) -> Iterator[R]:
     """``work`` of each item, in order, by several processes, or by this one for 1 worker.
 
     Raises GenevaError if a process is ended from outside; ``what`` is the word for the items in it.
+    ``meanwhile`` is what this process does while others work, if there is work for all of them.
     """
     if workers < 2:
         yield from map(work, items)
@@ -43,6 +48,9 @@ def mapped(
         try:
             for item in items:
                 waiting.append(pool.submit(work, item))
+                if meanwhile and len(waiting) > workers:  # each has something to do
+                    meanwhile()
+                    meanwhile = None
                 if len(waiting) > AHEAD * workers:
                     yield waiting.popleft().result()
             while waiting:

@@ -168,6 +168,15 @@ def test_a_run_that_ignores_ctrl_c_goes_on():
         signal.signal(signal.SIGINT, before)
 
 
+@pytest.mark.parametrize("count", [2, 5, 40])
+def test_what_is_done_meanwhile_is_done_once(count):
+    """By the process that waits, where there is something to do for all others."""
+    done = []
+    found = mapped(abs, range(-count, 0), 2, meanwhile=lambda: done.append(os.getpid()))
+    assert [*found] == [*range(count, 0, -1)]
+    assert done == ([os.getpid()] if count > 2 else [])
+
+
 def test_other_formats_hold_the_same():
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--subject-to", "jerk.max <= 6"]
     rows = json.loads(geneva(*arguments, "--format", "json").stdout)["rows"]

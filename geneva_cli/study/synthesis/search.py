@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -48,8 +48,10 @@ class _Part(NamedTuple):
     errors: list[str]
 
 
-def search(wish: Wish) -> FoundRows:
+def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows:
     """The machines that grant the wish in their order; no part has been turned yet.
+
+    ``meanwhile`` is what this process does while others search.
 
     Raises GenevaError, saying what is within reach, where there is none.
     """
@@ -57,7 +59,7 @@ def search(wish: Wish) -> FoundRows:
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
     narrowed = wish.with_times()
-    parts = _parts(narrowed, wanted.names)
+    parts = _parts(narrowed, wanted.names, meanwhile=meanwhile)
     if not any(part.keeps for part in parts):  # a refusal says how near they come
         parts = _parts(wish, wanted.names, how_near=True)
     errors = [error for part in parts for error in part.errors]
@@ -91,14 +93,19 @@ def _family(row: Row) -> tuple[object, ...]:
     return (type(wheel), wheel.z, *own)
 
 
-def _parts(wish: Wish, names: Sequence[str], how_near: bool = False) -> list[_Part]:
+def _parts(
+    wish: Wish,
+    names: Sequence[str],
+    how_near: bool = False,
+    meanwhile: Callable[[], None] | None = None,
+) -> list[_Part]:
     """What each kind of machine has, by all cores, in the order of ``kinds``."""
     tasks = kinds(wish)
     order = longest_first(wish)
     many = len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
     workers = min(len(tasks), cores()) if many else 1
     work = partial(_part, names=names, how_near=how_near)
-    done = mapped(work, [tasks[i] for i in order], workers, "machines")
+    done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
     found = dict(zip(order, done, strict=True))
     return [found[i] for i in range(len(tasks))]
 

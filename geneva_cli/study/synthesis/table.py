@@ -15,6 +15,7 @@ from geneva_cli.study.synthesis.search import FoundRows, search
 from geneva_cli.study.synthesis.turns import same_turn
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
+from geneva_cli.verdict.checks.registry import import_checks
 
 NAMES = ("no", *Candidate._fields)
 TURNED = 20  # rows whose parts are turned where nothing is said
@@ -24,7 +25,8 @@ def synthesis_table(
     wish: Wish, count: int = TURNED, buildable: bool = False, found: FoundRows | None = None
 ) -> Table:
     """One row a machine, numbered from 1, as ``turned`` gives them."""
-    found = found or search(wish)
+    # what turning takes is imported while others search: the processes that turn then have it
+    found = found or search(wish, import_checks if count else None)
     rows = [
         (one.no, *one.row.candidate, *one.row.asked)
         for one in turned(wish, found, count, buildable)

@@ -128,6 +128,13 @@ def turn_checks(found: Turned, turn: FullTurn) -> Iterator[Check]:
     yield from _made(TURNING, found, turn)
 
 
+def import_checks() -> None:
+    """Import all checks at once: processes that are forked then have them."""
+    for among in (MOTION, LIMITS, STATIC, SPHERE, TURNING):
+        for by in among.values():
+            load_named(f"verdict.checks.{by}")
+
+
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
     """The check of this name; None where the list has none, or it does not apply."""
     found: Check | None = None
