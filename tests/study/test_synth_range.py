@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.output.text import chunks
-from geneva_cli.spec.tables import Limits, Load
+from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.reading import SPANS, read_wish, span
 from geneva_cli.study.synthesis.search import search
@@ -391,6 +391,38 @@ def test_the_best_that_a_bound_leaves_beside_the_end_of_a_range():
     peak, motion, torque = dense(side.spec, "drive.A", np.linspace(-0.45, -0.35, 4001), names)
     fits = (motion >= 100.0) & (motion <= 200.0) & (torque <= 10.0)
     assert side.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("limit", "field", "most"),
+    [
+        ("input_torque_max_Nm", "loads.input_torque_Nm.max", 15.5),
+        ("pin_force_max_N", "loads.pin_force_N.max", 300.5),
+    ],
+)
+def test_a_frame_s_limits_choose_the_machine_of_a_range(limit, field, most):
+    """The gentlest gears of the range break the limit; the gentlest that keep it are shown."""
+    frame = Spec(
+        Wheel(6),
+        size=Size(center_distance_mm=200.0, roller_radius_mm=8.0),
+        load=Load(inertia_kgm2=0.05, torque_Nm=30.0),
+        limits=Limits(**{limit: most}),
+    )
+    found = rows(frame=frame, motion_deg="100..200", external=True, rollers=1)
+    (gears,) = [r for r in found if r.candidate.drive == "elliptical-gears"]
+    names = ["acceleration.max", "timing.motion_deg", field]
+    places = np.linspace(0.2, 0.4, 4001)
+    peak, motion, load_ = dense(gears.spec, "drive.eccentricity", places, names)
+    inside = (motion >= 100.0) & (motion <= 200.0)
+    gentlest = np.flatnonzero(inside)[peak[inside].argmin()]
+    assert load_[gentlest] > most
+    assert gears.candidate.parts == "maybe"
+    assert sum(r.candidate.drive == "four-bar" for r in found) <= 1
+    fits = inside & (load_ <= most)
+    assert gears.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
+    # of a plain crank there is no other: it stays, and says what it breaks
+    (plain,) = [r for r in found if r.candidate.drive == "crank" and not r.candidate.law][:1]
+    assert plain.candidate.parts == f"no: {limit}"
 
 
 def test_a_refusal_says_how_near_the_nearest_come():

@@ -21,6 +21,12 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import Kind, families, kinds, longest_first
 from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg, pieces
 from geneva_cli.study.synthesis.families.straight import plain
+from geneva_cli.study.synthesis.limited import (
+    breaks_limit,
+    first_of_each,
+    frame_limits,
+    giving_way,
+)
 from geneva_cli.study.synthesis.quantities import Asked, Cells, asked, asked_together, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
@@ -67,16 +73,35 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
     if not found:
         reached = [peak for part in parts for peak in part.reached]
         raise GenevaError(_out_of_reach(wish, reached, errors))
+    together = [cells for part in parts for cells in part.asked]
+    ranked = _ranked(wish, wanted, found, together)
+    if frame_limits(wish) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
+        within = _within_limits(narrowed, wanted, [any(map(breaks_limit, p.rows)) for p in parts])
+        ranked = sorted(giving_way(ranked, within), key=lambda row: _rank(wish, wanted, row))
+    return FoundRows(ranked, wanted.names)
+
+
+def _ranked(
+    wish: Wish, wanted: Asked, found: list[Row], together: Sequence[Cells | None]
+) -> list[Row]:
+    """The rows that keep the bounds, in their order."""
     if wanted.pick:
-        found = bounded(wanted, found, [cells for part in parts for cells in part.asked])
+        found = bounded(wanted, found, together)
     found = _worth(wish, wanted, found)
     found.sort(key=lambda row: _rank(wish, wanted, row))
-    if not _known_together(wish):
-        first: dict[tuple[object, ...], Row] = {}
-        for row in found:
-            first.setdefault(_family(row), row)
-        found = [*first.values()]
-    return FoundRows(found, wanted.names)
+    return first_of_each(found, linkages=_known_together(wish))
+
+
+def _within_limits(wish: Wish, wanted: Asked, which: Sequence[bool]) -> list[Row]:
+    """The rows, of ``which`` kinds, of machines that are to keep the frame's limits too."""
+    strict = wish._replace(bounds=(*wish.bounds, *frame_limits(wish)))
+    parts = _parts(strict, wanted.names, which=which)
+    pairs = [pair for part in parts for pair in zip(part.rows, part.asked, strict=True)]
+    kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
+    try:
+        return _ranked(wish, wanted, [row for row, _ in kept], [cells for _, cells in kept])
+    except GenevaError:  # none keeps the bounds as well
+        return []
 
 
 def _known_together(wish: Wish) -> bool:
@@ -86,28 +111,24 @@ def _known_together(wish: Wish) -> bool:
     return in_arrays([*filter(None, [wish.sort.lstrip("-")]), *(b.name for b in wish.limits)])
 
 
-def _family(row: Row) -> tuple[object, ...]:
-    """What machines of one family have in common."""
-    candidate, wheel = row.candidate, row.spec.wheel
-    own = candidate.drive, candidate.law, candidate.fixed, candidate.rollers
-    return (type(wheel), wheel.z, *own)
-
-
 def _parts(
     wish: Wish,
     names: Sequence[str],
     how_near: bool = False,
     meanwhile: Callable[[], None] | None = None,
+    which: Sequence[bool] = (),
 ) -> list[_Part]:
-    """What each kind of machine has, by all cores, in the order of ``kinds``."""
+    """What each kind of machine has, by all cores, in the order of ``kinds``: of all kinds, or of
+    ``which``.
+    """
     tasks = kinds(wish)
-    order = longest_first(wish)
-    many = len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
-    workers = min(len(tasks), cores()) if many else 1
+    order = [i for i in longest_first(wish) if not which or which[i]]
+    many = which or len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
+    workers = min(len(order), cores()) if many else 1
     work = partial(_part, names=names, how_near=how_near)
     done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
     found = dict(zip(order, done, strict=True))
-    return [found[i] for i in range(len(tasks))]
+    return [found[i] for i in sorted(found)]
 
 
 def _part(task: tuple[Kind, Wish], names: Sequence[str], how_near: bool) -> _Part:

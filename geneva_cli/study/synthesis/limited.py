@@ -1,0 +1,64 @@
+"""The limits of a wish's frame as bounds, and the rows that break them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synthesis.rows import PEAKS, Row
+from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.verdict.checks.load_limits import QUANTITIES
+
+# Keys of [limits], by which their checks are named, and the quantities that they limit; what the
+# lock bears is the same for all machines of a wheel.
+MOST = {
+    **PEAKS,
+    **{key: f"loads.{load}.max" for key, load in QUANTITIES.items()},
+    "pv_max_W_m2": "life.pv_max_W_m2",
+    "slot_wear_max_mm_per_million": "life.slot_wear_mm_per_million",
+}
+LEAST = {"roller_life_min_h": "life.roller_life_h"}
+
+
+def frame_limits(wish: Wish) -> tuple[Constraint, ...]:
+    """The frame's limits as bounds."""
+    given = wish.frame.limits.as_dict() if wish.frame else {}
+    return tuple(
+        Constraint(name, sign, float(given[key]))
+        for names, sign in ((MOST, "<="), (LEAST, ">="))
+        for key, name in names.items()
+        if given.get(key) is not None
+    )
+
+
+def breaks_limit(row: Row) -> bool:
+    """Whether a row breaks a limit of its frame."""
+    _, _, why = (row.candidate.parts or "").partition(": ")
+    return not {*MOST, *LEAST}.isdisjoint(why.split(", "))
+
+
+def family(row: Row) -> tuple[object, ...]:
+    """What machines of one family have in common."""
+    candidate, wheel = row.candidate, row.spec.wheel
+    own = candidate.drive, candidate.law, candidate.fixed, candidate.rollers
+    return (type(wheel), wheel.z, *own)
+
+
+def first_of_each(rows: Sequence[Row], linkages: bool = False) -> list[Row]:
+    """Of every family the first row; of ``linkages`` alone, several of which stand for those that
+    were searched.
+    """
+    first: dict[Any, Row] = {}
+    for i, row in enumerate(rows):
+        apart = linkages and row.candidate.crank_mm is None
+        first.setdefault(i if apart else family(row), row)
+    return [*first.values()]
+
+
+def giving_way(rows: Sequence[Row], kept: Sequence[Row]) -> list[Row]:
+    """The rows, where one breaks a limit with those of its family instead that are ``kept``."""
+    broken = {family(row) for row in rows if breaks_limit(row)}
+    instead = [row for row in kept if family(row) in broken and not breaks_limit(row)]
+    mended = {family(row) for row in instead}
+    return [*(row for row in rows if family(row) not in mended), *instead]
