@@ -7,13 +7,17 @@ they go through: machines that differ in it, or in the speed, are turned once.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.all_round import leave_no_disc
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.sizes import sizes
 from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import NotProved
 from geneva_cli.parts.turn.glance import gap_about, loose_about
@@ -73,14 +77,14 @@ class Turns:
         to in the turn.
         """
         turn = self._turn(machine)
-        return turn.standing(machine) or turn.first()
+        return turn.undrawn() or turn.standing(machine) or turn.first()
 
     def some_failing(self, machine: Mechanism, seen: Iterable[Failing]) -> list[Failing]:
         """The same, but the places where checks have been ``seen`` to fail with other sizes are
         looked at before.
         """
         turn = self._turn(machine)
-        return turn.again(seen) or turn.standing(machine) or turn.first()
+        return turn.undrawn() or turn.again(seen) or turn.standing(machine) or turn.first()
 
     def _turn(self, machine: Mechanism) -> _Turn:
         own = same_turn(machine.spec)
@@ -93,21 +97,42 @@ class _Turn:
     """The parts of a machine and their full turn, as far as it has been looked at."""
 
     def __init__(self, machine: Mechanism) -> None:
-        self._parts: Turned | None = None
+        self._machine = machine
         self._failing: list[Failing] = []
-        self._closer: Iterator[list[Failing]] = iter(())
         self._begun = False
+
+    @cached_property
+    def _made(self) -> Turned | Failing:
+        """The parts, or the key in their way."""
         try:
-            self._parts = Proof(machine, advice=False).turned
-            self._closer = _looks(self._parts)
+            return Proof(self._machine, advice=False).turned
         except GenevaError as error:
-            self._refused = [Failing(str(error.key[-1]) if error.key else "outline")]
+            return Failing(str(error.key[-1]) if error.key else "outline")
+
+    @cached_property
+    def _closer(self) -> Iterator[list[Failing]]:
+        return iter(()) if isinstance(self._made, Failing) else _looks(self._made)
+
+    @cached_property
+    def _no_disc(self) -> bool:
+        """Whether it is plain without drawing anything that nothing is left of the lock."""
+        if not self._machine.spec.wheel.FLAT:
+            return False
+        try:
+            where = assembly(self._machine)
+            return leave_no_disc(where, sizes(where))
+        except GenevaError:
+            return False
+
+    def undrawn(self) -> list[Failing]:
+        """The key that is in the way of the parts, where that is plain before they are drawn."""
+        return [Failing("roller_radius_mm")] if self._no_disc else []
 
     def standing(self, machine: Mechanism) -> list[Failing]:
         """The checks that fail of parts that stand still, of a machine that turns likewise."""
-        if self._parts is None:
-            return self._refused
-        parts: Any = self._parts
+        if isinstance(self._made, Failing):
+            return [self._made]
+        parts: Any = self._made
         turned = parts.assembly._replace(given=machine, to_input=machine.spec.drive.input_deg)
         parts = parts._replace(assembly=turned)
         flat = machine.spec.wheel.FLAT
@@ -127,8 +152,10 @@ class _Turn:
 
     def again(self, seen: Iterable[Failing]) -> list[Failing]:
         """Those of some that fail where they did with other sizes, before it is looked at."""
-        parts = None if self._begun else self._parts
-        return [one for one in seen if _fails_there(parts, one)] if parts else []
+        parts = self._made
+        if self._begun or isinstance(parts, Failing):
+            return []
+        return [one for one in seen if _fails_there(parts, one)]
 
     def _sure(self) -> bool:
         """Whether some fail, and a play that is nearly enough to give up on is known."""

@@ -1,0 +1,72 @@
+"""Reliefs that go all the way round, told early: only of machines that are refused when drawn."""
+
+import random
+
+import pytest
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.parts.all_round import leave_no_disc
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.sizes import sizes
+from geneva_cli.spec.tables import Size
+
+GONE = "nothing is left of the locking disc"
+
+
+def told(spec):
+    """Whether it is told early, and what a drawing is refused for."""
+    where = assembly(build(spec))
+    try:
+        early = leave_no_disc(where, sizes(where))
+        outlines(where.given)
+    except GenevaError as error:
+        return early, str(error)
+    return early, ""
+
+
+def machine(z, drive, alpha0_deg, **size):
+    ratio = None if drive.NAME == "cam" else "matched"
+    motion = Motion(ModifiedSine(), alpha0_deg=alpha0_deg, ratio=ratio)
+    return Spec(External(z), drive, motion=motion, size=Size(**size))
+
+
+@pytest.mark.parametrize("drive", [Crank(rollers=2), Cam(rollers=2)], ids=["crank", "cam"])
+def test_large_rollers_leave_no_disc_and_small_ones_do(drive):
+    """Every one that is refused for it is told, but where it is next to nothing."""
+    radii = (5.0, 4.0, 3.0, 2.5, 1.0)
+    seen = [told(machine(23, drive, -5.65, roller_radius_mm=r)) for r in radii]
+    assert [early for early, _ in seen] == [True, True, True, True, False]
+    assert [said.startswith(GONE) for _, said in seen] == [True, True, True, True, False]
+
+
+def test_none_is_told_that_can_be_drawn():
+    """Random machines, of which most have a disc."""
+    some, found = random.Random(11), []
+    for _ in range(60):
+        drive = some.choice([Crank, Cam])(rollers=some.choice([1, 2, 2, 3]))
+        size = {"roller_radius_mm": some.choice([5.0, 4.0, 3.0, 2.5, 2.0, 1.5])}
+        if some.random() < 0.3:
+            size["relief"] = some.choice(["arc", "sector"])
+        try:
+            found.append(told(machine(some.randint(6, 24), drive, some.uniform(-20, 10), **size)))
+        except GenevaError:  # no such machine
+            continue
+    assert not [said for early, said in found if early and not said.startswith(GONE)]
+    assert {(True, True), (False, False)} <= {(early, bool(said)) for early, said in found}
+
+
+def test_where_there_is_no_disc_to_be_cut_nothing_is_told():
+    internal = Spec(Internal(12), Cam(), motion=Motion(ModifiedSine(), alpha0_deg=40.0))
+    without = machine(23, Crank(rollers=2), -5.65, roller_radius_mm=5.0, lock_radius_mm=0.0)
+    straight = Spec(External(23), Crank(rollers=2))
+    for spec in (internal, without, straight):
+        where = assembly(build(spec))
+        assert not leave_no_disc(where, sizes(where))
