@@ -140,12 +140,15 @@ def swept(found: Ball) -> tuple[Array, Array]:
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - found.half_step, 0.0)
     flat = math.sin(found.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     wheel = wheel[math.cos(found.axes) * wheel[:, 2] + flat > math.cos(found.lock) - SAME]
-    rows = []
-    for turn in np.linspace(-found.half_motion, found.half_motion, STEPS):
-        polar, azimuth = _seen(wheel @ _index(found, frame, turn), frame)
-        rows.append((polar, azimuth + turn))
-    ways = np.array(rows)
-    return tuple(ways[:, :, (ways[:, 0] < found.lock).any(axis=0)].swapaxes(0, 1))
+    turns = np.linspace(-found.half_motion, found.half_motion, STEPS)
+    index = np.array([_index(found, frame, turn) for turn in turns.tolist()])
+    x, y, up = np.moveaxis((wheel @ index) @ frame, -1, 0)
+    # of the points that do not come there most are told by what takes less than their angles
+    some = np.flatnonzero(up.max(axis=0) > math.cos(found.lock) - SAME)
+    x, y, up = x[:, some], y[:, some], up[:, some]
+    polar = np.arctan2(np.hypot(x, y), up)
+    comes = (polar < found.lock).any(axis=0)
+    return polar[:, comes], np.arctan2(y[:, comes], x[:, comes]) + turns[:, None]
 
 
 def _index(found: Ball, frame: Array, turn: float) -> Array:
@@ -154,9 +157,3 @@ def _index(found: Ball, frame: Array, turn: float) -> Array:
     x, y, _ = frame @ (s * math.cos(turn), -s * math.sin(turn), math.cos(found.arm))
     c, s = x / math.hypot(x, y), y / math.hypot(x, y)
     return np.array(((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0)))
-
-
-def _seen(points: Array, frame: Array) -> tuple[Array, Array]:
-    """Points from the crank's axis and about it, where it does not turn with the crank."""
-    x, y, up = (points @ frame).T
-    return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x)
