@@ -6,6 +6,9 @@ left to be solved alone, in 50 digits.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -27,6 +30,11 @@ if TYPE_CHECKING:
 
 POLISHINGS = 3  # steps of Newton: each leaves some millionth of the error
 GROUP = 2048  # designs at a time
+
+# By a path's kind and numbers what was found of it, and its number there; None: nothing is kept.
+_KNOWN: ContextVar[dict[tuple[object, ...], tuple[Search, int]] | None] = ContextVar(
+    "known", default=None
+)
 
 
 class Fits(NamedTuple):
@@ -57,6 +65,7 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
         part = np.arange(start, min(start + GROUP, count))
         some = path.of(part)
         search = wheels(some, half[part])
+        _keep(some, half[part], search)
         found = search.wheels
         best = chosen(some, found, goal if goal is None else goal[part])
         out[:, part[found.which[best]]] = *found.phi[best].T, found.sense[best]
@@ -64,6 +73,31 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
             alone[start + i] = search.of(i)
     entry, exit_, sense = out[:, :, None]
     return Fits(entry, exit_, sense, alone)
+
+
+@contextmanager
+def searches_kept() -> Iterator[None]:
+    """Within, what is found of designs together is known of each that is built alone after it."""
+    token = _KNOWN.set({})
+    try:
+        yield
+    finally:
+        _KNOWN.reset(token)
+
+
+def _keep(path: RollerPath, half: Array, search: Search) -> None:
+    kept = _KNOWN.get()
+    if kept is not None:
+        columns = [np.broadcast_to(x, half.shape) for x in path.rough]
+        for i, row in enumerate(np.hstack([*columns, half]).tolist()):
+            kept[type(path), *row] = search, i
+
+
+def known(path: RollerPath, b: float) -> Search | None:
+    """What was found of a path of one design when it was searched with others, if it was."""
+    kept = _KNOWN.get()
+    found = kept.get((type(path), *path.rough, b)) if kept else None
+    return found[0].of(found[1]) if found else None
 
 
 def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:

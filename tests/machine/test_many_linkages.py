@@ -9,6 +9,7 @@ from words import Drive, Keys, Spec, Wheel
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import changed, many, taken
 from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.wheels_for_paths import searches_kept
 
 # One design is solved in 50 digits, many in long doubles, and both are rounded once: numbers differ
 # by units in the last place, in 900 random designs by 3 at most. Where a long double is a double,
@@ -149,3 +150,27 @@ def test_the_gentlest_wheel_is_found():
     x = np.linspace(motion.entry_deg, motion.exit_deg, 361)
     assert motion(x, 1).c[1].max() == pytest.approx(1.207, abs=1e-3)
     assert motion.exit_deg == pytest.approx(math.degrees(2.3586) / 2.0, abs=1e-2)
+
+
+@pytest.mark.parametrize("case", [(four_bar(), FOUR_BAR), (slider_crank(), SLIDER_CRANK)])
+def test_a_search_that_is_kept_finds_the_same(case, monkeypatch):
+    """To the last bit, of machines built alone with it and without; and none is searched again."""
+    spec, ranges = case
+    varied = drawn(ranges, 60, 11)
+    apart = [alone(spec, varied, i) for i in range(60)]
+    with searches_kept():
+        together = many(spec, varied)
+        monkeypatch.setattr("geneva_cli.machine.wheel_for_path.wheels", searched_again)
+        found = [alone(spec, varied, int(i)) for i in together.which]
+    assert len(found) > 3
+    for i, one in zip(together.which, found, strict=True):
+        assert one.center_distance_mm == apart[i].center_distance_mm
+        (own,), (other,) = one.engagements, apart[i].engagements
+        assert (own.entry_deg, own.exit_deg) == (other.entry_deg, other.exit_deg)
+        assert own.motion(1.0, 3).c == other.motion(1.0, 3).c
+    with pytest.raises(AssertionError):
+        alone(spec, varied, int(together.which[0]))  # nothing is kept outside
+
+
+def searched_again(path, b):
+    raise AssertionError("searched again")

@@ -28,7 +28,7 @@ from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, rounded
 from geneva_cli.machine.wheel_for_path import fit
 from geneva_cli.machine.wheels.poses import HalfStep
-from geneva_cli.machine.wheels_for_paths import fits_many
+from geneva_cli.machine.wheels_for_paths import fits_many, known
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
@@ -80,7 +80,7 @@ class Linkage(PinPath, kw_only=True):
         if self.varies or is_array(step.b):
             engagement, L = self._of_many(step)
         else:
-            found = fit(path, step, self._wanted)
+            found = fit(path, step, self._wanted, known(path, step.b))
             if found is None:
                 raise _none_fits(spec.wheel.z)
             engagement, L = engagement_of(path, found, step)

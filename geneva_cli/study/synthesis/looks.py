@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -86,6 +87,7 @@ def look_at(specs: Iterable[Spec]) -> None:
         _kept.update(zip(of, _looks(of, machine), strict=True))
 
 
+@lru_cache(maxsize=MOST)
 def _alike(spec: Spec) -> Spec:
     """The machine that stands for all those whose slots and rollers' paths are the same."""
     drive = spec.drive

@@ -192,5 +192,5 @@ def _obstacle(where: Assembly, at: PartsLook, r: float) -> str:
     if at.back and gap_at_rest(at.back, found.rim, w, found.roller) < -CONTACT * L:
         return GAP
     bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
-    cuts = [depths_mm(wall, w, L)[0] for wall in bent]
+    cuts = (depths_mm(wall, w, L)[0] for wall in bent)
     return UNDERCUT if any(cut > NEARLY * SHOWN_UNDERCUT for cut in cuts) else ""

@@ -9,6 +9,7 @@ from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels_for_paths import searches_kept
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.synthesis.by_law import law_peaks
@@ -20,7 +21,8 @@ from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 GROOVE = "groove_pressure_deg"
-NEAR_DEG = 3.0  # of its limit, within which the pressure angle is looked for between places
+NEAR_DEG = 3.0  # below its limit, within which the pressure angle is looked for between places
+SURE_DEG = 1e-6  # beyond it: what is seen there is no rounding, and there is no less between places
 PEAKS = {  # keys of [limits], and what they limit
     "velocity_max": "velocity.max",
     "acceleration_max": "acceleration.max",
@@ -106,7 +108,7 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
 def _wedged(machine: Mechanism) -> str:
     """The check of a cam's groove, where it fails: asked only where it is near its limit."""
     seen = look(machine.spec).pressure_deg
-    if abs(seen - GROOVE_MAX_DEG) > NEAR_DEG:
+    if not -NEAR_DEG <= seen - GROOVE_MAX_DEG <= SURE_DEG:
         return GROOVE if seen > GROOVE_MAX_DEG else ""
     check = groove_pressure(GROOVE, machine)
     return GROOVE if check and check.passes is False else ""
@@ -114,6 +116,11 @@ def _wedged(machine: Mechanism) -> str:
 
 def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     """The rows of the specs that can be built; why others cannot goes to ``errors``."""
+    with searches_kept():  # every machine is looked at with others first
+        return _rows(wish, specs, errors)
+
+
+def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
     straight = [spec for spec in specs if spec.motion is None]
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]

@@ -22,7 +22,7 @@ import numpy as np
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number
+    from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
 BACK = 2  # places of the way back for one of the motion
 HALF_WALL = 1.0 / 400.0  # of the centre distance: half of what must stand between two slots
@@ -59,15 +59,20 @@ class CouplerDrive(NamedTuple):
     sense: Array
     w: Complex
 
+    def taken(self, which: Any) -> CouplerDrive:
+        """Some of the drives."""
+        return CouplerDrive(*(x[which] for x in self))
+
 
 class Judged(NamedTuple):
-    """What becomes of wheels: derivatives of their angles by the input angle at places of the
-    motion, (n, places) each; which are driven and let the roller pass on its way back, the centre
-    distance, and how far from the crank's axis a joint or the roller comes, (n,) each.
+    """What becomes of wheels that are driven and let the roller pass on its way back: the numbers
+    ``which`` of these, (m,), derivatives of their angles by the input angle at places of the
+    motion, (m, places) each, the centre distance, and how far from the crank's axis a joint or the
+    roller comes, (m,) each.
     """
 
+    which: Whole
     derivatives: list[Array]  # the angle itself, velocity, acceleration, and jerk where asked for
-    drives: Mask
     distance: Array
     reach: Array
 
@@ -85,13 +90,20 @@ def linked(links: FourBarLinks, phi: Array, order: int) -> Linked:
 
 
 def _complex(x: Jet, y: Jet) -> list[Complex]:
-    return [np.asarray(p + 1j * q) for p, q in zip(x.c, y.c, strict=True)]
+    out = []
+    for p, q in zip(x.c, y.c, strict=True):
+        both = np.empty(np.broadcast(p, q).shape, dtype=complex)
+        both.real, both.imag = p, q
+        out.append(both)
+    return out
 
 
 def driving(
     links: FourBarLinks, entry: Array, motion: Array, b: Number, sense: Array
 ) -> CouplerDrive:
-    """The roller's place that makes the motion, (n, 1); not a number where there is none."""
+    """The roller's place that makes the motion, (n, 1); not a number where there is none, or where
+    the chord does not run from entry to exit.
+    """
     one, two = (linked(links, phi, 1) for phi in (entry, entry + motion))
     turn = np.exp(1j * sense * (0.5 * math.pi - b))
     v, u = one.pin[1], one.along[1]
@@ -109,41 +121,46 @@ def driving(
     way, foot = D.conj() / np.abs(D), -1j * E / D
     at_rest = ((-v / u - foot) * way.conj()).real
     total = -(2.0 * A * (foot * way.conj()).real + (d * way).imag) / A
-    return CouplerDrive(entry, motion, sense, foot + (total - at_rest) * way)
+    w = foot + (total - at_rest) * way
+    chord, speed = two.pin[0] + w * two.along[0] - (one.pin[0] + w * one.along[0]), v + w * u
+    ahead = (chord * (speed / np.abs(speed)).conj() * turn).real > 0.0
+    return CouplerDrive(entry, motion, sense, np.where(ahead, w, np.nan))
 
 
 def judged(
-    links: FourBarLinks, drive: CouplerDrive, b: Number, roller: Number, order: int, places: int
+    links: FourBarLinks, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
 ) -> Judged:
     """What becomes of the wheels, looked at in so many places of the motion and of the way back,
     for a roller of that share of the centre distance, and derivatives up to that order. Half the
-    step and the roller may be (n, 1).
+    step and the roller are (n, 1).
     """
     entry, motion, sense, w = drive
     way = linked(links, entry + motion * (np.arange(places + 1) / places), order)
     pins = [p + w * e for p, e in zip(way.pin, way.along, strict=True)]
     p, q, v = pins[0][:, :1], pins[0][:, -1:], pins[1][:, :1]
-    t = v / np.abs(v)
     rho = np.abs(q - p) / (2.0 * np.sin(b))
-    centre = p + rho * t
-    rays = [pins[0] - centre, *pins[1:]]
-    x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])
-    derivatives = [np.asarray(d) for d in atan2(y, x).derivatives()]
+    centre = p + rho * (v / np.abs(v))  # the tangents at both ends meet there
+    ray, rate = pins[0] - centre, pins[1]
+    L, near = np.abs(centre), np.abs(ray)
+    turning = ray.real * rate.imag - ray.imag * rate.real
+    drives = (turning[:, 1:-1] * sense > 0.0).all(axis=1) & (near[:, 1:-1] < rho).all(axis=1)
+    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + HALF_WALL) * L)[:, 0]
+    which = np.flatnonzero(drives)
+    # only of these the way back is looked at
+    links, (entry, motion, sense, w) = links.taken(which), drive.taken(which)
     away = np.arange(1, BACK * places) / (BACK * places)
     rest = linked(links, entry + motion + (math.tau - motion) * away, 0)
     pin = rest.pin[0] + w * rest.along[0]
-    # the chord runs from entry to exit, and the tangents meet there
-    ahead = ((q - p) * t.conj() * np.exp(1j * sense * (0.5 * math.pi - b))).real > 0.0
-    L, near = np.abs(centre), np.abs(rays[0])
-    drives = ahead[:, 0] & (derivatives[1][:, 1:-1] * sense > 0.0).all(axis=1)
-    drives &= (near[:, 1:-1] < rho).all(axis=1)
-    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + HALF_WALL) * L)[:, 0]
-    drives &= _passes((pin - centre) / (p - centre), roller * L / rho, b)
-    joints = [way.pin[0] + links.b * way.along[0], rest.pin[0] + links.b * rest.along[0]]
-    reach = np.maximum.reduce(
-        [np.abs(z).max(axis=1) for z in (*joints, pins[0], pin)] + [links.g[:, 0]]
-    )
-    return Judged(derivatives, drives, L[:, 0], reach)
+    place = (pin - centre[which]) / (p - centre)[which]
+    passes = _passes(place, (roller * L / rho)[which], b[which])
+    joint = (way.pin[0][which] + links.b * way.along[0][which], pins[0][which])
+    back = (rest.pin[0] + links.b * rest.along[0], pin)
+    reach = np.maximum.reduce([np.abs(z).max(axis=1) for z in (*joint, *back)] + [links.g[:, 0]])
+    kept = which[passes]
+    rays = [ray[kept], *(pin[kept] for pin in pins[1:])]
+    x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])
+    derivatives = [np.asarray(d) for d in atan2(y, x).derivatives()]
+    return Judged(kept, derivatives, L[kept, 0], reach[passes])
 
 
 def _passes(place: Complex, r: Array, b: Number) -> Mask:

@@ -123,7 +123,7 @@ def _inside(unit: Array) -> Array:
 
 
 def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool:
-    """What becomes of places of the cube, with wheels by their numbers and of some sense."""
+    """The machines at places of the cube, with wheels by their numbers and of some sense."""
     half, low, high, room, slots = (row[of][:, None] for row in _rows(goal))
     u = unit.T[:, :, None]
     g = np.ones(u[0].shape)
@@ -136,14 +136,18 @@ def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool
     share = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     degrees = low + (high - low) * share
     drive = driving(links, math.tau * u[3], np.radians(degrees), half, sense[:, None])
-    roller = room * (WIDER if places < FINE else 1.0)
+    at = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))  # what else is seen of few places
+    links, drive = links.taken(at), drive.taken(at)
+    roller = room[at] * (WIDER if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
-    told = judged(links, drive, half, roller, order(names), places)
-    good = told.drives & (longest[:, 0] > 0.0) & (told.reach <= goal.wish.space * told.distance)
-    costs = Costs(goal.wish, (360.0 / slots)[:, 0], told.derivatives, degrees[:, 0])
+    told = judged(links, drive, half[at], roller, order(names), places)
+    within = told.reach <= goal.wish.space * told.distance
+    at = at[told.which]
+    costs = Costs(goal.wish, (360.0 / slots[at])[:, 0], told.derivatives, degrees[at, 0])
     cost = goal.sign * costs.of(goal.least)
-    broken = np.where(good & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
-    return Pool(of, unit, links, drive, broken, cost, told.distance)
+    broken = np.where(within & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
+    kept = links.taken(told.which), drive.taken(told.which)
+    return Pool(of[at], unit[at], *kept, broken, cost, told.distance)
 
 
 def _rows(goal: Goal) -> list[Array]:
