@@ -106,7 +106,8 @@ def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError for things that make no machine together, saying why."""
     for conflict in CONFLICTS:
         when = conflict.when(spec)
-        refuse(when if is_array(when) else bool(when), partial(_error, conflict, spec))
+        if is_array(when) or when:
+            refuse(when if is_array(when) else True, partial(_error, conflict, spec))
 
 
 def _error(conflict: Conflict, spec: Spec) -> GenevaError:

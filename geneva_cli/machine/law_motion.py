@@ -47,10 +47,11 @@ class LawMotion(Motion):
         middle = 0.5 * (self.entry_deg + self.exit_deg)
 
         def first(x: Number) -> Jet:
-            return self.law.first((x - self.entry_deg) / whole, order) * step - self.half_step
+            share = (x - self.entry_deg) / whole
+            return self.law.near_start(share, order) * step - self.half_step
 
         def second(x: Number) -> Jet:
-            rest = self.law.second((self.exit_deg - x) / whole, order)
+            rest = self.law.near_end((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
         s = piecewise(input_deg, (middle,), (first, second))

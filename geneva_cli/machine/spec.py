@@ -13,7 +13,14 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.rules import FINITE, Range, Words
-from geneva_cli.spec.schema import SpecTable, copied, fields, unknown
+from geneva_cli.spec.schema import (
+    SpecTable,
+    copied,
+    fields,
+    hash_once,
+    unknown,
+    without_hash,
+)
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
     LISTS,
@@ -166,6 +173,12 @@ class Spec:
         for key in LOADED:
             if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key))
+
+    def __hash__(self) -> int:
+        return hash_once(self)
+
+    def __getstate__(self) -> dict[str, object]:
+        return without_hash(self)
 
     def replace(self, **changes: Any) -> Self:
         """A copy with some tables changed.

@@ -63,17 +63,17 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = assembly.mechanism.spec, assembly.L
-    path = known or roller_paths(assembly)
+    path, kinds = known or roller_paths(assembly), assembly.kinds
     given, r = spec.size, assembly.mechanism.roller_radius_mm
     allowed = given.allowances
     w = r + allowed.slot_clearance_mm
     outside = assembly.sign > 0.0
-    rim = _or(given.wheel_radius_mm, max(mouth(assembly, s, r) for s in assembly.kinds))
+    rim = _or(given.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
     bottom = _or(given.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
-    gaps = [0.0 if s.slot.curved else bottom for s in assembly.kinds]
+    gaps = [0.0 if s.slot.curved else bottom for s in kinds]
     ends = (
         assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
-        for s, deepest, gap in zip(assembly.kinds, path.ends, gaps, strict=True)
+        for s, deepest, gap in zip(kinds, path.ends, gaps, strict=True)
     )
     end = (min(ends) - w) * assembly.sign
     arm = path.arm
@@ -81,7 +81,7 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     depth = abs(L - rim)
     relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
-    if any(s.apart for s in assembly.kinds):  # gears widen the relief
+    if any(s.apart for s in kinds):  # gears widen the relief
         room = min(room, arc_room(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
     wall = wall_min(given, L)

@@ -59,7 +59,7 @@ class Field(NamedTuple):
     meaning: str
 
 
-HASH = "_hash"  # where a table keeps its own, once it was asked for
+HASH = "_hash"  # where a record keeps its own, once it was asked for
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
@@ -94,16 +94,10 @@ class SpecTable:
         return self is other or self._values() == other._values()
 
     def __hash__(self) -> int:
-        held = vars(self)
-        if HASH not in held:
-            # with the kind: many laws, and many drives, have the same values
-            held[HASH] = hash((type(self), *self._values().values()))
-        found: int = held[HASH]
-        return found
+        return hash_once(self)
 
-    def __getstate__(self) -> dict[str, Any]:
-        # another process hashes words otherwise
-        return {name: value for name, value in vars(self).items() if name != HASH}
+    def __getstate__(self) -> dict[str, object]:
+        return without_hash(self)
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={value!r}" for name, value in self._values().items())
@@ -160,6 +154,21 @@ def copied(record: T, changes: dict[str, Any]) -> T:
     vars(new).update({name: held[name] for name in names} | changes)
     new.__post_init__()  # type: ignore[attr-defined]
     return new
+
+
+def hash_once(record: object) -> int:
+    """The hash of a frozen record, which keeps it."""
+    held = vars(record)
+    if HASH not in held:
+        # with the kind: many laws, and many drives, have the same values
+        held[HASH] = hash((type(record), *[held[name] for name in _names(type(record))]))
+    found: int = held[HASH]
+    return found
+
+
+def without_hash(record: object) -> dict[str, object]:
+    """What a record is sent to another process with, which hashes words otherwise."""
+    return {name: value for name, value in vars(record).items() if name != HASH}
 
 
 def _names(kind: type) -> tuple[str, ...]:

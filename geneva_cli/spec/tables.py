@@ -4,6 +4,7 @@ A key that is a Python keyword ends in an underscore here. ``None`` means: deriv
 The annotations are objects, not text that would have to be evaluated when they are read.
 """
 
+from functools import cached_property
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
@@ -174,7 +175,7 @@ class Size(SpecTable):
         float, NOT_NEGATIVE, "thickness of the washers between links one below the other"
     ] = 0.0
 
-    @property
+    @cached_property
     def allowances(self) -> Allowances:
         """Clearances and press fit as they are given, or else the process's.
 

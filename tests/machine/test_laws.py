@@ -4,6 +4,7 @@ Textbook accelerations: VDI 2143; R. L. Norton, Cam Design and Manufacturing Han
 Rothbart, Cam Design Handbook. The witness integrates them at 50 digits.
 """
 
+import copy
 import math
 
 import numpy as np
@@ -14,9 +15,11 @@ from words import LAWS, Spec, Wheel, named, points
 
 from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.analysis.peaks import peaks
+from geneva_cli.errors import marking
 from geneva_cli.machine import registry
 from geneva_cli.machine.laws.standard import SineGroup
 from geneva_cli.machine.laws.table import TableLaw
+from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Motion
 
@@ -83,6 +86,25 @@ def test_second_half_mirrors_the_first(name):
         sign = 1.0 if k % 2 else -1.0
         inside = slice(1, 256)  # not 1/2, where there is nothing to mirror
         assert np.array_equal(there[k][inside], sign * back[k][inside]), k
+
+
+def test_what_is_kept_is_the_law(law):
+    """At its ends and its middle, whichever order was asked for before."""
+    own = copy.copy(law)
+    for u in (0.0, 0.5, 0.0, 0.5, 0.25):
+        for order in (3, 1, 2):
+            assert own.near_start(u, order).c == own.first(u, order).c
+            assert own.near_end(u, order).c == own.second(u, order).c
+
+
+def test_of_many_laws_nothing_is_kept():
+    """What is kept of all of them would be wrong of some."""
+    tilts = np.array([[0.0], [0.125], [-0.125]])
+    with marking():
+        every = SineGroup(tilts)
+    assert every(0.5, 1).c[0].shape == (3, 1)
+    some = taken(every, np.array([2]))
+    assert some(0.5, 1).c[0] == SineGroup(-0.125)(0.5, 1).c[0]
 
 
 def test_tilted_sine_group_mirrors_the_opposite_tilt():

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, ClassVar
 from geneva_cli.numerics.arrays import all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.rules import is_array
+from geneva_cli.spec.schema import SpecTable, fields
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.spline import Doubt
@@ -93,6 +94,31 @@ class Law(SpecTable):
         """
         return self.first(w, order)
 
+    def near_start(self, u: Number, order: int) -> Jet:
+        """``first``; at 0 and 1/2, which every machine of the law asks for, it is kept."""
+        return self._kept(self.first, False, u, order)
+
+    def near_end(self, w: Number, order: int) -> Jet:
+        """The same of ``second``."""
+        return self._kept(self.second, True, w, order)
+
+    def _kept(self, half: Callable[[Number, int], Jet], last: bool, u: Number, order: int) -> Jet:
+        if not isinstance(u, float) or u not in (0.0, 0.5) or self._varies:
+            return half(u, order)
+        key = last, u, order
+        if key not in self._at_ends:
+            self._at_ends[key] = half(u, order)
+        return self._at_ends[key]
+
+    @cached_property
+    def _varies(self) -> bool:
+        """Whether it is of many designs, with arrays."""
+        return any(is_array(getattr(self, field.attribute)) for field in fields(type(self)))
+
+    @cached_property
+    def _at_ends(self) -> dict[tuple[bool, float, int], Jet]:
+        return {}
+
     @cached_property
     def half_way(self) -> float:
         """The share of the motion time after which the wheel is half-way: 1/2 if it is symmetric.
@@ -111,7 +137,10 @@ class Law(SpecTable):
         return piecewise(
             u,
             (0.5,),
-            (lambda x: self.first(x, order), lambda x: remaining(self.second(1.0 - x, order))),
+            (
+                lambda x: self.near_start(x, order),
+                lambda x: remaining(self.near_end(1.0 - x, order)),
+            ),
         )
 
 
