@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.cubics import cubic
+from geneva_cli.numerics.roots import PREDICTED
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 # what turns more often.
 MISSES = 8.0
 RISE = 4.0 / 27.0  # of its end slopes' sum times its width: a cubic passes its ends by no more
+HIGHER = RISE * (1.0 + 4.0 * PREDICTED)  # as of ``Tops.hopeful``: nor a function that it predicts
 
 
 class Limits(NamedTuple):

@@ -12,20 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.between_samples import RISE, limits
+from geneva_cli.numerics.between_samples import HIGHER, limits
 from geneva_cli.numerics.cells import Across, Cells, Range, Tops
 from geneva_cli.numerics.cubics import touches
-from geneva_cli.numerics.roots import PREDICTED
-from geneva_cli.numerics.samples_many import Samples, unpredicted_at
+from geneva_cli.numerics.quintics import turns_as_told
+from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_at
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.turns_many import Signed
-
-HIGHER = RISE * (
-    1.0 + 4.0 * PREDICTED
-)  # as of ``Tops.hopeful``: by what a function passes its ends
 
 
 def about(f: Signed, samples: Samples, at: Any, where: Mask, before: int) -> list[Across]:
@@ -69,10 +65,9 @@ def matters(f: Signed, cells: Cells, across: Across, range_: Range, tops: Tops) 
     low, high = range_.low[:, design], range_.high[:, design]
     # a function may have no bound from the place on where a room is 0
     found = ~across.known | changes[list(f.rooms)].any(axis=0)
-    strict = np.concatenate((~changes, np.full((f.wanted, len(design)), False)))
     for choice in (0, 1):
         three, first = across.samples(choice), across.first[choice]
-        missed = unpredicted_at(*three, low, high, strict)
+        missed = unpredicted_at(*three, (low, high), signs, changes)
         x, v, d = (np.where(first, a, b) for a, b in zip(*three[:2], strict=True))
         y, w, e = (np.where(first, a, b) for a, b in zip(*three[1:], strict=True))
         again = touches(y - x, v[:signs], d[:signs], w[:signs], e[:signs])
@@ -84,7 +79,11 @@ def matters(f: Signed, cells: Cells, across: Across, range_: Range, tops: Tops) 
             x, v, d = (np.broadcast_to(p, shape)[where] for p in sample)
             return x, v, d
 
-        least[where], most[where] = limits(*map(few, three))
+        left, middle, right = map(few, three)
+        told = turns_as_told(left, middle, right, SHARE * (high - low)[where])
+        most_of, least_of = limits(left, middle, right)[::-1]
+        least[where] = np.where(told, least[where], least_of)
+        most[where] = np.where(told, most[where], most_of)
         apart = (least[:signs] > 0.0) | (most[:signs] < 0.0)
         found |= (again | (missed[:signs] & (changes | ~apart))).any(axis=0)
         for k in range(f.wanted):

@@ -44,25 +44,6 @@ def between(left: Sample, right: Sample, x: Array) -> Array:
     return value
 
 
-def misses_of_cells(left: Sample, middle: Sample, right: Sample) -> Array:
-    """By how much at most the cubic of either cell misses the middle of its cell, if functions are
-    the quintics of three samples.
-    """
-    one, two = middle[0] - left[0], right[0] - middle[0]
-    width, square = one + two, (one * two) ** 2
-    v, w, d, e = left[1], right[1], left[2], right[2]
-    rest, t = two / width, one / width
-    slope = (
-        6.0 * t * rest * (w - v) / width + rest * (rest - 2.0 * t) * d + t * (t - 2.0 * rest) * e
-    )
-    # to the cubic through the outer two it adds (x - left)² (x - right)² (a + b (x - middle))
-    a = (middle[1] - between(left, right, middle[0])) / square
-    b = (middle[2] - slope - 2.0 * a * one * two * (two - one)) / square
-    first = one**4 * np.abs(a - b * (2.0 * two + 0.5 * one))
-    worst: Array = np.maximum(first, two**4 * np.abs(a + b * (2.0 * one + 0.5 * two))) / 16.0
-    return worst
-
-
 def zero_of_cubic(v: Array, w: Array, d: Array, e: Array) -> Array:
     """Where between 0 and 1 the cubic of two values and slopes is zero, nearly."""
     t = np.where(v * w < 0.0, v / (v - w), 0.5)

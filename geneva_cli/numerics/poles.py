@@ -2,17 +2,16 @@
 
 Such a function is a quotient: beside it the ``room`` is known that is 0 where the pole is, and
 their product has none. Where cubics predict both, the quotient of the two cubics tells whether the
-function rises or falls all the way, and so has no turn, however steep it is.
+function rises or falls all the way, by more than they may be wrong: then it has no turn.
 """
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.cubics import misses_of_cells
+from geneva_cli.numerics.quintics import misses_of_cells
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
@@ -39,16 +38,20 @@ def goes_one_way(of: Three, room: Three, share: float) -> Mask:
     for values, within in ((rooms, least), (products, size)):
         three = [(at, *value) for at, value in zip(x, values, strict=True)]
         knows &= misses_of_cells(three[0], three[1], three[2]) < share * within
-    # by the size of the slope: what the product's is, less the quotient times the room's
-    ways = [d > 0.0 for _, _, d in of]
+    # By the size of the slope: what the product's is, less the quotient times the room's. A cubic
+    # that misses the middle of its cell by m may be off in its slope by nearly 4 m / width.
+    most = np.maximum(np.maximum(rooms[0][0], rooms[1][0]), rooms[2][0])
+    off = 4.0 * share * size * (most + least)
+    ways = [d * r * r for (_, _, d), (r, _) in zip(of, rooms, strict=True)]
     for i, j in ((0, 1), (1, 2)):
         width = x[j] - x[i]
         for t in WITHIN:
             p, q = _cubic(t, width, products[i], products[j])
             r, s = _cubic(t, width, rooms[i], rooms[j])
-            ways.append(q * r > p * s)
-    knows &= np.logical_and.reduce([one == other for one, other in pairwise(ways)])
-    knows &= np.logical_and.reduce([d != 0.0 for _, _, d in of])
+            ways.append(q * r - p * s)
+    narrow = np.minimum(x[1] - x[0], x[2] - x[1])
+    falls = np.where(of[1][2] < 0.0, -1.0, 1.0)
+    knows &= np.minimum.reduce([way * falls for way in ways]) * narrow > off
     return knows
 
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from geneva_cli.numerics.between_samples import MISSES
 from geneva_cli.numerics.cells import Beside, Cells, Range, Turns, may_turn, turns_of
-from geneva_cli.numerics.cubics import between, cubic, misses_of_cells, touches
+from geneva_cli.numerics.cubics import between, cubic, touches
 from geneva_cli.numerics.extrema_many import ROUNDING, goes_back
+from geneva_cli.numerics.quintics import CELL, NEARLY, misses_of_cells
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
@@ -20,8 +21,6 @@ T = TypeVar("T", "Array", "Mask")
 # Of the range, by which a cubic may miss a sample: of loads beside a pole, which one of three times
 # this share predicts, an extreme of one in 100,000 is passed over, by 1e-5 to 1e-4.
 SHARE = 3e-3
-NEARLY = 4.0  # times as much, where slopes tell that a cell's own cubic misses by less than
-CELL = 0.375  # of that share
 
 
 class Matters(Protocol):
@@ -84,10 +83,8 @@ class Samples(NamedTuple):
             for part in (slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2))
         )
         low, high = range_.low[:, self.design], range_.high[:, self.design]
-        strict = (np.arange(len(value)) < signs)[:, None]
-        missed = unpredicted_at(
-            left, middle, right, low[..., None], high[..., None], strict[..., None]
-        )
+        of_pairs = low[..., None], high[..., None]
+        missed = unpredicted_at(left, middle, right, of_pairs, signs)
         crossed = differ[:, ::2] | differ[:, 1::2]
         held = None if bounded.all() else range_.holds(self.design, value)
         if held is not None:
@@ -105,7 +102,7 @@ class Samples(NamedTuple):
         last = differ.shape[1] - 1
         alone = (other < 0) | (other > last) | differ[row, np.clip(other, 0, last)]
         one, two, three = (self._three(index, odd + i) for i in (-1, 0, 1))
-        missed = unpredicted_at(one, two, three, low[:, row], high[:, row], strict)
+        missed = unpredicted_at(one, two, three, (low[:, row], high[:, row]), signs)
         if held is not None:
             within = [self._at(index, odd + i, held) for i in (-1, 0, 1)]
             missed &= bounded[:, row] | np.logical_and.reduce(within)
@@ -150,18 +147,24 @@ def _numbers(where: Mask) -> Whole:
 
 
 def unpredicted_at(
-    left: Sample, middle: Sample, right: Sample, low: Array, high: Array, strict: Mask
+    left: Sample,
+    middle: Sample,
+    right: Sample,
+    range_: tuple[Array, Array],
+    signs: int,
+    changes: Mask | None = None,
 ) -> Mask:
     """As of ``unpredicted``, of a sample that is anywhere between its neighbours.
 
-    ``strict`` are functions that must not be 0 unseen: of those it is not enough that the cubic of
-    a cell is good where they come near 0, for they may have been beyond it.
+    Of the first functions, whose signs count, it is enough that the cubics of both cells are good;
+    but not where they come near 0, for they may have been beyond it, if they do not change there.
     """
+    low, high = range_
     rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
     off, room = middle[1] - between(left, right, middle[0]), SHARE * (high - low) + rounding
     off = np.abs(off)
     missed: Mask = off > room
-    where = np.nonzero(missed & (off < NEARLY * room))
+    where = np.nonzero(missed[:signs] & (off[:signs] < NEARLY * room[:signs]))
     if len(where[0]):
 
         def few(sample: Sample) -> Sample:
@@ -170,9 +173,11 @@ def unpredicted_at(
 
         three = few(left), few(middle), few(right)
         nearest = np.minimum.reduce([np.abs(v) for _, v, _ in three])
-        far = ~np.broadcast_to(strict, off.shape)[where] | (nearest > MISSES * off[where])
+        apart = nearest > MISSES * off[where]
+        if changes is not None:
+            apart |= changes[where]
         good = misses_of_cells(*three) <= CELL * np.broadcast_to(room, off.shape)[where]
-        missed[where] = ~(far & good)
+        missed[where] = ~(apart & good)
     missed |= goes_back(left, middle, rounding)
     return missed | goes_back(middle, right, rounding)
 

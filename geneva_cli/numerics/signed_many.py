@@ -37,6 +37,7 @@ from geneva_cli.numerics.cubics import touches, zero_of_cubic
 from geneva_cli.numerics.extrema_many import unpredicted
 from geneva_cli.numerics.flat_ends import flat_ends, second_turns
 from geneva_cli.numerics.poles import goes_one_way
+from geneva_cli.numerics.quintics import turns_as_told
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
 from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_beside
@@ -228,12 +229,16 @@ class _Search:
             x, v, d = (np.broadcast_to(p, missed.shape)[where] for p in sample)
             return x, v, d
 
-        low, high = limits(there(left), there(middle), there(right))
-        row = where[0] - self.f.signs
+        three = there(left), there(middle), there(right)
+        low, high = limits(*three)
+        row, of = where[0] - self.f.signs, design[where[1]]
         may = ~((low > 0.0) | (high < 0.0))
         some = np.flatnonzero(row >= 0)
-        own = row[some], design[where[1][some]], low[some], high[some]
-        may[some] = self.tops.may_pass(*own)
+        may[some] = self.tops.may_pass(row[some], of[some], low[some], high[some])
+        some = some[may[some]]
+        room = SHARE * self.range.width(where[0][some], of[some])
+        one, two, last = ((x[some], v[some], d[some]) for x, v, d in three)
+        may[some] = ~turns_as_told(one, two, last, room)
         self._without_poles(may, where, (left, middle, right))
         missed[where] = may
         return missed

@@ -52,7 +52,7 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
 
 
 def off(machine, name, ends):
-    """By what share a greatest size, which is looked for another way, is off the greater extreme."""
+    """By what share a greatest size, looked for another way, is off the greater extreme."""
     size = np.maximum(np.abs(ends.max), np.abs(ends.min))
     found = greatest_of_many(machine, [name])[name].max
     with np.errstate(invalid="ignore", divide="ignore"):
