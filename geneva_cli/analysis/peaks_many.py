@@ -46,8 +46,9 @@ class _Samples:
     samples are kept.
     """
 
-    def __init__(self, motion: Motion, quantities: Sequence[str]) -> None:
+    def __init__(self, motion: Motion, m: int, quantities: Sequence[str]) -> None:
         self.motion = motion
+        self.every = slice(0, m)
         self.order = 1 + max(ABOVE[name] for name in quantities)
         self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
 
@@ -60,7 +61,8 @@ class _Samples:
         return self.kept[key]
 
     def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
-        motion: Motion = taken(self.motion, which)
+        every = isinstance(which, slice) and which == self.every
+        motion: Motion = self.motion if every else taken(self.motion, which)
         # Designs lie side by side in memory: each operation runs along all of them.
         return motion.rough_rates(np.asfortranarray(x), order - 1)
 
@@ -161,8 +163,9 @@ def _part(
     motion: Motion, places: Array, which: slice, quantities: Sequence[str]
 ) -> dict[str, PeakOfMany]:
     """Of some of the designs, between their breaks."""
-    some: Motion = taken(motion, which)
-    samples, edges = _Samples(some, quantities), np.hsplit(places[which], places.shape[1])
+    here = places[which]
+    some = motion if len(here) == len(places) else taken(motion, which)
+    samples, edges = _Samples(some, len(here), quantities), np.hsplit(here, here.shape[1])
     found = {}
     for name in quantities:
         curve, rough = _Curve(some, name), Rough(_Sampled(samples, name), some.ROUGH_TO)

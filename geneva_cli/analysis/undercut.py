@@ -136,7 +136,8 @@ def _gap(wall: OuterWall, r: Array) -> Array:
         d, k = design[i : i + step], place[i : i + step]
         own = r[d, 0] if many else r
         x, y = wall.x[d, k] + own * wall.normal_x[d, k], wall.y[d, k] + own * wall.normal_y[d, k]
-        way = np.hypot(x[:, None] - wall.x[d], y[:, None] - wall.y[d])
+        own_wall = slice(None) if len(wall.bend) == 1 else d  # of one design no copy a place
+        way = np.hypot(x[:, None] - wall.x[own_wall], y[:, None] - wall.y[own_wall])
         np.minimum.at(gap, d, way.min(axis=1))
     return gap
 

@@ -118,23 +118,32 @@ V = TypeVar("V", Jet, "Array")
 
 def _is_constant(c: Sequence[Number]) -> bool:
     """Whether all coefficients but the value are the number 0: no array of them is looked at."""
-    return len(c) > 1 and all(isinstance(a, float) and not a for a in c[1:])
+    return len(c) > 1 and _are_zero(c[1:])
 
 
-def _is_zero(x: Number) -> bool:
-    """Whether it is the number 0: no array is looked at."""
-    return isinstance(x, float) and not x
+def _are_zero(c: Sequence[Number]) -> bool:
+    """Whether all are the number 0."""
+    for a in c:  # noqa: SIM110 - asked at every product, and a generator takes twice as long
+        if not isinstance(a, float) or a:
+            return False
+    return True
 
 
 def _sum(a: Number, b: Number) -> Number:
     """a + b; what is added to the number 0 stays as it is."""
-    return b if _is_zero(a) else a if _is_zero(b) else a + b
+    if isinstance(a, float) and not a:
+        return b
+    return a if isinstance(b, float) and not b else a + b
 
 
 def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
     """Coefficients times a number; those that are the number 0 stay it."""
-    none = _is_zero(factor)
-    return [c[0] * factor, *[0.0 if none or _is_zero(a) else a * factor for a in c[1:]]]
+    if isinstance(factor, float) and not factor:
+        return [c[0] * factor, *[0.0] * (len(c) - 1)]
+    return [
+        c[0] * factor,
+        *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]],
+    ]
 
 
 def _convolve(
@@ -168,7 +177,7 @@ def sin_cos(x: Jet) -> tuple[Jet, Jet]:
 def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet, Jet]:
     """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
     s, c = [sine], [cosine]
-    if all(isinstance(a, float) and not a for a in slope[2:]):  # an even turn, as the input's own
+    if _are_zero(slope[2:]):  # an even turn, as the input's own
         for k in range(1, len(slope)):
             step = slope[1] / k
             s, c = [*s, c[-1] * step], [*c, s[-1] * -step]
