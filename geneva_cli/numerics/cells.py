@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 MIDDLE = 3.0  # of the quartiles' distance: what is further out is near a pole
+FAR = 1e3  # times what a function is in a cell: more of a range is that of a pole elsewhere
 LEVEL = 1e-9  # share of a function's range: a rise over a cell that a slope of 0 may feign
 
 
@@ -321,7 +322,10 @@ def turns_of(
 
     A slope that beside the other one is rounding is 0.
     """
-    small = np.abs(np.stack((left[2], right[2]))) <= level
+    # beside a pole the range says nothing of cells that are far from it
+    values, slopes = (np.abs(left[i]) + np.abs(right[i]) for i in (1, 2))
+    own = values / (right[0] - left[0]) + slopes
+    small = np.abs(np.stack((left[2], right[2]))) <= np.minimum(level, FAR * LEVEL * own)
     for end, flat, steep in ((left, small[0], ~small[1]), (right, small[1], ~small[0])):
         end[2, flat & steep] = 0.0
     return Turns(np.full(len(of[0]), k), left[0], *of, positive, left, right)

@@ -110,6 +110,27 @@ def test_a_least_value_before_a_pole_is_found():
         assert least.min_at_deg[i] == pytest.approx(one.min_at_deg, abs=1e-4)
 
 
+def test_a_least_value_far_from_a_pole_is_found():
+    """Of a force that has no bound at mid-motion, and 145 N in a dip a degree or two wide: the
+    range that the pole makes is none by which slopes there are rounding.
+    """
+    varied = {
+        "motion.alpha0_deg": -32.256448705650996,
+        "motion.ratio": 0.7950218297778342,
+        "wheel.z": 16,
+        "load.inertia_kgm2": 1.6706906352297435,
+        "load.torque_Nm": 14.545873750873158,
+        "drive.n_rpm": 13.386146834424842,
+    }
+    spec = MACHINES["sine-group"][0].replace(load=Load())
+    columns = {key: np.array([value]) for key, value in varied.items()}
+    found = many(spec, columns)
+    least = summaries_of_many(found.machine, ["crank_bearing_N"], told=())["crank_bearing_N"]
+    one = ends_of(Cycle(alone(spec, columns, 0)), "crank_bearing_N")[0]
+    assert least.min[0] == pytest.approx(one.min**0.5, rel=1e-12)
+    assert least.min_at_deg[0] == pytest.approx(89.72321, abs=1e-4)
+
+
 def test_the_least_of_a_size_is_nothing():
     """Where a motion begins and ends nothing presses, nor where the torque changes its sign.
 
