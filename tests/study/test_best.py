@@ -34,8 +34,9 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     )
     half = np.radians(60.0)
     A = brentq(lambda A: 1.0 - (half + np.arcsin(A * np.sin(half))) / np.pi - 0.55, 0.0, 0.9)
-    assert pytest.approx(A, abs=1e-7) == design.spec.drive.A  # the bound is kept to 1e-9 of itself
-    assert design.timing.dwell_s >= 0.55 * (1.0 - 1e-9)
+    assert pytest.approx(A, abs=1e-7) == design.spec.drive.A
+    # checks forgive 1e-9, and the least of what is forgiven is not the best
+    assert design.timing.dwell_s >= 0.55 * (1.0 - 1e-12)
     assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
 
 
@@ -47,8 +48,8 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     rows = [row for block in grid.chosen(grid.blocks()) for row in block]
     at = grid.sweep.names.index("jerk.max")
     assert design.peaks.jerk.max <= min(row[at] for row in rows)
-    assert design.timing.motion_deg <= 150 * (1 + 1e-9)
-    assert design.peaks.velocity.max <= 0.8 * (1 + 1e-9)
+    assert design.timing.motion_deg <= 150 * (1 + 1e-12)
+    assert design.peaks.velocity.max <= 0.8 * (1 + 1e-12)
 
 
 def test_the_number_of_slots_is_not_left_to_luck(tmp_path):

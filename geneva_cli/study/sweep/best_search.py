@@ -21,6 +21,7 @@ Row: TypeAlias = Sequence[Cell]
 EVALUATIONS = 300  # of the optimiser, from each start
 WIDE, CLOSE = 0.05, 2e-3  # first steps, shares of the spans: from a place, and at the end
 FINEST = 1e-9  # share of a key's range to which it is refined
+WITHIN = 1e-13  # share of a bound: what rounding takes; a search lives on more, where it is let
 FAR = 1e3  # outside a bound, or above a cost: a design that cannot be built
 
 
@@ -101,4 +102,6 @@ class SweepSearch:
             constraints=[rooms] if self.bounds else [],
             options={"maxfev": EVALUATIONS, "initial_tr_radius": reach, "final_tr_radius": FINEST},
         )
-        return min((r for r in (start, *seen.values()) if self.keeps(r)), key=self.cost)
+        kept = [r for r in (start, *seen.values()) if self.keeps(r)]
+        inside = [r for r in kept if min(self.rooms(r), default=0.0) >= -WITHIN]
+        return min(inside or kept, key=self.cost)
