@@ -10,7 +10,7 @@ from fractions import Fraction
 import mpmath
 import pytest
 from typer.testing import CliRunner
-from words import LAWS, Drive, Spec, Wheel, load
+from words import LAWS, Drive, Motion, Spec, Wheel, load
 from words import Keys as _keys
 
 from geneva_cli.analysis.peaks import acceleration_peak, worst
@@ -23,11 +23,14 @@ from geneva_cli.study.synthesis.built import Built
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.family import EXACT
+from geneva_cli.study.synthesis.looks import look
 from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
 from geneva_cli.study.synthesis.search import search, synthesis
 from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.study.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 GEARINGS = ("external", "internal")
@@ -645,3 +648,18 @@ def test_a_written_row_is_cut(tmp_path):
     words = ["profile", str(file), "--part", "wheel", "-o", str(wheel)]
     assert CliRunner().invoke(app, words).exit_code == 0
     assert wheel.stat().st_size > 1000
+
+
+def test_a_groove_is_as_steep_as_its_check_says():
+    """Told by a look at places, but for those that are near the limit and below it."""
+    machines = [
+        build(Spec(Wheel(z, "internal"), Drive("cam"), motion=Motion(law, alpha0_deg=alpha0)))
+        for z in (6, 8)
+        for law in ("modified-sine", "cycloidal")
+        for alpha0 in range(84, 111, 3)
+    ]
+    passes = [groove_pressure("", machine).passes for machine in machines]
+    assert {*passes} == {True, False}
+    seen = [look(machine.spec).pressure_deg for machine in machines]
+    assert any(abs(x - GROOVE_MAX_DEG) < NEAR_DEG for x in seen)
+    assert [not _wedged(machine) for machine in machines] == passes
