@@ -189,7 +189,8 @@ ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
     "analysis.loads.loaded_many": {"self.kept"},
     "numerics.signed_many": {"_look", "_look_within", "_sign_end"},
-    "numerics.turns_many": {"at", "column", "look"},
+    "numerics.crossings": {"about"},
+    "numerics.turns_many": {"at", "column", "picked", "look"},
     # one number, or as many as there are values
     "numerics.cells": {"number", "taken", "add", "self.known"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},

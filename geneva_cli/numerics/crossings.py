@@ -19,7 +19,7 @@ from geneva_cli.numerics.quintics import turns_as_told
 from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_at
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.turns_many import Signed
 
@@ -73,17 +73,12 @@ def matters(f: Signed, cells: Cells, across: Across, range_: Range, tops: Tops) 
         again = touches(y - x, v[:signs], d[:signs], w[:signs], e[:signs])
         rise = np.where(d * e <= 0.0, HIGHER * np.abs(d - e) * (y - x), 0.0)
         least, most = np.minimum(v, w) - rise, np.maximum(v, w) + rise
-        where = np.nonzero(missed)
-
-        def few(sample: Sample, where: Any = where, shape: Any = v.shape) -> Sample:
-            x, v, d = (np.broadcast_to(p, shape)[where] for p in sample)
-            return x, v, d
-
-        left, middle, right = map(few, three)
-        told = turns_as_told(left, middle, right, SHARE * (high - low)[where])
-        most_of, least_of = limits(left, middle, right)[::-1]
-        least[where] = np.where(told, least[where], least_of)
-        most[where] = np.where(told, most[where], most_of)
+        row, column = np.nonzero(missed)
+        left, middle, right = (_few(one, row, column) for one in three)
+        told = turns_as_told(left, middle, right, SHARE * (high - low)[row, column])
+        reach = limits(left, middle, right)
+        least[row, column] = np.where(told, least[row, column], reach.low)
+        most[row, column] = np.where(told, most[row, column], reach.high)
         apart = (least[:signs] > 0.0) | (most[:signs] < 0.0)
         found |= (again | (missed[:signs] & (changes | ~apart))).any(axis=0)
         for k in range(f.wanted):
@@ -92,3 +87,8 @@ def matters(f: Signed, cells: Cells, across: Across, range_: Range, tops: Tops) 
     out[across.cell] = False
     out[across.cell[found]] = True
     return out
+
+
+def _few(sample: Sample, row: Whole, column: Whole) -> Sample:
+    x, v, d = sample
+    return np.broadcast_to(x, v.shape)[row, column], v[row, column], d[row, column]
