@@ -95,11 +95,19 @@ class Law(SpecTable):
         return self.first(w, order)
 
     def near_start(self, u: Number, order: int) -> Jet:
-        """``first``; at 0 and 1/2, which every machine of the law asks for, it is kept."""
+        """``first``; at 0 and 1/2, which every machine of the law asks for, it is kept.
+
+        >>> Cycloidal().near_start(0.5, 1).derivatives()
+        (0.5, 2.0)
+        """
         return self._kept(self.first, False, u, order)
 
     def near_end(self, w: Number, order: int) -> Jet:
-        """The same of ``second``."""
+        """The same of ``second``.
+
+        >>> Cycloidal().near_end(0.0, 1).derivatives()
+        (0.0, 0.0)
+        """
         return self._kept(self.second, True, w, order)
 
     def _kept(self, half: Callable[[Number, int], Jet], last: bool, u: Number, order: int) -> Jet:

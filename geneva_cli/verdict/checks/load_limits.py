@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.loads import loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -18,5 +17,7 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     limit = mechanism.spec.limits.as_dict()[name]
     if limit is None:
         return None
+    from geneva_cli.analysis.loads import loads  # who asks for the names alone needs none
+
     found = loads.greatest(mechanism, QUANTITIES[name])
     return compared(name, found.max, "at most", limit, found.at_deg)
