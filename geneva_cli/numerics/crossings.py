@@ -16,11 +16,10 @@ from geneva_cli.numerics.between_samples import HIGHER, limits
 from geneva_cli.numerics.cells import Across, Cells, Range, Tops
 from geneva_cli.numerics.cubics import touches
 from geneva_cli.numerics.quintics import turns_as_told
-from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_at
+from geneva_cli.numerics.samples_many import SHARE, Samples, some_of, unpredicted_at
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.extrema_many import Sample
+    from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.turns_many import Signed
 
 
@@ -73,12 +72,12 @@ def matters(f: Signed, cells: Cells, across: Across, range_: Range, tops: Tops) 
         again = touches(y - x, v[:signs], d[:signs], w[:signs], e[:signs])
         rise = np.where(d * e <= 0.0, HIGHER * np.abs(d - e) * (y - x), 0.0)
         least, most = np.minimum(v, w) - rise, np.maximum(v, w) + rise
-        row, column = np.nonzero(missed)
-        left, middle, right = (_few(one, row, column) for one in three)
-        told = turns_as_told(left, middle, right, SHARE * (high - low)[row, column])
+        where = np.nonzero(missed)
+        left, middle, right = (some_of(one, where) for one in three)
+        told = turns_as_told(left, middle, right, SHARE * (high - low)[where])
         reach = limits(left, middle, right)
-        least[row, column] = np.where(told, least[row, column], reach.low)
-        most[row, column] = np.where(told, most[row, column], reach.high)
+        least[where] = np.where(told, least[where], reach.low)
+        most[where] = np.where(told, most[where], reach.high)
         apart = (least[:signs] > 0.0) | (most[:signs] < 0.0)
         found |= (again | (missed[:signs] & (changes | ~apart))).any(axis=0)
         for k in range(f.wanted):
@@ -87,8 +86,3 @@ def matters(f: Signed, cells: Cells, across: Across, range_: Range, tops: Tops) 
     out[across.cell] = False
     out[across.cell[found]] = True
     return out
-
-
-def _few(sample: Sample, row: Whole, column: Whole) -> Sample:
-    x, v, d = sample
-    return np.broadcast_to(x, v.shape)[row, column], v[row, column], d[row, column]

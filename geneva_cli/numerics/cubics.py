@@ -44,6 +44,15 @@ def between(left: Sample, right: Sample, x: Array) -> Array:
     return value
 
 
+def slope_between(left: Sample, right: Sample, x: Array) -> Array:
+    """The slope of ``between`` at the same places."""
+    width = right[0] - left[0]
+    t = (x - left[0]) / width
+    rest = 1.0 - t
+    own: Array = rest * (rest - 2.0 * t) * left[2] + t * (t - 2.0 * rest) * right[2]
+    return own + 6.0 * t * rest * (right[1] - left[1]) / width
+
+
 def zero_of_cubic(v: Array, w: Array, d: Array, e: Array) -> Array:
     """Where between 0 and 1 the cubic of two values and slopes is zero, nearly."""
     t = np.where(v * w < 0.0, v / (v - w), 0.5)

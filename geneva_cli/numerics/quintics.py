@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.numerics.cubics import between
+from geneva_cli.numerics.cubics import between, slope_between
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
@@ -36,20 +36,21 @@ def turns_as_told(left: Sample, middle: Sample, right: Sample, room: Array) -> M
     """
     more = a, b = _beyond(left, middle, right)
     miss = _misses(left, middle, right, more)
-    (x, v, d), (y, m, s), (z, w, e) = left, middle, right
-    told: Mask = (miss <= CELL * room) & (np.abs(m - between(left, right, y)) < NEARLY * room)
-    width = z - x
-    for start, stop, first, last in ((x, y, d, s), (y, z, s, e)):
+    off = np.abs(middle[1] - between(left, right, middle[0]))
+    told: Mask = (miss <= CELL * room) & (off < NEARLY * room)
+    for one, two in ((left, middle), (middle, right)):
+        width = two[0] - one[0]
+        slopes = []
+        for share in WITHIN:
+            x = one[0] + share * width
+            u, w, v = x - left[0], x - right[0], x - middle[0]
+            more_of = 2.0 * u * w * (u + w) * (a + b * v) + (u * w) ** 2 * b
+            slopes.append(slope_between(left, right, x) + more_of)
+        told &= np.abs(one[2]) * width > CLEAR * miss
         before = np.ones(np.shape(miss))  # 1 where the slope is as at the start, -1 if not, 0 if
-        way = np.where(first < 0.0, -1.0, 1.0) * (stop - start)  # it has no sure sign
-        told &= np.abs(first) * (stop - start) > CLEAR * miss
-        for share in (*WITHIN, 1.0):
-            at = start + share * (stop - start)
-            one, two, t = at - x, at - z, (at - x) / width
-            slope = 6.0 * t * (1.0 - t) * (w - v) / width
-            slope += (1.0 - t) * (1.0 - 3.0 * t) * d + t * (3.0 * t - 2.0) * e
-            slope += 2.0 * one * two * (one + two) * (a + b * (at - y)) + (one * two) ** 2 * b
-            rise = way * (last if share == 1.0 else slope)
+        way = np.where(one[2] < 0.0, -1.0, 1.0) * width  # it has no sure sign
+        for slope in (*slopes, two[2]):
+            rise = way * slope
             here = np.where(np.abs(rise) > CLEAR * miss, np.sign(rise), 0.0)
             told &= here <= before  # it turns once
             before = here
@@ -62,13 +63,9 @@ def _beyond(left: Sample, middle: Sample, right: Sample) -> tuple[Array, Array]:
     cubics through the outer two.
     """
     one, two = middle[0] - left[0], right[0] - middle[0]
-    width, square = one + two, (one * two) ** 2
-    v, w, d, e = left[1], right[1], left[2], right[2]
-    rest, t = two / width, one / width
-    slope = (
-        6.0 * t * rest * (w - v) / width + rest * (rest - 2.0 * t) * d + t * (t - 2.0 * rest) * e
-    )
+    square = (one * two) ** 2
     a = (middle[1] - between(left, right, middle[0])) / square
+    slope = slope_between(left, right, middle[0])
     return a, (middle[2] - slope - 2.0 * a * one * two * (two - one)) / square
 
 

@@ -166,12 +166,7 @@ def unpredicted_at(
     missed: Mask = off > room
     where = np.nonzero(missed[:signs] & (off[:signs] < NEARLY * room[:signs]))
     if len(where[0]):
-
-        def few(sample: Sample) -> Sample:
-            x, v, d = (np.broadcast_to(p, off.shape)[where] for p in sample)
-            return x, v, d
-
-        three = few(left), few(middle), few(right)
+        three = some_of(left, where), some_of(middle, where), some_of(right, where)
         nearest = np.minimum.reduce([np.abs(v) for _, v, _ in three])
         apart = nearest > MISSES * off[where]
         if changes is not None:
@@ -180,6 +175,12 @@ def unpredicted_at(
         missed[where] = ~(apart & good)
     missed |= goes_back(left, middle, rounding)
     return missed | goes_back(middle, right, rounding)
+
+
+def some_of(sample: Sample, where: tuple[Whole, ...]) -> Sample:
+    """Some functions of a sample, each at some of the places, which all functions share."""
+    x, v, d = sample
+    return np.broadcast_to(x, v.shape)[where], v[where], d[where]
 
 
 def unpredicted_beside(outer: Sample, near: Sample, far: Sample, low: Array, high: Array) -> Mask:

@@ -40,7 +40,7 @@ from geneva_cli.numerics.poles import goes_one_way
 from geneva_cli.numerics.quintics import turns_as_told
 from geneva_cli.numerics.roots import DEEPEST
 from geneva_cli.numerics.roots_many import newton_many
-from geneva_cli.numerics.samples_many import SHARE, Samples, unpredicted_beside
+from geneva_cli.numerics.samples_many import SHARE, Samples, some_of, unpredicted_beside
 from geneva_cli.numerics.spread import gathered, spread
 from geneva_cli.numerics.turns_many import NOISE, Doubted, Signed, turn
 
@@ -225,11 +225,7 @@ class _Search:
         if not len(where[0]):
             return missed
 
-        def there(sample: Sample) -> Sample:
-            x, v, d = (np.broadcast_to(p, missed.shape)[where] for p in sample)
-            return x, v, d
-
-        three = there(left), there(middle), there(right)
+        three = some_of(left, where), some_of(middle, where), some_of(right, where)
         low, high = limits(*three)
         row, of = where[0] - self.f.signs, design[where[1]]
         may = ~((low > 0.0) | (high < 0.0))
