@@ -84,7 +84,7 @@ def run(
         int, typer.Option(metavar="N", help="Turn the parts of so many rows; 0 for none.")
     ] = 20,
     buildable: Annotated[
-        bool, typer.Option("--buildable", help="Only rows whose turned parts pass, --checked many.")
+        bool, typer.Option("--buildable", help="Only rows that pass, --checked many: see above.")
     ] = False,
     write: Annotated[
         int | None, typer.Option(metavar="N", help="Write row N as a spec instead.")
@@ -119,7 +119,9 @@ def run(
 
     Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
     they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
-    the parts of its row.
+    the parts of its row. Where the best of a range says no without being turned, the best of it
+    that is found to pass is a row too; --buildable shows rows that pass, and for any that fails in
+    its turn the best of its range that is found to.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 
@@ -153,7 +155,7 @@ def run(
     if write is None:
         _show(wish, checked, buildable, output, format)
     else:
-        _write(wish, write, output, format)
+        _write(wish, write, buildable, output, format)
 
 
 def _frame(path: str, given: Sequence[str]) -> "Spec":
@@ -175,7 +177,7 @@ def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str)
     show(for_people(table) if name in ("table", "md") else table, output, format)
 
 
-def _write(wish: "Wish", number: int, output: str, format: str) -> None:
+def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synthesis.search import search
@@ -185,7 +187,7 @@ def _write(wish: "Wish", number: int, output: str, format: str) -> None:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
-    found, text = chosen(wish, search(wish).rows, number)
+    found, text = chosen(search(wish), number, buildable)
     show_text(text, output)
     path = "<stdout>" if output == "-" else output
     if found.trouble:

@@ -40,14 +40,14 @@ def row(some, folder):
     options = {**some.choice(WISHES), "z": str(some.choice(SLOTS)), "law": some.choice(LAWS)}
     wish = read_wish(**options)
     try:
-        found = search(wish).rows
+        found = search(wish)
     except GenevaError:
         return "out of reach", ""
-    number = some.randint(1, min(len(found), 40))
-    said = found[number - 1].candidate.parts
+    number = some.randint(1, min(len(found.rows), 40))
+    said = found.rows[number - 1].candidate.parts
     if said is None:
         return "not drawn", ""
-    made, text = chosen(wish, found, number)
+    made, text = chosen(found, number, some.random() < 0.5)
     file, wheel = folder / "spec.toml", folder / "wheel.dxf"
     file.write_text(text, encoding="utf-8")
     failing = [c.name for c in load(str(file)).checks if c.passes is False]

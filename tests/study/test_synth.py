@@ -298,7 +298,7 @@ def test_rows_are_sorted_and_numbered(options):
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     wish, found_rows = searched(**options)
-    for number, (_, candidate, _) in enumerate(found_rows.rows, 1):
+    for number, (_, candidate, *_) in enumerate(found_rows.rows, 1):
         file = tmp_path / f"{number}.toml"
         file.write_text(written(wish, found_rows.rows, number), encoding="utf-8")
         machine = load(str(file))
@@ -613,10 +613,9 @@ def test_no_roller_fits_a_loop():
     ids=str,
 )
 def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
-    wish = read_wish(**options)
-    found = search(wish)
+    found = search(read_wish(**options))
     assert found.rows[number - 1].candidate.parts == "maybe"  # nobody has turned it yet
-    made, text = chosen(wish, found.rows, number)
+    made, text = chosen(found, number)
     assert made.trouble == ""
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
     file.write_text(text, encoding="utf-8")
@@ -628,14 +627,14 @@ def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
 
 def test_rows_are_turned_in_their_order():
     """Three of them; buildable: the first that pass, under the numbers that they have."""
-    wish, found = searched(motion_deg="105", z="8", external=True, rollers=1)
-    shown = list(turned(wish, found, 2))
+    _, found = searched(motion_deg="105", z="8", external=True, rollers=1)
+    shown = turned(found, 2)
     assert [one.no for one in shown] == list(range(1, len(found.rows) + 1))
     said = [one.row.candidate.parts for one in shown]
     assert all(s == "yes" or s.startswith("no: ") for s in said[:2])
     assert "maybe" in said[2:]
     assert "yes" not in said[2:]
-    only = list(turned(wish, found, 1, buildable=True))
+    only = turned(found, 1, buildable=True)
     assert [one.row.candidate.parts for one in only] == ["yes"]
     assert all(one.row.candidate[:10] == found.rows[one.no - 1].candidate[:10] for one in only)
 

@@ -100,11 +100,10 @@ def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
     """A long motion, whose gentlest four-bar without room for a roller ran into its wheel, and
     whose coupler passes below the wheel's axis.
     """
-    wish = read_wish(motion_deg="168", z="6", external=True)
-    found = search(wish).rows
-    (number,) = [i for i, row in enumerate(found, 1) if row.candidate.drive == "four-bar"]
-    assert found[number - 1].candidate.parts == "maybe"
-    made, text = chosen(wish, found, number)
+    found = search(read_wish(motion_deg="168", z="6", external=True))
+    (number,) = [i for i, row in enumerate(found.rows, 1) if row.candidate.drive == "four-bar"]
+    assert found.rows[number - 1].candidate.parts == "maybe"
+    made, text = chosen(found, number)
     assert not made.trouble
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
     file.write_text(text, encoding="utf-8")

@@ -82,7 +82,7 @@ WISHES = [
 
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_keeps_every_wish(options):
-    wish, (found, _) = searched(**options)
+    wish, (found, *_) = searched(**options)
     assert len(found) > 3
     for row in found:
         for name, wanted in wish.spans.items():
@@ -300,7 +300,7 @@ def test_a_frame_and_an_order():
         sort="loads.input_torque_Nm.rms",
     )
     found = search(wish)
-    assert found.names == ("loads.input_torque_Nm.rms",)
+    assert found.asked.names == ("loads.input_torque_Nm.rms",)
     own = wish.frame
     values = [row.asked[0] for row in found.rows]
     assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal

@@ -104,7 +104,7 @@ def test_what_nothing_bounds_is_told_last():
     assert set(told[count:]) == {None}
     for row, value in zip(found.rows[count - 1 :], told[count - 1 : count + 1], strict=False):
         machine = build(row.spec)
-        (alone,) = pick(found.names, machine).of(machine)
+        (alone,) = pick(found.asked.names, machine).of(machine)
         assert alone == (value and pytest.approx(value, rel=1e-9))
     rows = synthesis_table(wish, 0, found=found).to_rows()
     assert [row["loads.contact_stress_MPa.max"] for row in rows] == told
@@ -124,8 +124,9 @@ def test_side_cranks_that_differ_in_the_wheel_alone():
 def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     """Three rollers of a plain crank jam on nine slots; curved slots rest for 50 degrees here."""
     wish = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
-    (row, *_), names = search(read_wish(**wish, subject_to=["dwell_deg >= 49"], sort="jerk.max"))
-    assert names == ("jerk.max", "timing.dwell_deg")
+    found = search(read_wish(**wish, subject_to=["dwell_deg >= 49"], sort="jerk.max"))
+    assert found.asked.names == ("jerk.max", "timing.dwell_deg")
+    row = found.rows[0]
     assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
     with pytest.raises(GenevaError, match="none of 2 machines that grant the rest"):
         search(read_wish(**wish, subject_to=["dwell_deg >= 51"]))

@@ -15,10 +15,11 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
+from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import PEAK
+from geneva_cli.study.synthesis.wish import PEAK, Wish
 
 PLACES = 24  # intervals of a family's span that are looked at first
 LOOKS, CLOSER = 8, 3  # times that the look is narrowed, and by how much: a least value is flat
@@ -31,21 +32,26 @@ CLOSE = 1e-12  # share of a span, between a place that keeps the bounds and one 
 ABOUT = 0.05  # share of what is between two such, on either side of where a straight line passes
 
 
-def best(
-    families: Sequence[Family],
-    bounds: Sequence[Constraint] = (),
-    nearest: bool = False,
-    least: str = "",
-    how_near: bool = False,
-) -> tuple[list[Spec], list[Spec]]:
-    """One spec of each family that has a machine within the bounds; of the others that which breaks
-    them least, with ``how_near`` to the last digit.
+def known_bounds(wish: Wish) -> list[Constraint]:
+    """The bounds on quantities that ``together`` knows."""
+    return [b for b in wish.limits if in_arrays([b.name])]
 
-    ``bounds``, and what is to be the ``least`` (with a minus sign the greatest), are quantities
-    that ``together`` knows.
+
+class Chosen(NamedTuple):
+    """A machine and the family that it is of."""
+
+    spec: Spec
+    family: Family
+
+
+def best(
+    families: Sequence[Family], wish: Wish, how_near: bool = False
+) -> tuple[list[Chosen], list[Chosen]]:
+    """One machine of each family that has one within the wish's bounds; of the others that which
+    breaks them least, with ``how_near`` to the last digit.
     """
-    free = [f for f in families if f.low < f.high]
-    search = _Search(free, bounds, nearest and not least, least, how_near)
+    free = [f for f in families if f.is_free and math.isnan(f.best)]
+    search = Places(free, wish, how_near)
     if search.nearest:
         search.look([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
     search.look([(i, x) for i, f in enumerate(free) if not search.done(i) for x in _first(f)])
@@ -53,13 +59,14 @@ def best(
     for look in range(LOOKS):
         search.nearer(look)
     chosen = {id(f): search.found.get(i, NONE) for i, f in enumerate(free)}
-    kept: list[Spec] = []
-    broken: list[Spec] = []
+    kept: list[Chosen] = []
+    broken: list[Chosen] = []
     for f in families:
-        place = chosen.get(id(f), Candidate(0.0, 0.0, f.low))
+        sure = f.low if math.isnan(f.best) else f.best
+        place = chosen.get(id(f), Candidate(0.0, 0.0, sure))
         known = abs(place.x - f.known) <= SAME * (f.high - f.low)
-        if not known and (spec := _made(f, place.x)):
-            (broken if place.broken >= FORGIVEN else kept).append(spec)
+        if not known and (spec := made(f, place.x)):
+            (broken if place.broken >= FORGIVEN else kept).append(Chosen(spec, f))
     return kept, broken
 
 
@@ -90,19 +97,18 @@ class Tried(NamedTuple):
     candidate: Candidate
 
 
-class _Search:
-    """The best place so far of each family, by its number."""
+class Places:
+    """The best place so far of each family, by its number.
 
-    def __init__(
-        self,
-        families: Sequence[Family],
-        bounds: Sequence[Constraint],
-        nearest: bool,
-        least: str,
-        patient: bool,
-    ) -> None:
-        self.families, self.bounds, self.nearest = families, bounds, nearest
+    Bounds, and what is to be the least (after a minus sign the greatest), are those of the wish
+    that ``together`` knows.
+    """
+
+    def __init__(self, families: Sequence[Family], wish: Wish, patient: bool = False) -> None:
+        self.families, self.bounds = families, known_bounds(wish)
         self.patient = patient  # also about places that no step nearby makes keep the bounds
+        least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
+        self.nearest = wish.any_motion and not least
         self.least, self.sign = least.lstrip("-") or PEAK, -1.0 if least[:1] == "-" else 1.0
         self.found: dict[int, Candidate] = {}
         # of each family all places looked at, in order
@@ -173,7 +179,7 @@ class _Search:
 
     def look(self, places: Sequence[tuple[int, float]]) -> list[Candidate]:
         """Look at these places of the families too: what is there, ``NONE`` where nothing is."""
-        specs = [_made(self.families[i], x) for i, x in places]
+        specs = [made(self.families[i], x) for i, x in places]
         rows = iter(self._numbers([spec for spec in specs if spec]))
         found = []
         for (i, x), spec in zip(places, specs, strict=True):
@@ -214,7 +220,8 @@ def _step(family: Family) -> float:
     return (family.high - family.low) / PLACES
 
 
-def _made(family: Family, x: float) -> Spec | None:
+def made(family: Family, x: float) -> Spec | None:
+    """A family's machine at a place, if there is one."""
     try:
         return family.make(x)
     except GenevaError:

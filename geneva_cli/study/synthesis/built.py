@@ -9,14 +9,15 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.study.synthesis.looks import look
-from geneva_cli.study.synthesis.parts import SPARE, USUAL, exact, with_roller
-from geneva_cli.study.synthesis.turns import LOST, Failing, Turns
+from geneva_cli.study.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
+from geneva_cli.study.synthesis.turns import LOOSE, LOST, Failing, Turns
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
 UNDERCUT = "undercut_mm"
 UNDERCUTS = {UNDERCUT: MOTION[UNDERCUT]}
+LARGER = (8.0, 10.0)  # % of L: rollers larger than usual
 UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # what no other roller helps
 
 
@@ -36,10 +37,20 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
     return built_together([spec], fixed)[0]
 
 
-def built_together(specs: Sequence[Spec], fixed: frozenset[str] = frozenset()) -> list[Built]:
-    """The same of machines that turn through the same positions, which are turned once."""
-    turns = Turns()
+def built_together(
+    specs: Sequence[Spec], fixed: frozenset[str] = frozenset(), turns: Turns | None = None
+) -> list[Built]:
+    """The same of machines of which those that turn through the same positions are turned once;
+    ``turns`` are those that were turned before.
+    """
+    turns = turns or Turns()
     return [_built(turns, spec, fixed) for spec in specs]
+
+
+def passes(spec: Spec, turns: Turns) -> bool:
+    """Whether the parts pass every check with the sizes that the spec has."""
+    machine = build(spec)
+    return not (_of_motion(machine) or turns.first_failing(machine))
 
 
 def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
@@ -67,7 +78,10 @@ def _said(failing: Sequence[Failing]) -> str:
 
 
 def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
-    """The same machine with other sizes, the nearest first."""
+    """The same machine with other sizes: smaller rollers, the nearest first; then larger ones,
+    where only the wheel's play at the ends of a slot is the matter whose ways in and out are apart:
+    the less they are so beside the roller, the better is it held.
+    """
     overhung = "crank_bore_mm" not in fixed and trouble & SHAFT
     if overhung:
         spec = spec.with_("size.crank_bore_mm", 0.0)
@@ -76,12 +90,15 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
         return
     L = build(spec).center_distance_mm
     r = spec.roller_radius_mm(L)
-    least = SPARE * look(spec).least if spec.is_flat else 0.0
+    least = island = SPARE * look(spec).least if spec.is_flat else 0.0
     if spec.drive.LOCKS and spec.size.lock_radius_mm is None:
         least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
     for other in [exact(0.01 * percent * L) for percent in USUAL]:
         if least <= other < r * (1.0 - 1e-9):
             yield with_roller(spec, other)
+    if trouble <= LOOSE and island:
+        larger = [with_roller(spec, exact(0.01 * percent * L)) for percent in LARGER]
+        yield from (one for one in larger if not parts(build(one)).why)
 
 
 def _other_failing(turns: Turns, spec: Spec, seen: Sequence[Failing]) -> list[Failing]:

@@ -46,14 +46,18 @@ def family(row: Row) -> tuple[object, ...]:
 
 
 def first_of_each(rows: Sequence[Row], linkages: bool = False) -> list[Row]:
-    """Of every family the first row; of ``linkages`` alone, several of which stand for those that
-    were searched.
+    """Of every family the first row, and where that cannot be built the first that may be; of
+    ``linkages`` alone, several of which stand for those that were searched.
     """
-    first: dict[Any, Row] = {}
+    kept: list[Row] = []
+    can_be: dict[Any, bool] = {}  # of the families of which there is a row
     for i, row in enumerate(rows):
         apart = linkages and row.candidate.crank_mm is None
-        first.setdefault(i if apart else family(row), row)
-    return [*first.values()]
+        own = i if apart else family(row)
+        if own not in can_be or (not can_be[own] and not row.cannot_be):
+            kept.append(row)
+            can_be[own] = not row.cannot_be
+    return kept
 
 
 def giving_way(rows: Sequence[Row], kept: Sequence[Row]) -> list[Row]:

@@ -13,8 +13,9 @@ from geneva_cli.machine.wheels_for_paths import searches_kept
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.synthesis.by_law import law_peaks
+from geneva_cli.study.synthesis.families.family import Family, holds
 from geneva_cli.study.synthesis.looks import look, look_at
-from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.parts import MAYBE, YES, suited
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
@@ -85,11 +86,26 @@ class Candidate(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A machine: its spec, what it is and costs, and the quantities asked for beside these."""
+    """A machine: its spec, what it is and costs, and the quantities asked for beside these; the
+    family of which it is the best, where that has others, and whether it stands in for a better one
+    that cannot be built.
+    """
 
     spec: Spec
     candidate: Candidate
     asked: tuple[float | int | str | bool | None, ...] = ()
+    family: Family | None = None
+    stands_in: bool = False
+
+    def moves_as(self, other: Row) -> bool:
+        """Whether another is the same machine, but for sizes."""
+        one, two = self.spec, other.spec
+        return (one.wheel, one.drive, one.motion) == (two.wheel, two.drive, two.motion)
+
+    @property
+    def cannot_be(self) -> bool:
+        """Whether it is known that its parts cannot be built."""
+        return self.candidate.parts not in (None, MAYBE, YES)
 
 
 def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
@@ -114,17 +130,36 @@ def _wedged(machine: Mechanism) -> str:
     return GROOVE if check and check.passes is False else ""
 
 
-def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
-    """The rows of the specs that can be built; why others cannot goes to ``errors``."""
+def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
+    """The rows of the specs, None for one that moves otherwise than wished, or cannot be built: why
+    not goes to ``errors``.
+    """
     with searches_kept():  # every machine is looked at with others first
-        return _rows(wish, specs, errors)
+        found = _rows(wish, [_limited(wish, spec) for spec in specs], errors)
+    return [row if row and _granted(wish, row) else None for row in found]
 
 
-def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
+def _limited(wish: Wish, spec: Spec) -> Spec:
+    """The spec with the limit that the wish is, beside its own."""
+    if wish.acceleration_max is None:
+        return spec
+    return spec.replace(limits=spec.limits.replace(acceleration_max=wish.acceleration_max))
+
+
+def _granted(wish: Wish, row: Row) -> bool:
+    """Whether the machine as built moves as wished: a linkage may drive another wheel as well."""
+    drive = row.spec.drive
+    limit, motion = wish.acceleration_max, wish.motion_for(drive.rollers / drive.turns)
+    if motion is not None and not holds(motion, row.candidate.motion_deg):
+        return False
+    return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
+
+
+def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
     straight = [spec for spec in specs if spec.motion is None]
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
-    out = []
+    out: list[Row | None] = []
     # the limit that the wish itself is, ``search`` keeps
     limits = wish.frame.limits.as_dict().values() if wish.frame else ()
     limited = any(value is not None for value in limits)
@@ -134,10 +169,12 @@ def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
             machine, parts = suited(spec)
         except GenevaError as error:
             errors.append(str(error))
+            out.append(None)
             continue
         known = law_peaks(machine)
         values = [known[name] for name in COSTS] if spec.motion else five
         if values is None:
+            out.append(None)
             continue
         if not parts.why and (limited or machine.engagements[0].groove):
             sized = machine._replace(spec=parts.spec)

@@ -12,14 +12,14 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
-from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number
-from geneva_cli.study.synthesis.best import best
+from geneva_cli.study.synthesis.best import best, known_bounds
+from geneva_cli.study.synthesis.elsewhere import with_others
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import Kind, families, kinds, longest_first
-from geneva_cli.study.synthesis.families.family import BARE, holds, natural_deg, pieces
+from geneva_cli.study.synthesis.families.family import BARE, natural_deg, pieces
 from geneva_cli.study.synthesis.families.straight import plain
 from geneva_cli.study.synthesis.limited import (
     breaks_limit,
@@ -38,10 +38,25 @@ WHEELS = 6  # times laws: a search of fewer is done before a second process has 
 
 
 class FoundRows(NamedTuple):
-    """Rows in their order, and the names of the quantities beside those of every row."""
+    """The rows that grant a wish in their order, and what it asks for beside what every row has."""
 
     rows: list[Row]
-    names: tuple[str, ...] = ()
+    wish: Wish  # with its bounds on times as spans
+    asked: Asked
+
+    def rank(self, row: Row) -> tuple[object, ...]:
+        """What rows are put in order by."""
+        return _rank(self.wish, self.asked, row)
+
+    def in_turn(self, row: Row) -> Row | None:
+        """A row with the quantities asked for, where it keeps the bounds on them."""
+        if not self.asked.pick:
+            return row
+        try:
+            (found,) = bounded(self.asked, [row], asked_together(self.asked.names, [row]))
+        except GenevaError:
+            return None
+        return found
 
 
 class _Part(NamedTuple):
@@ -78,7 +93,7 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
     if frame_limits(wish) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
         within = _within_limits(narrowed, wanted, [any(map(breaks_limit, p.rows)) for p in parts])
         ranked = sorted(giving_way(ranked, within), key=lambda row: _rank(wish, wanted, row))
-    return FoundRows(ranked, wanted.names)
+    return FoundRows(ranked, narrowed, wanted)
 
 
 def _ranked(
@@ -135,21 +150,21 @@ def _part(task: tuple[Kind, Wish], names: Sequence[str], how_near: bool) -> _Par
     kind, wish = task
     reached: list[float] = []
     errors: list[str] = []
-    bounds = [b for b in wish.limits if in_arrays([b.name])]
-    least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
     of_kind = [*families(kind, wish, reached)]
     if not _known_together(wish):
         of_kind = pieces(of_kind, LOOKED_INTO)
-    one_each, near = best(of_kind, bounds, wish.any_motion, least, how_near)
-    keeps, kept, broken = _apart(bounds, [*dict.fromkeys(one_each)])
-    shown = [*kept, *broken, *near] if how_near else kept
-    found = _rows(wish, shown, errors)
+    one_each, near = best(of_kind, wish, how_near)
+    of = {one.spec: one.family for one in reversed([*one_each, *near])}
+    keeps, kept, broken = _apart(known_bounds(wish), [*dict.fromkeys(one.spec for one in one_each)])
+    shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
+    found = [
+        row._replace(family=of[spec].whole) if of[spec].is_free else row
+        for spec, row in zip(shown, rows(wish, shown, errors), strict=True)
+        if row
+    ]
+    if not how_near:
+        found = with_others(wish, found)
     return _Part(found, asked_together(names, found), keeps, reached, errors)
-
-
-def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row]:
-    limited = [_limited(wish, spec) for spec in specs]
-    return [row for row in rows(wish, limited, errors) if _kept(wish, row)]
 
 
 def _asked(wish: Wish) -> Asked:
@@ -184,22 +199,6 @@ def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[
     keeps = any(own and not out for own, out in zip(values, broken, strict=True))
     kept = [spec for spec, out in zip(specs, broken, strict=True) if not out]
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
-
-
-def _limited(wish: Wish, spec: Spec) -> Spec:
-    """The spec with the limit that the wish is, beside its own."""
-    if wish.acceleration_max is None:
-        return spec
-    return spec.replace(limits=spec.limits.replace(acceleration_max=wish.acceleration_max))
-
-
-def _kept(wish: Wish, row: Row) -> bool:
-    """Whether the machine as built moves as wished: a linkage may drive another wheel as well."""
-    drive = row.spec.drive
-    limit, motion = wish.acceleration_max, wish.motion_for(drive.rollers / drive.turns)
-    if motion is not None and not holds(motion, row.candidate.motion_deg):
-        return False
-    return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
 
 
 def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:

@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.synthesis.built import Built, built_together
+from geneva_cli.study.synthesis.built import Built, built_together, passes
+from geneva_cli.study.synthesis.elsewhere import elsewhere
 from geneva_cli.study.synthesis.parts import MAYBE, YES
 from geneva_cli.study.synthesis.rows import Candidate, Row
 from geneva_cli.study.synthesis.search import FoundRows, search
-from geneva_cli.study.synthesis.turns import same_turn
+from geneva_cli.study.synthesis.turns import Turns, same_turn
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks.registry import import_checks
@@ -27,10 +28,7 @@ def synthesis_table(
     """One row a machine, numbered from 1, as ``turned`` gives them."""
     # what turning takes is imported while others search: the processes that turn then have it
     found = found or search(wish, import_checks if count else None)
-    rows = [
-        (one.no, *one.row.candidate, *one.row.asked)
-        for one in turned(wish, found, count, buildable)
-    ]
+    rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
     by = wish.sort or "lowest peak acceleration"
     title = f"{what}, {by} first" if len(rows) > 1 else what
@@ -40,39 +38,71 @@ def synthesis_table(
             if len(rows) != 1
             else f"1 machine of {len(found.rows)}"
         )
-    return rows_table((*NAMES, *found.names), rows, f"{wish.words}: {title}.")
+    return rows_table((*NAMES, *found.asked.names), rows, f"{wish.words}: {title}.")
 
 
 class Numbered(NamedTuple):
-    """A row and its number, which it keeps where others are hidden."""
+    """A row and its number, which it keeps where others are hidden or come before it."""
 
     no: int
     row: Row
 
 
-def turned(
-    wish: Wish, found: FoundRows, count: int = TURNED, buildable: bool = False
-) -> Iterator[Numbered]:
+def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
     """The rows, the first ``count`` of them turned; ``buildable``: the first so many that pass.
 
     A row that was turned says yes, with sizes that pass, or no; others maybe, or no where that is
-    plain without.
+    plain without. For one that stands in for another, or of those that are to pass, the best of its
+    family that is found to pass is taken where it fails itself.
     """
     every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
-    among = every if buildable else every[:count]
-    some = [one.row.spec for one in among if one.row.candidate.parts == MAYBE]
-    shown = _built(some, fixed(wish), in_order=buildable)
+    maybe = [one for one in every if one.row.candidate.parts == MAYBE]
+    if not buildable:
+        maybe = [one for one in maybe if one.no <= count]
+    built = _built([one.row.spec for one in maybe], fixed(found.wish), in_order=buildable)
+    results: dict[int, Row] = {}
     passed = 0
-    for one in every:
-        maybe = one.row.candidate.parts == MAYBE
-        if buildable and (passed >= count or not maybe):
-            continue
-        row = one.row
-        if maybe and (buildable or one.no <= count):
-            row = with_result(row, next(shown))
-        passed += row.candidate.parts == YES
-        if not buildable or row.candidate.parts == YES:
-            yield Numbered(one.no, row)
+    for one in maybe:
+        if buildable and passed >= count:
+            break
+        results[one.no] = with_result(one.row, next(built))
+        passed += results[one.no].candidate.parts == YES
+    again = {no: r for no, r in results.items() if r.cannot_be and (buildable or r.stands_in)}
+    others = _others(found, again)
+    results |= others
+    shown = [one._replace(row=results.get(one.no, one.row)) for one in every]
+    if buildable:
+        shown = [one for one in shown if one.row.candidate.parts == YES]
+    else:
+        shown = [one for one in shown if one.no not in again or one.no in others]
+    shown.sort(key=lambda one: found.rank(one.row))
+    return shown[:count] if buildable else shown
+
+
+def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
+    """Of rows that fail, by their numbers, the best of their families that pass."""
+    work = partial(other, found._replace(rows=[]))
+    done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
+    return {no: row for no, row in zip(failing, done, strict=True) if row}
+
+
+def other(found: FoundRows, row: Row) -> Row | None:
+    """The best machine of a row's family that is found to pass a whole turn, where the row's own
+    does not.
+    """
+    turns, given = Turns(), fixed(found.wish)
+
+    def turn(maybe: Row, like: Row | None) -> Row | None:
+        own = found.in_turn(maybe)
+        if own is None or own.moves_as(row):
+            return None
+        if like:
+            spec = own.spec.replace(size=like.spec.size)
+            return with_result(own, Built(spec, "")) if passes(spec, turns) else None
+        (result,) = built_together([own.spec], given, turns)
+        return None if result.trouble else with_result(own, result)
+
+    return elsewhere(found.wish, [row.family], turn)[0] if row.family else None
 
 
 def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iterator[Built]:

@@ -2,30 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.synthesis.built import Built, built
-from geneva_cli.study.synthesis.rows import Candidate, Row
-from geneva_cli.study.synthesis.table import fixed
+from geneva_cli.study.synthesis.rows import Candidate
+from geneva_cli.study.synthesis.search import FoundRows
+from geneva_cli.study.synthesis.table import fixed, other, with_result
 from geneva_cli.study.synthesis.wish import Wish
 
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 
 
-def chosen(wish: Wish, found: Sequence[Row], number: int) -> tuple[Built, str]:
-    """Row ``number`` of what ``search`` found: the spec, and its text with comments.
+def chosen(found: FoundRows, number: int, buildable: bool = False) -> tuple[Built, str]:
+    """Row ``number`` of what was found: the spec, and its text with comments; as ``turned`` shows
+    it.
 
     The parts are turned through a whole turn, unless it is known that they cannot be built. Raises
     GenevaError where there is no such row.
     """
-    if not 1 <= number <= len(found):
-        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(found)}")
-    row = found[number - 1]
-    no, _, why = (row.candidate.parts or "").partition(": ")
-    made = Built(row.spec, why) if no == "no" else built(row.spec, fixed(wish))
-    return made, commented(wish, number, row.candidate, made)
+    if not 1 <= number <= len(found.rows):
+        raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(found.rows)}")
+    row = found.rows[number - 1]
+    if not row.cannot_be:
+        row = with_result(row, built(row.spec, fixed(found.wish)))
+    if row.cannot_be and (buildable or row.stands_in):
+        row = other(found, row) or row
+    _, _, why = (row.candidate.parts or "").partition("no: ")
+    made = Built(row.spec, why)
+    return made, commented(found.wish, number, row.candidate, made)
 
 
 def commented(wish: Wish, number: int, row: Candidate, found: Built) -> str:

@@ -46,7 +46,7 @@ def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Ite
         if not wheel.FLAT:
             yield from driven(wish, wheel)
         if wish.rollers in (None, 1):
-            yield from planets(wish, wheel, natural_deg(wheel))
+            yield from planets(wish, wheel)
         yield from two_stages(wish, wheel)
 
 

@@ -5,6 +5,7 @@ Both take as many rollers as the plain wheel, and more for as long as their part
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
 from typing import NamedTuple
@@ -101,9 +102,9 @@ class _Line(NamedTuple):
         return self.reached(asked) if asked else None
 
     def _free(self, m: int, motion: Interval) -> Family:
-        """The machines of some motions, or the one of the longest where only its peak counts."""
-        low = motion.low if self.wish.bounds or self.wish.sort else motion.high
-        return Family(partial(self.make, m), low, motion.high, plain=self.natural)
+        """The machines of some motions, of which that of the longest is the gentlest."""
+        best = math.nan if self.wish.bounds or self.wish.sort else motion.high
+        return Family(partial(self.make, m), *motion, plain=self.natural, best=best)
 
 
 def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:

@@ -27,7 +27,8 @@ class Family(NamedTuple):
     """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec.
 
     At ``plain`` it moves as the plain crank does; at ``known`` it is a machine of another family
-    that grants the wish. Both may be none.
+    that grants the wish; at ``best`` it is the best, where that is plain. All may be none. Of more
+    than one machine ``make`` can be handed to another process.
     """
 
     make: Callable[[float], Spec]
@@ -35,21 +36,34 @@ class Family(NamedTuple):
     high: float = 0.0
     known: float = math.nan
     plain: float = math.nan
+    best: float = math.nan
+    ends: tuple[float, float] | None = None  # of the whole family, of which it is a piece
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it has more than one machine."""
+        return self.low < self.high
+
+    @property
+    def whole(self) -> Family:
+        """The family that it is a piece of, or itself."""
+        low, high = self.ends or (self.low, self.high)
+        return self._replace(low=low, high=high, ends=None)
 
 
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
     """The families, each with a free number cut into so many of even spans that there are about
     ``most``, and no more than ``PIECES`` each.
     """
-    free = sum(f.low < f.high for f in families)
+    free = sum(f.is_free for f in families)
     count = max(1, min(PIECES, most // max(free, 1)))
-    return [part for f in families for part in (_cut(f, count) if f.low < f.high else [f])]
+    return [part for f in families for part in (_cut(f, count) if f.is_free else [f])]
 
 
 def _cut(family: Family, count: int) -> list[Family]:
     ends = [family.low + (family.high - family.low) * k / count for k in range(count)]
     return [
-        family._replace(low=low, high=high)
+        family._replace(low=low, high=high, ends=(family.low, family.high))
         for low, high in pairwise([*ends, family.high])
         if low < high
     ]

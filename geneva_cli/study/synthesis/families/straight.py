@@ -47,7 +47,7 @@ def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
             yield only(plain(wish, wheel, m))
             yield from aside(wish, wheel, m)
             if m == 1:
-                yield from planets(wish, wheel, natural)
+                yield from planets(wish, wheel)
     yield from driven(wish, wheel)
     yield from two_stages(wish, wheel)
 
@@ -64,38 +64,43 @@ def aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
     """
     if "offset_mm" not in wheel.as_dict():
         return
-    spec = plain(wish, wheel, m)
-
-    def make(e: float) -> Spec:
-        return spec.with_("wheel.offset_mm", spec.given_distance_mm * e)
-
-    yield Family(lambda x: make(ASIDE))
+    make = partial(_offset, plain(wish, wheel, m))
+    yield Family(make, ASIDE, ASIDE)
     if wish.limits or wish.sort:
         widest = closed.MOST * wheel.step.sin_cos[1] ** 2
         yield Family(make, -widest, widest, known=0.0, plain=ASIDE)
 
 
-def planets(wish: Wish, wheel: Gearing, natural: float) -> Iterator[Family]:
+def _offset(spec: Spec, share: float) -> Spec:
+    """Its slots so much of the centre distance beside the wheel's centre."""
+    return spec.with_("wheel.offset_mm", spec.given_distance_mm * share)
+
+
+def planets(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     """A roller on a planet: without a jump at entry, and with its planet's crank left free."""
     z = wheel.z
     if z not in (3, 4, 6):
         return
-
-    def make(rp: float | str, fixed: str) -> Spec:
-        def drive(n: float) -> Epicyclic:
-            return Epicyclic(planet_ratio=rp, fixed=fixed, n_rpm=n)
-
-        return machine(wish, wheel, drive, 1, natural)
-
     for fixed in PLANETS:
-        if not can_be(make("shockless", fixed)):
+        make = partial(_on_planet, wish, wheel, fixed)
+        shockless = make("shockless")
+        if not can_be(shockless):
             return
-        yield Family(lambda x, fixed=fixed: make("shockless", fixed))  # type: ignore[misc]
+        yield only(shockless)
         l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth)
         inside = least * (1.0 - 1e-6), l / (c * c - 1.0) * (1.0 - 1e-9)
-        yield Family(lambda rp, fixed=fixed: make(rp, fixed), *inside, known=0.0)  # type: ignore[misc]
+        yield Family(make, *inside, known=0.0)
+
+
+def _on_planet(wish: Wish, wheel: Gearing, fixed: str, ratio: float | str) -> Spec:
+    """A roller on a planet of such a ratio."""
+
+    def drive(n: float) -> Epicyclic:
+        return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
+
+    return machine(wish, wheel, drive, 1, natural_deg(wheel))
 
 
 def driven(wish: Wish, wheel: Gearing) -> Iterator[Family]:
@@ -135,15 +140,17 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         if free is None or (free.exact and holds(free, 180.0)):
             continue
 
-        def make(axes: float, m: int = m) -> Spec:
-            reached = closed.axes_motion(z, axes)
-            inclined = wheel.with_key("axes_deg", axes)
-            return machine(wish, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, reached)
-
+        make = partial(_on_axes, wish, wheel, m)
         low, high = (closed.axes(z, x) for x in free)
         if low <= 180.0 - closed.AXES and high >= closed.AXES:
             right = 90.0 if holds(free, 180.0) else math.nan
             yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right, 90.0)
+
+
+def _on_axes(wish: Wish, wheel: Gearing, m: int, axes: float) -> Spec:
+    """A plain crank on shafts at such an angle."""
+    inclined, motion = wheel.with_key("axes_deg", axes), closed.axes_motion(wheel.z, axes)
+    return machine(wish, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, motion)
 
 
 def side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:

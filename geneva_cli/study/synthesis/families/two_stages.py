@@ -7,6 +7,7 @@ is a small part of a cycle of several turns.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from geneva_cli.machine.drives.gear_sector import GearSector
 from geneva_cli.machine.drives.geneva_pair import GenevaPair
@@ -47,10 +48,6 @@ def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         return
     z = wheel.z
 
-    def make(b: float) -> Spec:
-        sector, motion = closed.sector_deg(z, b), closed.sector_motion(z, b)
-        return machine(wish, wheel, lambda n: GearSector(sector_deg=sector, n_rpm=n), 1, motion)
-
     def slot(angle: Callable[[int, float], float], least: float) -> float:
         """Half the angle of the slots with which an angle, which falls with it, is ``least``."""
         return boundary(lambda b: angle(z, b) >= least, 0.0, wheel.step.b)
@@ -59,7 +56,14 @@ def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     low = max(ends[0], slot(closed.sector_deg, LONGEST))
     high = min(ends[1], slot(closed.sector_deg, SHORTEST))
     if low <= high:
+        make = partial(_with_sectors, wish, wheel)
         yield Family(make, low, high, wheel.step.b, wheel.step.b)
+
+
+def _with_sectors(wish: Wish, wheel: Gearing, b: float) -> Spec:
+    """Gear sectors between slots of half angle b."""
+    sector, motion = closed.sector_deg(wheel.z, b), closed.sector_motion(wheel.z, b)
+    return machine(wish, wheel, lambda n: GearSector(sector_deg=sector, n_rpm=n), 1, motion)
 
 
 def pairs(wish: Wish, wheel: Gearing) -> Iterator[Family]:

@@ -1,0 +1,131 @@
+"""Families whose best machine's parts cannot be built: the best of those that can, in its range."""
+
+import pickle
+
+import pytest
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+from geneva_cli.design import load
+from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion
+from geneva_cli.study.synthesis.built import built
+from geneva_cli.study.synthesis.families import every
+from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.search import search
+from geneva_cli.study.synthesis.table import turned
+from geneva_cli.verdict.checks import checks
+
+pytestmark = pytest.mark.usefixtures("few_four_bars")
+CURVED = {"external": True, "rollers": 1}
+
+
+def curved(found):
+    """The rows with curved slots, the gentlest first."""
+    return [row for row in found.rows if row.candidate.law and row.candidate.drive == "crank"]
+
+
+@pytest.mark.parametrize("z", [6, 8, 11])
+def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
+    """No motion of a dense sweep between the two has parts that may be built."""
+    first, other, *_ = curved(search(read_wish(motion_deg="100..200", z=str(z), **CURVED)))
+    assert first.candidate.parts == "no: island"
+    assert first.candidate.motion_deg == pytest.approx(200.0)
+    assert other.candidate.parts == "maybe"
+    # a 4096th of the range is how near the search goes
+    found = other.candidate.motion_deg + 100.0 / 4096.0
+    natural, steps = 180.0 - 360.0 / z, 300
+    for k in range(steps + 1):
+        alpha0 = natural - (found + (200.0 - found) * k / steps)
+        spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))
+        spec = spec.with_("size.roller_radius_mm", None)
+        assert suited(spec)[1].why, alpha0
+
+
+def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path):
+    """Of two rollers too; under their numbers, in their order, and written as they are shown."""
+    words = [
+        "synth",
+        "--motion-deg",
+        "100..160",
+        "--z",
+        "8",
+        "--external",
+        "--law",
+        "modified-sine",
+    ]
+    wish = read_wish(motion_deg="100..160", z="8", external=True)
+    found = search(wish)
+    plain = {one.no: one.row for one in turned(found)}
+    shown = turned(found, buildable=True)
+    assert [found.rank(one.row) for one in shown] == sorted(found.rank(one.row) for one in shown)
+    moved = [one for one in shown if one.row.cannot_be is False and plain[one.no].cannot_be]
+    assert {one.row.candidate.rollers for one in moved} == {1, 2}
+    for no, row in moved:
+        wished = found.rows[no - 1].candidate
+        assert wished.motion_deg == pytest.approx(160.0)
+        # between the gentlest and the plain crank's own motion, which is a row of its own
+        assert 135.0 < row.candidate.motion_deg < wished.motion_deg
+        assert not [c for c in checks(build(row.spec)) if c.passes is False]
+    file, (no, row) = tmp_path / "spec.toml", moved[0]
+    run = CliRunner().invoke(app, [*words, "--buildable", "--write", str(no), "-o", str(file)])
+    assert run.exit_code == 0
+    assert "warning: its parts" not in run.stderr
+    design = load(str(file))
+    assert design.spec.motion == row.spec.motion
+    assert design.spec.size == row.spec.size
+    assert not [c for c in design.checks if c.passes is False]
+
+
+@pytest.mark.parametrize("bound", ["velocity.max >= 0.51", "sizes.slot_bottom_radius_mm >= 40"])
+def test_bounds_hold_elsewhere_too(bound):
+    """On what is known of many designs together, and on what one is asked for alone."""
+    wish = read_wish(motion_deg="100..160", z="8", subject_to=[bound], **CURVED)
+    found = search(wish)
+    (whole,) = found.asked.bounds
+    shown = turned(found, buildable=True)
+    assert [one for one in shown if one.row.candidate.law and one.row.candidate.drive == "crank"]
+    for _, row in shown:
+        assert whole.kept(row.asked[found.asked.names.index(whole.name)])
+
+
+@pytest.mark.parametrize("z", [9, 10])
+def test_a_larger_roller_holds_the_wheel_better(z):
+    """Curved slots with ways apart: those of the usual sizes leave too much play at their ends."""
+    wish = read_wish(motion_deg={9: "156.25", 10: "162.5"}[z], z=str(z), **CURVED)
+    (row,) = curved(search(wish))
+    assert row.spec.size.roller_radius_mm is None  # 5 mm
+    usual = {c.name for c in checks(build(row.spec)) if c.passes is False}
+    assert usual == {"hand_over_play_deg"}
+    made = built(row.spec)
+    assert not made.trouble
+    assert made.spec.size.roller_radius_mm in (8.0, 10.0)
+    assert not [c for c in checks(build(made.spec)) if c.passes is False]
+    kept = built(row.spec, frozenset({"roller_radius_mm"}))
+    assert kept.trouble == "hand_over_play_deg"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"motion_deg": "100..200", "z": "4,6"},
+        {"motion_deg": "100..200", "z": "6", "sort": "jerk.max", "law": "all"},
+        {"acceleration_max": "0.5", "z": "6"},
+        {"z": "4", "subject_to": ["velocity.max <= 2"]},
+    ],
+    ids=str,
+)
+def test_families_go_to_other_processes(options):
+    """What a row knows of its family makes the same machines there."""
+    wish = read_wish(**options)
+    seen = 0
+    for kind, own in every.kinds(wish):
+        for family in every.families(kind, own, []):
+            if family.is_free:
+                there = pickle.loads(pickle.dumps(family))
+                for x in (family.low, 0.3 * family.low + 0.7 * family.high, family.high):
+                    assert there.make(x) == family.make(x)
+                seen += 1
+    assert seen > 3 or "acceleration_max" in options
