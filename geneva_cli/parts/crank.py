@@ -7,6 +7,7 @@ whole where it locks, and relieved where a roller moves the wheel.
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -100,6 +101,16 @@ def roller_centres(assembly: Assembly) -> list[Point]:
         reach = math.hypot(x, y)
         found.append((reach * math.cos(angle), reach * math.sin(angle)))
     return found
+
+
+def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
+    """Between the roller that starts the wheel and the one that stops it, mm, negative where they
+    overlap; None where each roller does both.
+    """
+    if len(assembly.rollers) == len(assembly.motions):
+        return None
+    pairs = combinations(roller_centres(assembly), 2)
+    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
 
 
 def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:

@@ -8,7 +8,7 @@ looked at in their planes (``planes``), and the frame has the shafts in holes of
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -62,9 +62,9 @@ def beside_shafts(found: Outlines) -> Beside | None:
     Raises GenevaError for sizes that leave no parts.
     """
     whole = built(found, pitch=False)
-    members = [whole.wheel, whole.crank, *whole.first, *whole.standing[:-1]]
-    rings = [ring for one in members for ring in _rings(one)]
-    return _least(found, whole, rings)
+    turning = _rings_of((whole.wheel, whole.crank))
+    others = _rings_of((*whole.first, *whole.standing[:-1]))
+    return _least(found, whole, turning, [*turning, *others])
 
 
 def beside_gears(found: Outlines) -> Beside | None:
@@ -75,14 +75,14 @@ def beside_gears(found: Outlines) -> Beside | None:
     if found.assembly.given.spec.drive.gears is None:
         return None
     whole = built(found, pitch=False)
-    return _least(found, whole, list(_noncircular(found)))
+    turning = _rings_of((whole.wheel, whole.crank))
+    return _least(found, whole, turning, list(_noncircular(found)))
 
 
-def _least(found: Outlines, whole: Built, rings: list[Ring]) -> Beside | None:
+def _least(found: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]) -> Beside | None:
+    """The least gap of some rings to the shafts, and to the hubs among wheel and crank."""
     near = SAME * found.assembly.L
-    turning = [ring for one in (whole.wheel, whole.crank) for ring in _rings(one)]
-    axes = [ring for ring in turning if ring.layer == HUB]
-    axes += [ring for one in whole.shafts for ring in _rings(one)]
+    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
     return min(
         (
             Beside(ring.gap(shaft.axis, shaft.outer), shaft.name, ring.name)
@@ -105,6 +105,10 @@ def _noncircular(found: Outlines) -> Iterator[Ring]:
     low, high = gear_span(Proof(given, found))
     yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
+
+
+def _rings_of(members: Iterable[Member]) -> list[Ring]:
+    return [ring for one in members for ring in _rings(one)]
 
 
 def _rings(member: Member) -> Iterator[Ring]:

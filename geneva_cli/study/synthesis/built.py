@@ -69,7 +69,7 @@ def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
         found = _other_failing(turns, other, seen)
         if not found:
             return Built(other, "")
-        seen = [*found, *seen]
+        seen = [*dict.fromkeys((*found, *seen))]
     return Built(spec, _said([*motion, *turns.failing(machine)]))
 
 

@@ -14,10 +14,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.all_round import leave_no_disc
-from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.crank import rollers_gap
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sizes import sizes
+from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import NotProved
 from geneva_cli.parts.turn.glance import gap_about, loose_about
@@ -84,7 +86,8 @@ class Turns:
         looked at before.
         """
         turn = self._turn(machine)
-        return turn.undrawn() or turn.again(seen) or turn.standing(machine) or turn.first()
+        early = turn.undrawn() or turn.overlapping() or turn.again(seen)
+        return early or turn.standing(machine) or turn.first()
 
     def _turn(self, machine: Mechanism) -> _Turn:
         own = same_turn(machine.spec)
@@ -114,19 +117,27 @@ class _Turn:
         return iter(()) if isinstance(self._made, Failing) else _looks(self._made)
 
     @cached_property
-    def _no_disc(self) -> bool:
-        """Whether it is plain without drawing anything that nothing is left of the lock."""
+    def _sized(self) -> tuple[Assembly, Sizes] | None:
+        """The assembly and the sizes of flat parts, if they have any."""
         if not self._machine.spec.wheel.FLAT:
-            return False
+            return None
         try:
             where = assembly(self._machine)
-            return leave_no_disc(where, sizes(where))
+            return where, sizes(where)
         except GenevaError:
-            return False
+            return None
 
     def undrawn(self) -> list[Failing]:
-        """The key that is in the way of the parts, where that is plain before they are drawn."""
-        return [Failing("roller_radius_mm")] if self._no_disc else []
+        """The key that is in the way of the parts, where that is plain before they are drawn: where
+        nothing is left of the lock.
+        """
+        no_disc = self._sized is not None and leave_no_disc(*self._sized)
+        return [Failing("roller_radius_mm")] if no_disc else []
+
+    def overlapping(self) -> list[Failing]:
+        """The check of two rollers on one crank, where they overlap: told without any wall."""
+        gap = rollers_gap(*self._sized) if self._sized else None
+        return [] if gap is None or keeps(gap, "at least", 0.0) else [Failing("rollers_apart_mm")]
 
     def standing(self, machine: Mechanism) -> list[Failing]:
         """The checks that fail of parts that stand still, of a machine that turns likewise."""

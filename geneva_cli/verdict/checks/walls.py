@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
-from geneva_cli.parts.crank import is_whole, roller_centres
+from geneva_cli.parts.crank import is_whole, rollers_gap
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -50,11 +49,8 @@ def _mouth(start: Point, end: Point, wide: bool) -> Segment:
 
 def rollers_apart(name: str, found: Outlines) -> Check | None:
     """Between the roller that starts the wheel and the one that stops it, on one crank."""
-    if len(found.assembly.rollers) == len(found.assembly.motions):
-        return None
-    pairs = combinations(roller_centres(found.assembly), 2)
-    least = min(math.dist(one, other) for one, other in pairs)
-    return compared(name, least - 2.0 * found.sizes.roller, "at least", 0.0)
+    gap = rollers_gap(found.assembly, found.sizes)
+    return None if gap is None else compared(name, gap, "at least", 0.0)
 
 
 def horn(name: str, found: Outlines) -> Check | None:
