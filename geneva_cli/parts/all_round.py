@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
-from geneva_cli.parts.locking_rings import Reached, seen
+from geneva_cli.parts.locking_rings import seen
 from geneva_cli.parts.reliefs import Relief, followed, reliefs
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.wheel import opening
@@ -42,7 +42,9 @@ def leave_no_disc(assembly: Assembly, sizes: Sizes) -> bool:
 def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
     """A relief as wide as the corners need it, of those that come well within the disc."""
     middle = 0.5 * (relief.start + relief.end)
-    radius, off = _corners(assembly, sizes, relief, middle)
+    engagement, behind = assembly.motions[relief.motion]
+    at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, PLACES)
+    radius, off = seen(*corners(assembly, sizes, at), middle)
     off = off[radius < (1.0 - CLEARLY) * sizes.lock]
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
     return relief._replace(
@@ -50,14 +52,15 @@ def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
     )
 
 
-def _corners(assembly: Assembly, sizes: Sizes, relief: Relief, middle: float) -> Reached:
-    """The recesses' corners in a motion, seen from the crank's axis."""
-    engagement, behind = assembly.motions[relief.motion]
-    at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, PLACES)
+def corners(assembly: Assembly, sizes: Sizes, at: Array) -> tuple[Array, Array]:
+    """Where on the crank the recesses' corners are at input angles, in degrees: x and y, mm.
+
+    Raises GenevaError where the rim does not meet the recesses.
+    """
     half = opening(assembly.L, sizes.rim, sizes.recess)
     corner: Array = np.array([rest + side * half for rest in assembly.rests for side in (-1, 1)])
     turn = corner + assembly.wheel(at)[:, None]
     x, y = sizes.rim * np.cos(turn) - assembly.L, sizes.rim * np.sin(turn)
     pose = assembly.crank(at)[:, None]
     c, s = np.cos(pose), np.sin(pose)
-    return seen((x * c + y * s).ravel(), (y * c - x * s).ravel(), middle)
+    return (x * c + y * s).ravel(), (y * c - x * s).ravel()

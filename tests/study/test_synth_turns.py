@@ -91,6 +91,24 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
 
 
+@pytest.mark.parametrize(
+    "drive, ratio, at_deg",
+    [(Crank(), "matched", -115.0), (Cam(), None, -126.67)],
+    ids=["crank", "cam"],
+)
+def test_a_play_that_fails_with_more_material_fails_before_parts_are_drawn(
+    drive, ratio, at_deg, monkeypatch
+):
+    """The parts themselves are as free there."""
+    motion = Motion(ModifiedSine(), alpha0_deg=-35.0, ratio=ratio)
+    machine = build(with_roller(Spec(External(24), drive, motion=motion), 3.0))
+    parts = Proof(machine).turned
+    assert loose_about(parts, at_deg) > finds_slot(parts)
+    seen = [Failing("hand_over_play_deg", at_deg), Failing("gap_mm", at_deg)]
+    monkeypatch.setattr(turns, "Proof", None)  # which draws them
+    assert Turns().some_failing(machine, seen) == seen[:1]
+
+
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
 def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     """Against the drawn wheel, at the same places of the roller."""

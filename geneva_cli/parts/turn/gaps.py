@@ -184,9 +184,7 @@ class Gaps:
         In the crank's frame, mm: x and y. The wheel is looked at after so many degrees of the
         input, or at some of these places.
         """
-        engagement, behind = self.assembly.motions[number]
-        count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
-        at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)[::every]
+        at = swept_deg(self.assembly, number, step_deg)[::every]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
         step = max(1, BLOCK // len(self._wheel_points[0]))
         blocks = [
@@ -227,6 +225,13 @@ class Gaps:
         """The crank's axis in the wheel's frame, (n, 2)."""
         out: Array = self.assembly.L * np.column_stack((np.cos(turn), -np.sin(turn)))
         return out
+
+
+def swept_deg(assembly: Assembly, number: int, step_deg: float) -> Array:
+    """Input angles of a motion, so many degrees apart at most."""
+    engagement, behind = assembly.motions[number]
+    count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
+    return behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
 
 
 def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> bool:

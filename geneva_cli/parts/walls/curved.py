@@ -37,7 +37,7 @@ def curved_walls(
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
         if other < i and _mirrors(pieces[other], piece, SAME * assembly.L):
-            found.append([_mirrored(segment) for segment in reversed(found[other])])
+            found.append([mirrored(segment) for segment in reversed(found[other])])
         else:
             found.append(_segments(piece, half, curves))
     return Contour(LAYER, joined(itertools.chain(*found)), closed=False)
@@ -54,7 +54,7 @@ def _mirrors(one: Piece, other: Piece, near: float) -> bool:
     return True
 
 
-def _mirrored(segment: Segment) -> Segment:
+def mirrored(segment: Segment) -> Segment:
     """A segment's mirror image in the slot's axis, run through backwards."""
     start, end = _over(segment.end), _over(segment.start)
     if isinstance(segment, Cubic):

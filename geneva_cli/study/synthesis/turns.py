@@ -17,6 +17,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.at_most import at_most
 from geneva_cli.parts.crank import rollers_gap
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import Sizes, sizes
@@ -86,7 +87,7 @@ class Turns:
         looked at before.
         """
         turn = self._turn(machine)
-        early = turn.undrawn() or turn.overlapping() or turn.again(seen)
+        early = turn.undrawn() or turn.overlapping() or turn.loose(seen) or turn.again(seen)
         return early or turn.standing(machine) or turn.first()
 
     def _turn(self, machine: Mechanism) -> _Turn:
@@ -138,6 +139,17 @@ class _Turn:
         """The check of two rollers on one crank, where they overlap: told without any wall."""
         gap = rollers_gap(*self._sized) if self._sized else None
         return [] if gap is None or keeps(gap, "at least", 0.0) else [Failing("rollers_apart_mm")]
+
+    def loose(self, seen: Iterable[Failing]) -> list[Failing]:
+        """Those of some plays between lock and slot that are too large here as with other sizes, as
+        outlines tell that have more material.
+        """
+        some = [one for one in seen if one.name in LOOSE]
+        try:
+            more = at_most(*self._sized) if some and self._sized else None
+        except GenevaError:
+            return []
+        return [one for one in some if more and _fails_there(more, one)]
 
     def standing(self, machine: Mechanism) -> list[Failing]:
         """The checks that fail of parts that stand still, of a machine that turns likewise."""

@@ -1,0 +1,144 @@
+"""Outlines that no part goes beyond, drawn without tracing the wall of a curved slot.
+
+Where these leave the wheel loose, so do the parts, which have less material: told in a fraction of
+the time. Of a curved slot no more is taken from the wheel here than the roller takes that comes to
+it while the wheel still rests; of the locking sectors no more than the recesses' corners, which no
+slot moves, take from their edges.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+
+import numpy as np
+
+from geneva_cli.curves.shapes import (
+    Contour,
+    Line,
+    Point,
+    Segment,
+    about,
+    backwards,
+    closed,
+    joined,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.arrays import scalar
+from geneva_cli.parts.all_round import corners
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.crank import is_whole
+from geneva_cli.parts.locking_rings import EDGE, SHARES, THIN, Reached, seen
+from geneva_cli.parts.locking_rings import LAYER as DISC
+from geneva_cli.parts.outlines import CURVED, EXACT, SWEPT_DEG, Outlines, slot_walls
+from geneva_cli.parts.reliefs import SAME, followed, reliefs
+from geneva_cli.parts.roller_paths import rest
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.gaps import Gaps, swept_deg
+from geneva_cli.parts.walls.curved import mirrored
+from geneva_cli.parts.wheel import LAYER, opening, wheel_contour
+
+CLEARLY = 1.0 + 1e-6  # times a distance: what is farther is so whatever the rounding
+
+
+def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
+    """The outlines; None where there are none to be told so: of external wheels with a law, whose
+    rim goes beyond the crank's axis, so that sectors are what is left of the locking disc.
+
+    Raises GenevaError where the sizes leave no parts.
+    """
+    lawful = assembly.mechanism.law is not None and sizes.lock and sizes.horn > 0.0
+    if not lawful or assembly.sign < 0.0 or is_whole(assembly, sizes):
+        return None
+    walls = {one: _walls(assembly, sizes, one) for one in assembly.kinds}
+    wheel, crank = wheel_contour(assembly, sizes, walls), _sectors(assembly, sizes)
+    gaps = Gaps(assembly, sizes, wheel, crank)
+    close = EXACT * assembly.L  # which is no more than that of the parts
+    return Outlines(assembly, sizes, walls, wheel, crank, "sector", gaps, close, close)
+
+
+def _walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
+    """The walls of what the roller takes from a wheel at rest as it comes to a curved slot, from
+    one corner of the mouth to the other; of a straight slot its own.
+    """
+    if not engagement.slot.curved:
+        return slot_walls(assembly, sizes, engagement, CURVED * assembly.L)
+    x, y = (assembly.L * scalar(c.c[0]) for c in engagement.slot(engagement.entry_deg, 0))
+    place, axis, w = complex(x, y), complex(*rest(assembly, engagement, -1.0)), sizes.half_width
+    radius, start, ahead = abs(place - axis), phase(place - axis), phase(-axis)
+    turned = math.remainder(start - ahead, math.tau)
+    out = math.copysign(1.0, turned)  # the way from the slot outwards, about the crank's axis
+    inwards, half = start - out * 0.5 * math.pi, opening(abs(place), w, sizes.rim)
+    ends, ways = [], []
+    for side in (-1.0, 1.0):  # the wall that faces the crank's axis, and the other
+        far = radius + side * w
+        cosine = (assembly.L**2 + far**2 - sizes.rim**2) / (2.0 * assembly.L * far)
+        if -1.0 < cosine < math.cos(turned):  # the roller comes over the rim on its circle
+            ways.append((far, ahead + out * math.acos(cosine)))
+            ends.append(side * out * 0.5 * math.pi)
+        else:
+            beside = phase(-place) + side * out * half - inwards
+            ways.append((far, start))
+            ends.append(math.remainder(beside, math.tau))
+    (near, begin), (far, end) = ways
+    coming = about((axis.real, axis.imag), near, begin, start - begin)
+    cap = about((x, y), w, inwards + ends[0], ends[1] - ends[0])
+    going = about((axis.real, axis.imag), far, start, end - start)
+    pieces: list[Segment] = [coming, cap, going]
+    if engagement.motion.symmetric:  # what the roller takes as it leaves mirrors that
+        other = _direction(going.end)
+        if other * axis.imag > 0.0:
+            between = about((0.0, 0.0), sizes.rim, other, -2.0 * other)
+            pieces = [*pieces, between, *map(mirrored, reversed(pieces))]
+        elif abs(y) < w:  # up to the slot's axis, on which the two cross
+            cut = phase(complex(-math.sqrt(w * w - y * y), -y)) - inwards
+            cap = about((x, y), w, inwards + ends[0], math.remainder(cut, math.tau) - ends[0])
+            pieces = [coming, cap, mirrored(cap), mirrored(coming)]
+    found = Contour(
+        LAYER, joined(piece for piece in pieces if piece.start != piece.end), closed=False
+    )
+    rises = _direction(found.segments[0].start) < _direction(found.segments[-1].end)
+    return found if rises else backwards(found)
+
+
+def _direction(p: Point) -> float:
+    return math.atan2(p[1], p[0])
+
+
+def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
+    """The locking sectors down to the crank's axis, no narrower than ``rings`` makes them.
+
+    Raises GenevaError where nothing is left of one.
+    """
+    at = [swept_deg(assembly, i, SWEPT_DEG) for i in range(len(assembly.motions))]
+    x, y = np.concatenate([corners(assembly, sizes, each) for each in at], axis=1)
+    within = CLEARLY * np.hypot(x, y) < sizes.lock
+    x, y = x[within], y[within]
+    found = []
+    for one, after in followed(reliefs(assembly)):
+        if after - one.end <= SAME:
+            continue
+        whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
+        wheel = seen(x, y, middle)
+        wide = (share * whole for share in SHARES)
+        half = next((each for each in wide if not _beyond(sizes, wheel, each)), None)
+        if half is None:
+            raise GenevaError("nothing is left of a locking sector", ("size", "lock_radius_mm"))
+        outer = about((0.0, 0.0), sizes.lock, middle - half, 2.0 * half)
+        edges = Line(outer.end, (0.0, 0.0)), Line((0.0, 0.0), outer.start)
+        found.append(closed(DISC, [outer, *edges]))
+    return found
+
+
+def _beyond(sizes: Sizes, wheel: Reached, half: float) -> bool:
+    """Whether no inner arc of a sector clears some places of the wheel, within its limit.
+
+    An arc that meets both edges within the limit, and passes beyond a place that lies beyond it,
+    has its middle beyond it too; ``inner_arc`` ends it farther out than places near the edges are.
+    """
+    limit, aside = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
+    inside = CLEARLY * aside < half
+    beside = wheel.radius[inside & (aside > half - EDGE / CLEARLY)]
+    edge = beside + np.minimum(sizes.relief, (sizes.lock - beside) / 3.0)
+    return bool((wheel.radius[inside] >= limit).any() or (edge >= limit).any())

@@ -1,0 +1,106 @@
+"""Outlines that no part goes beyond: every point of the parts lies in them, and play is no less."""
+
+import random
+
+import numpy as np
+import pytest
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.laws.standard import Cycloidal, ModifiedSine, ModifiedTrapezoid
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.at_most import at_most
+from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.sizes import sizes
+from geneva_cli.parts.turn.freedom import free_angles
+from geneva_cli.parts.turn.play import windows
+from geneva_cli.spec.tables import Size
+
+SAME = 1e-9  # mm: rounding of places on an outline
+NEARLY = np.radians(0.02)  # what a play is told short by at most
+
+
+def told(spec):
+    """The parts that are told to be the most, and the parts."""
+    where = assembly(build(spec))
+    more = at_most(where, sizes(where))
+    return more, outlines(where.given)
+
+
+@pytest.fixture(scope="module")
+def pairs():
+    """Of random machines, those whose wheel goes beyond the crank's axis."""
+    some, found = random.Random(3), []
+    while len(found) < 12:
+        drive = some.choice([Crank, Cam])(rollers=some.choice([1, 1, 2]))
+        ratio = some.choice(["matched", None]) if drive.NAME == "crank" else None
+        law = some.choice([ModifiedSine(), ModifiedTrapezoid(), Cycloidal()])
+        size = {"roller_radius_mm": some.choice([5.0, 4.0, 3.0, 2.5, 2.0, 1.0])}
+        if some.random() < 0.3:
+            size["slot_clearance_mm"] = some.uniform(0.0, 0.2)
+        motion = Motion(law, alpha0_deg=some.uniform(-60.0, 0.0), ratio=ratio)
+        try:
+            more, parts = told(
+                Spec(External(some.randint(6, 25)), drive, motion=motion, size=Size(**size))
+            )
+        except GenevaError:  # no such machine
+            continue
+        if more:
+            found.append((more, parts))
+    return found
+
+
+def test_all_material_lies_within(pairs):
+    for more, parts in pairs:
+        for own, other in (
+            (parts.gaps.wheel, more.gaps.wheel),
+            (parts.gaps.crank, more.gaps.crank),
+        ):
+            outside = other.signed(own.samples(1e-3, 0.1)).max()
+            assert outside < SAME
+
+
+def test_play_between_lock_and_slot_is_no_less_and_hardly_more(pairs):
+    for more, parts in pairs:
+        for start, end in [(a, b) for a, b, _, rests in windows(parts) if rests]:
+            at = np.linspace(start, end, 52)[1:-1]
+            told, whole = (np.stack(free_angles(one, at)) for one in (more, parts))
+            assert (told <= whole + SAME).all()
+            assert np.median(whole.max(axis=0) - told.max(axis=0)) < NEARLY
+
+
+def test_they_are_of_both_drives(pairs):
+    assert {more.assembly.mechanism.spec.drive.NAME for more, _ in pairs} == {"crank", "cam"}
+
+
+OTHERS = [  # none of which is told: inside, a disc about its axis, no lock, no law
+    Spec(Internal(12), Cam(), motion=Motion(ModifiedSine(), alpha0_deg=40.0)),
+    Spec(External(8), Cam(), motion=Motion(ModifiedSine(), alpha0_deg=10.0)),
+    Spec(
+        External(24),
+        Cam(),
+        motion=Motion(ModifiedSine(), alpha0_deg=-35.0),
+        size=Size(lock_radius_mm=0.0),
+    ),
+    Spec(External(6)),
+]
+
+
+@pytest.mark.parametrize("spec", OTHERS, ids=["internal", "disc", "no lock", "straight"])
+def test_of_others_nothing_is_told(spec):
+    assert told(spec)[0] is None
+
+
+def test_where_no_sector_is_left_neither_says_otherwise():
+    motion = Motion(ModifiedSine(), alpha0_deg=-35.0)
+    spec = Spec(External(24), Cam(), motion=motion, size=Size(roller_radius_mm=5.0))
+    where = assembly(build(spec))
+    for refused in (lambda: at_most(where, sizes(where)), lambda: outlines(where.given)):
+        with pytest.raises(GenevaError, match="locking sector") as error:
+            refused()
+        assert error.value.key == ("size", "lock_radius_mm")
