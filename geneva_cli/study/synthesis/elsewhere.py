@@ -6,7 +6,7 @@ it and the nearest better one, which cannot, it is looked at nearer and nearer.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.study.synthesis.best import FORGIVEN, Candidate, Places, made
@@ -83,19 +83,20 @@ class _Elsewhere:
         """Look all over the spans."""
         seen = self._looked([(i, x) for i, f in enumerate(self.families) for x in _evenly(f)])
         for i, places in seen.items():
-            failed = [place.candidate for place in places if not place.row]
             may_be = sorted(place for place in places if place.row)
-            for place in _some(may_be) if self.turn else may_be[:1]:
-                if done := self._turned(place):
-                    self._mark(i, done, failed)
-                    break
-                failed.append(place.candidate)
+            good = self._first_of(may_be)
+            if not good:
+                continue
+            self.good[i], x = good, good.candidate.x
+            if better := [place.candidate for place in places if place < good]:
+                self.bad[i] = min(better, key=lambda one: abs(one.x - x))
 
-    def _mark(self, i: int, good: Place, failed: Sequence[Candidate]) -> None:
-        own = good.candidate
-        self.good[i] = good
-        if better := [one for one in failed if one < own]:
-            self.bad[i] = min(better, key=lambda one: abs(one.x - own.x))
+    def _first_of(self, may_be: Sequence[Place]) -> Place | None:
+        """The first of some places that can be built: of every second, or the one before."""
+        for k in range(0, len(may_be), 2):
+            if found := self._turned(may_be[k]):
+                return (self._turned(may_be[k - 1]) if k else None) or found
+        return None
 
     def nearer(self, parts: int) -> None:
         """Look between what can be built and what is better."""
@@ -132,15 +133,6 @@ class _Elsewhere:
         if row and self.turn:
             row = self.turn(row, passing.row if passing else None)
         return Place(place.candidate, row) if row else None
-
-
-def _some(places: Sequence[Place]) -> Iterator[Place]:
-    """The first of some places, ever farther ones, and the last."""
-    last, i = len(places) - 1, 0
-    while i < last:
-        yield places[i]
-        i = 2 * i + 1
-    yield from places[-1:]
 
 
 def _evenly(f: Family) -> list[float]:
