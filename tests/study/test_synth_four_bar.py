@@ -22,7 +22,9 @@ from geneva_cli.study.synthesis.families import four_bars as families
 from geneva_cli.study.synthesis.parts import parts
 from geneva_cli.study.synthesis.reading import read_wish
 from geneva_cli.study.synthesis.search import search
+from geneva_cli.study.synthesis.table import turned
 from geneva_cli.study.synthesis.written import chosen
+from geneva_cli.verdict.checks import checks
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")
 
@@ -205,3 +207,15 @@ def test_no_lock_is_in_the_way_where_there_is_none():
     size = Size(roller_radius_mm=8.0, wheel_hub_mm=0.0)
     machine = build(Spec(External(8, held_by="detent"), drive, size=size))
     assert parts(machine).why == ""
+
+
+def test_another_four_bar_passes_where_the_gentlest_fails():
+    """Its coupler comes to the wheel's shaft; of those found with it, one that does not."""
+    found = search(read_wish(tau="..0.3", z="5", external=True, rollers=1))
+    plain, shown = turned(found), {one.no: one.row for one in turned(found, buildable=True)}
+    (number, first), *_ = [one for one in plain if one.row.candidate.drive == "four-bar"]
+    assert first.cannot_be
+    other = shown[number]
+    assert other.candidate.drive == "four-bar"
+    assert other.candidate.acceleration_max > first.candidate.acceleration_max
+    assert not [c for c in checks(build(other.spec)) if c.passes is False]

@@ -13,7 +13,6 @@ from bisect import bisect_left, insort
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint
@@ -65,7 +64,7 @@ def best(
         sure = f.low if math.isnan(f.best) else f.best
         place = chosen.get(id(f), Candidate(0.0, 0.0, sure))
         known = abs(place.x - f.known) <= SAME * (f.high - f.low)
-        if not known and (spec := made(f, place.x)):
+        if not known and (spec := f.at(place.x)):
             (broken if place.broken >= FORGIVEN else kept).append(Chosen(spec, f))
     return kept, broken
 
@@ -179,7 +178,7 @@ class Places:
 
     def look(self, places: Sequence[tuple[int, float]]) -> list[Candidate]:
         """Look at these places of the families too: what is there, ``NONE`` where nothing is."""
-        specs = [made(self.families[i], x) for i, x in places]
+        specs = [self.families[i].at(x) for i, x in places]
         rows = iter(self._numbers([spec for spec in specs if spec]))
         found = []
         for (i, x), spec in zip(places, specs, strict=True):
@@ -218,11 +217,3 @@ class Places:
 
 def _step(family: Family) -> float:
     return (family.high - family.low) / PLACES
-
-
-def made(family: Family, x: float) -> Spec | None:
-    """A family's machine at a place, if there is one."""
-    try:
-        return family.make(x)
-    except GenevaError:
-        return None

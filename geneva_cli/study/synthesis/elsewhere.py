@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.study.synthesis.best import FORGIVEN, Candidate, Places, made
+from geneva_cli.study.synthesis.best import FORGIVEN, Candidate, Places
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.limited import breaks_limit
 from geneva_cli.study.synthesis.rows import Row, rows
@@ -81,14 +81,15 @@ class _Elsewhere:
 
     def first(self) -> None:
         """Look all over the spans."""
-        seen = self._looked([(i, x) for i, f in enumerate(self.families) for x in _evenly(f)])
+        seen = self._looked([(i, x) for i, f in enumerate(self.families) for x in f.places(EVENLY)])
         for i, places in seen.items():
             may_be = sorted(place for place in places if place.row)
             good = self._first_of(may_be)
             if not good:
                 continue
             self.good[i], x = good, good.candidate.x
-            if better := [place.candidate for place in places if place < good]:
+            better = [place.candidate for place in places if place < good]
+            if better and not self.families[i].several:
                 self.bad[i] = min(better, key=lambda one: abs(one.x - x))
 
     def _first_of(self, may_be: Sequence[Place]) -> Place | None:
@@ -117,7 +118,7 @@ class _Elsewhere:
         """The places of each family, in their order, that keep the bounds."""
         seen = self.places.look(asked)
         kept = [(i, c) for (i, _), c in zip(asked, seen, strict=True) if c.broken < FORGIVEN]
-        specs = [made(self.families[i], c.x) for i, c in kept]
+        specs = [self.families[i].at(c.x) for i, c in kept]
         found = iter(rows(self.wish, [spec for spec in specs if spec], []))
         out: dict[int, list[Place]] = {}
         for (i, candidate), spec in zip(kept, specs, strict=True):
@@ -133,10 +134,3 @@ class _Elsewhere:
         if row and self.turn:
             row = self.turn(row, passing.row if passing else None)
         return Place(place.candidate, row) if row else None
-
-
-def _evenly(f: Family) -> list[float]:
-    """Places of a family in order, the plain crank's among them."""
-    places = [f.low + (f.high - f.low) * k / EVENLY for k in range(EVENLY)]
-    plain = [f.plain] if f.low < f.plain < f.high else []
-    return sorted({*places, f.high, *plain})

@@ -24,25 +24,42 @@ BARE = Spec(registry.gearing("external")(3))  # the tables of a machine that has
 
 
 class Family(NamedTuple):
-    """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec.
+    """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec. Or
+    ``several`` machines, x being their numbers from 0 on.
 
     At ``plain`` it moves as the plain crank does; at ``known`` it is a machine of another family
     that grants the wish; at ``best`` it is the best, where that is plain. All may be none. Of more
     than one machine ``make`` can be handed to another process.
     """
 
-    make: Callable[[float], Spec]
+    make: Callable[[float], Spec | None]
     low: float = 0.0
     high: float = 0.0
     known: float = math.nan
     plain: float = math.nan
     best: float = math.nan
+    several: int = 0
     ends: tuple[float, float] | None = None  # of the whole family, of which it is a piece
 
     @property
     def is_free(self) -> bool:
         """Whether it has more than one machine."""
         return self.low < self.high
+
+    def at(self, x: float) -> Spec | None:
+        """The machine at a place, if there is one."""
+        try:
+            return self.make(x)
+        except GenevaError:
+            return None
+
+    def places(self, parts: int) -> list[float]:
+        """Places in order, evenly so many parts apart, the plain crank's too; all of a number."""
+        if self.several:
+            return [float(i) for i in range(self.several)]
+        places = [self.low + (self.high - self.low) * k / parts for k in range(parts)]
+        plain = [self.plain] if self.low < self.plain < self.high else []
+        return sorted({*places, self.high, *plain})
 
     @property
     def whole(self) -> Family:

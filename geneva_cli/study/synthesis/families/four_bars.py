@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import islice
 from typing import Any
 
@@ -61,9 +62,11 @@ def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
     names = [wish.sort.lstrip("-") or PEAK, *(b.name for b in wish.limits)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
     for task, found in zip(tasks, _found(wish, tuple(tasks)), strict=True):
-        if found:
-            specs = (_spec(wish, task.wheel, found, i) for i in range(len(found.cost)))
-            yield from map(only, islice((spec for spec in specs if spec), count))
+        if found and (n := len(found.cost)):
+            every = Family(partial(_spec, wish, task.wheel, found), 0.0, n - 1.0, several=n)
+            machines = ((x, spec) for x in every.places(n) if (spec := every.at(x)))
+            for x, spec in islice(machines, count):
+                yield every._replace(best=x) if count == 1 else only(spec)
 
 
 def _task(wish: Wish, wheel: Gearing) -> WheelGoal | None:
@@ -119,12 +122,12 @@ def _in_time(wish: Wish, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
-def _spec(wish: Wish, wheel: Gearing, found: Pool, i: int) -> Spec | None:
-    """The machine, as large as the frame has it.
+def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
+    """The machine of such a number, as large as the frame has it.
 
     None where links are too unlike each other, or the roller leaves its slot after all.
     """
-    one = found.taken(np.array([i]))
+    one = found.taken(np.array([int(x)]))
     links, (entry, motion, sense, _) = one.links, one.drive
     b, wanted_, wide = wheel.step.b, float(motion[0, 0]), motion
     own = _machine(wish, wheel, FourBar(**_EXAMPLE), math.degrees(wanted_))
