@@ -102,8 +102,15 @@ def cut(value: str | int, most: int = 60) -> str:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """`` (did you mean "..."?)`` for the closest known word, or nothing."""
+    """`` (did you mean "..."?)`` for the known word that is most like it, or nothing.
+
+    Capitals make no difference; of three letters or more also a beginning or a part will do.
+    """
     import difflib
 
-    close = difflib.get_close_matches(cut(word), list(known), n=1, cutoff=0.6)
-    return f' (did you mean "{close[0]}"?)' if close else ""
+    word, by_word = cut(word).casefold(), {k.casefold(): k for k in known}
+    close = difflib.get_close_matches(word, by_word, n=1, cutoff=0.6)
+    if not close and len(word) >= 3:
+        parts = [k for k in by_word if word in k]
+        close = sorted(parts, key=lambda k: not k.startswith(word))
+    return f' (did you mean "{by_word[close[0]]}"?)' if close else ""

@@ -141,7 +141,7 @@ def _nearest(asked: str, known: Iterable[str]) -> str:
         parts = name.split(".")
         for i in range(len(parts)):
             ends.setdefault(".".join(parts[i:]), name)
-    return nearest(asked, known) or nearest(asked, ends)
+    return nearest(asked, ends)
 
 
 def _named(asked: str, known: Iterable[str], option: str) -> str | None:

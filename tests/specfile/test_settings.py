@@ -65,6 +65,9 @@ def test_the_last_of_two_counts(spec):
     [
         ("wheel.z=2", "--set wheel.z=2: z = 2 must be at least 3"),
         ("wheel.zz=3", "--set wheel.zz=3: unknown key zz in [wheel] (did you mean"),
+        ("size.roller=3", 'key roller in [size] (did you mean "roller_radius_mm"?)'),
+        ("size.Bore=3", 'key Bore in [size] (did you mean "wheel_bore_mm"?)'),
+        ("SIZE.roller_radius_mm=3", 'unknown table [SIZE] (did you mean "size"?)'),
         ("whel.z=3", '--set whel.z=3: unknown table [whel] (did you mean "wheel"?)'),
         ("mass.1.count=3", "--set mass.1.count=3: the spec has 1 [[mass]], counted from 0"),
         ("mass.0.count=0", "--set mass.0.count=0: [[mass]] number 1: count = 0 must be"),
