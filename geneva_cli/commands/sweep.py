@@ -65,7 +65,7 @@ def run(
     shard: Annotated[
         str, typer.Option(metavar="I/N", help="Only the I-th of N shares, as 3/16.")
     ] = "",
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with a stopped sweep.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on where it was stopped.")] = False,
     jobs: Annotated[
         int | None, typer.Option(metavar="N", help="Processes; all cores without.")
     ] = None,
@@ -79,8 +79,9 @@ def run(
     """One row a design: the varied keys, then the quantities; the last key runs fastest.
 
     A design that cannot be built is a row that says why. Stopped, a sweep into a file goes on with
-    --resume. The rows of all shares, one after the other, are those of one run: the first alone has
-    the header. With --random and --best a key may vary between LOW:HIGH.
+    --resume, which begins where there is nothing to go on with. The rows of all shares, one after
+    the other, are those of one run: the first alone has the header. With --random and --best a key
+    may vary between LOW:HIGH.
     """
     from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.outcome import Outcome
@@ -126,6 +127,10 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
     found = asked.sweep
     first = found.shard.number == 1
     with Growth(found.names, asked.key, first, output, resume, asked.files, TEXTS) as rows:
+        if rows.found:
+            print(rows.found, file=sys.stderr)
+        if rows.is_whole:
+            return
         for block in outcome.rows(_shown(asked, rows.done)):
             rows.append(block)
         rows.finish()

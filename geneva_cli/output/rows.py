@@ -15,10 +15,10 @@ ENDINGS = (".csv", ".parquet")
 
 
 class Growth(Closing):
-    """Where the rows of ``names`` go; ``done`` of them are there already.
+    """Where the rows of ``names`` go; ``done`` of them are there already, or all (``is_whole``).
 
-    ``key`` is all that they depend on, for ``resume``; a later share of a table has no ``header``;
-    ``texts`` are columns that hold no numbers.
+    ``key`` is all that they depend on, for ``resume``, which ``found`` says what of; a later share
+    of a table has no ``header``; ``texts`` are columns that hold no numbers.
     """
 
     def __init__(
@@ -32,6 +32,7 @@ class Growth(Closing):
         texts: Collection[str] = (),
     ) -> None:
         self.names, self.texts, self.output, self.done = names, texts, output, 0
+        self.is_whole, self.found = False, ""
         self.file: Growing | None = None
         self.parquet = output.endswith(".parquet")
         if output != "-" and not output.endswith(ENDINGS):
@@ -45,6 +46,7 @@ class Growth(Closing):
         if output != "-":
             self.file = Growing(output, first, key, resume, inputs)
             self.done = self.file.done
+            self.is_whole, self.found = self.file.is_whole, self.file.found
         elif resume:
             raise GenevaError("--resume goes on with a file: give -o FILE")
         else:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
+from collections.abc import Iterable
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.spec.rules import Csv
@@ -33,6 +35,18 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
     if len(points) < rule.points_min:
         raise GenevaError(f"{path}: {len(points)} points; at least {rule.points_min} are needed")
     return points
+
+
+def digest(paths: Iterable[str]) -> str:
+    """One word that changes with the bytes of any of these files; some may not be there."""
+    found = hashlib.sha256()
+    for path in paths:
+        try:
+            with open(path, "rb") as file:
+                found.update(hashlib.file_digest(file, "sha256").digest())
+        except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+            found.update(type(error).__name__.encode())
+    return found.hexdigest()
 
 
 def _text(path: str, key: tuple[str, ...]) -> str:

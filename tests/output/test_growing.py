@@ -62,9 +62,57 @@ def test_it_does_not_go_on_for_another_request(path):
     assert read(path + ".partial") == "a,b\n1,2\n"
 
 
-def test_nothing_to_go_on_from(path):
-    with pytest.raises(GenevaError, match=r"no rows.csv.partial to go on from"):
-        Growing(path, HEADER, KEY, True)
+def whole(path, *lines):
+    """A file made by a run that may be asked for again."""
+    with Growing(path, HEADER, KEY, True) as file:
+        for line in lines:
+            file.append(line)
+        file.finish()
+
+
+def test_where_there_is_nothing_to_go_on_from_it_begins(path):
+    with Growing(path, HEADER, KEY, True) as file:
+        assert "there is no rows.csv.partial" in file.found
+        assert (file.done, file.is_whole) == (0, False)
+        file.append("1,2\n")
+        file.finish()
+    assert read(path) == "a,b\n1,2\n"
+
+
+def test_of_a_whole_file_there_is_nothing_to_do(path):
+    whole(path, "1,2\n")
+    with Growing(path, HEADER, KEY, True) as file:
+        assert file.is_whole
+        assert file.found == "--resume: rows.csv is whole already"
+    assert read(path) == "a,b\n1,2\n"
+    assert sorted(os.listdir(os.path.dirname(path))) == ["rows.csv", "rows.csv.key"]
+
+
+@pytest.mark.parametrize("key", [KEY, "another"])
+def test_a_file_of_something_else_or_changed_since_is_not_taken_for_whole(path, key):
+    whole(path, "1,2\n")
+    if key == KEY:
+        with open(path, "a") as file:
+            file.write("3,4\n")
+    with Growing(path, HEADER, key, True) as file:
+        assert not file.is_whole
+        file.append("5,6\n")
+        file.finish()
+    assert read(path) == "a,b\n5,6\n"
+
+
+def test_a_lost_file_is_made_again(path):
+    whole(path, "1,2\n")
+    os.unlink(path)
+    whole(path, "1,2\n")
+    assert read(path) == "a,b\n1,2\n"
+
+
+def test_without_resume_nothing_is_left_beside_the_file(path):
+    whole(path, "1,2\n")
+    with Growing(path, HEADER, KEY, False) as file:
+        file.finish()
+    assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
 
 
 def test_an_input_is_not_written_over(path):

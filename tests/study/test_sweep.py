@@ -108,16 +108,47 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert geneva(*arguments, "-o", str(file)).exit_code == 0
     whole = file.read_text()
     assert os.listdir(tmp_path) == ["rows.csv"]
-    found = sweep(read(SPEC), grid(*GRID))
+    key = request(SPEC, GRID).key
     (tmp_path / "rows.csv.partial").write_text(whole[:300])
-    (tmp_path / "rows.csv.partial.key").write_text(found.key)
+    (tmp_path / "rows.csv.partial.key").write_text(key)
     assert geneva(*arguments, "-o", str(file), "--resume").exit_code == 0
     assert file.read_text() == whole
     (tmp_path / "rows.csv.partial").write_text(whole[:300])
-    (tmp_path / "rows.csv.partial.key").write_text(found.key)
+    (tmp_path / "rows.csv.partial.key").write_text(key)
     other = geneva(*arguments, "--set", "wheel.z=7", "-o", str(file), "--resume")
     assert other.exit_code == 2 and "begun for something else" in other.stderr
     assert file.read_text() == whole
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_a_job_may_always_resume(tmp_path, ending):
+    """Its first run begins, one after the last has nothing to do and says so, and ends with 0."""
+    arguments = ["sweep", SPEC, "--vary", GRID[0], "-o", str(tmp_path / f"rows.{ending}")]
+    first = geneva(*arguments, "--resume")
+    assert first.exit_code == 0 and "from the first row" in first.stderr
+    whole = (tmp_path / f"rows.{ending}").read_bytes()
+    again = geneva(*arguments, "--resume")
+    assert again.exit_code == 0 and "is whole already" in again.stderr
+    other = geneva(*arguments, "--set", "wheel.z=7", "--resume")
+    assert other.exit_code == 0 and "from the first row" in other.stderr
+    assert (tmp_path / f"rows.{ending}").read_bytes() != whole
+
+
+@pytest.mark.parametrize("named", ["by the spec", "by a varied key"])
+def test_points_that_change_are_another_sweep(tmp_path, named):
+    """A file of a law's points is as much of the request as the spec that names it."""
+    points, spec = tmp_path / "points.csv", tmp_path / "spec.toml"
+    spec.write_text('[wheel]\nz = 6\n[motion]\nlaw = "table"\nfile = "points.csv"\n')
+    for word in ("one", "other"):
+        law = [
+            (u, u**2 * (3 - 2 * u)) for u in (i / (10 if word == "one" else 20) for i in range(21))
+        ]
+        points.write_text("".join(f"{u},{s}\n" for u, s in law if u <= 1))
+        vary = "drive.n_rpm=60,70" if named == "by the spec" else "motion.file=points.csv"
+        asked = ("sweep", str(spec), "--vary", vary, "-o", str(tmp_path / "rows.csv"), "--resume")
+        found = geneva(*asked)
+        assert found.exit_code == 0 and "from the first row" in found.stderr
+    assert "is whole already" in geneva(*asked).stderr
 
 
 def test_ctrl_c_leaves_what_was_done(tmp_path):

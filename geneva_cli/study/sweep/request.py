@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.specfile.points import digest
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
@@ -34,8 +36,11 @@ class Request(NamedTuple):
 
     @property
     def key(self) -> str:
-        """What the rows depend on, as one word."""
-        return self.sweep.key
+        """What the rows depend on, as one word: the sweep, and points in files."""
+        folder = os.path.dirname(self.files[0])
+        words = [v for a in self.sweep.plan.axes for v in a.values if isinstance(v, str)]
+        points = digest([*self.files[1:], *(os.path.join(folder, word) for word in words)])
+        return f"{self.sweep.key} {points}"
 
     def blocks(self, done: int = 0) -> Iterator[list[list[Cell]]]:
         """All rows, some at a time; ``done`` are there already."""
