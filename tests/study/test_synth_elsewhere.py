@@ -129,3 +129,12 @@ def test_families_go_to_other_processes(options):
                     assert there.make(x) == family.make(x)
                 seen += 1
     assert seen > 3 or "acceleration_max" in options
+
+
+def test_more_rollers_where_only_shorter_motions_can_be_built():
+    """Four rollers and more on four slots: at the longest motion each slot leaves an island."""
+    found = search(read_wish(motion_deg="20..120", z="4", external=True))
+    rows = [row for row in curved(found) if row.candidate.rollers == 4]
+    assert [row.cannot_be for row in rows] == [True, False]
+    assert rows[0].candidate.motion_deg > rows[1].candidate.motion_deg
+    assert {row.candidate.rollers for row in curved(found) if not row.cannot_be} >= {4, 5, 6, 7, 8}

@@ -93,7 +93,8 @@ def _with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> I
                 lines += _lines(wish, wheel, law, reached)
     for natural, make in lines:
         yield from map(make, rollers(wish, natural))
-    for more in more_rollers(wish, lines):
+    alone = [(natural, lambda m, make=make: [make(m)]) for natural, make in lines]
+    for more in more_rollers(wish, alone):
         yield from more
 
 

@@ -55,7 +55,7 @@ def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
         for law in wish.laws
         for line in _lines(wish, wheel, law)
     ]
-    several = more_rollers(wish, [(line.natural, line.longest) for line in lines])
+    several = more_rollers(wish, [(line.natural, line.some) for line in lines])
     for line, more in zip(lines, several, strict=True):
         yield from line.families(more)
 
@@ -92,10 +92,13 @@ class _Line(NamedTuple):
             m = spec.drive.rollers
             yield self._free(m, self._motions(m) or Interval(self.natural, self.natural))
 
-    def longest(self, m: int) -> Spec | None:
-        """The gentlest machine of m rollers."""
+    def some(self, m: int) -> list[Spec]:
+        """The gentlest machine of m rollers, and of a range some others."""
         free = self._motions(m)
-        return self.make(m, free.high) if free else None
+        if not free:
+            return []
+        low, high = free
+        return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
 
     def _motions(self, m: int) -> Interval | None:
         asked = closed_span(wanted(self.wish, m, self.natural), m)
@@ -115,22 +118,26 @@ def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
 
 
 def more_rollers(
-    wish: Wish, lines: Sequence[tuple[float, Callable[[int], Spec | None]]]
+    wish: Wish, lines: Sequence[tuple[float, Callable[[int], Sequence[Spec]]]]
 ) -> list[list[Spec]]:
-    """More rollers than the plain wheel takes, of each line while its parts can be built.
+    """More rollers than the plain wheel takes, of each line while parts can be built.
 
-    A line is the plain crank's motion angle, degrees, and what makes the machine of m rollers.
+    A line is the plain crank's motion angle, degrees, and what makes machines of m rollers, of
+    which the first is taken if any may be built.
     """
     found: list[list[Spec]] = [[] for _ in lines]
     if wish.rollers is not None:
         return found
     growing = {i: rollers_max(natural) + 1 for i, (natural, _) in enumerate(lines)}
     while growing:
-        specs = {i: spec for i, m in growing.items() if (spec := lines[i][1](m))}
-        look_at(specs.values())
-        growing = {i: growing[i] + 1 for i, spec in specs.items() if _nothing_in_the_way(spec)}
+        specs = {i: some for i, m in growing.items() if (some := lines[i][1](m))}
+        look_at(first for first, *_ in specs.values())
+        stuck = {i for i, (first, *_) in specs.items() if not _nothing_in_the_way(first)}
+        look_at(spec for i in stuck for spec in specs[i][1:])
+        stuck = {i for i in stuck if not any(map(_nothing_in_the_way, specs[i][1:]))}
+        growing = {i: growing[i] + 1 for i in specs if i not in stuck}
         for i in growing:
-            found[i].append(specs[i])
+            found[i].append(specs[i][0])
     return found
 
 
