@@ -14,6 +14,7 @@ from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.many import summaries_of_many
 from geneva_cli.analysis.loads.quantities import ends_of
+from geneva_cli.analysis.loads.stretches import scanned
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
@@ -296,17 +297,34 @@ def test_a_motion_between_two_angles_has_no_loads():
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
 
 
-def test_loads_that_are_never_seen_whole_are_refused():
-    """Curved slots behind gears of e = 1 - 3e-8: a million places were looked at, in a gigabyte."""
+@pytest.mark.parametrize("left", [1e-6, 3e-8, 1e-10])
+def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
+    """Curved slots behind gears of e = 1 - left, whose wheel is 1 / left times as fast.
 
-    def hurried(e):
-        drive, keys = Drive("elliptical-gears"), Keys("elliptical-gears", e, phase="slow")
+    They do not hang on the wheel's angle, whose rounding would be 4e-4 of them at 1e-6.
+    """
+
+    def greatest(left):
+        drive = Drive("elliptical-gears")
+        keys = Keys("elliptical-gears", 1.0 - left, phase="slow")
         motion = Motion("3-4-5", alpha0_deg=19.136)
-        return Design.of(Spec(Wheel(12, "internal"), drive, keys, motion=motion, load=Load(0.0149)))
+        spec = Spec(Wheel(12, "internal"), drive, keys, motion=motion, load=Load(0.0149))
+        found = Design.of(spec).loads["pin_force_N"]
+        assert found.max == pytest.approx(-found.min, rel=1e-12)
+        return found.max * (1.0 - (1.0 - left)) ** 2
 
-    assert hurried(1.0 - 1e-6).loads["pin_force_N"].max > 0.0
+    assert greatest(left) == pytest.approx(greatest(1e-5), rel=2e-5)
+
+
+def test_loads_that_are_never_seen_whole_are_refused():
+    """What no number of samples tells, as of rounding: a million places were looked at for it."""
+    noise = np.random.default_rng(3)
+
+    def rounding(x, span):
+        return noise.normal(size=(1, len(x))), noise.normal(size=(1, len(x)))
+
     with pytest.raises(GenevaError, match="less than the input's angle can tell apart"):
-        hurried(1.0 - 3e-8).loads  # noqa: B018
+        scanned(rounding, [(-1.0, 1.0)], slice(None))
 
 
 def test_beside_a_cusp_the_stress_goes_to_nought():

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, NamedTuple
 
-from geneva_cli.machine.engagement import Engagement, Vector, in_wheel
+from geneva_cli.machine.engagement import Engagement, Vector
 from geneva_cli.machine.pitch_curve import pitch_at_retrace, retraces
 from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Jet, Number, V, piecewise, sqrt
@@ -157,11 +157,7 @@ def _beside(
 
     ``rates`` are the jet of the wheel's velocity, one order higher, where it is known.
     """
-    motion = None
-    if rates is None and engagement.slot.curved:
-        motion = engagement.motion(x, order + 2)
-        rates = motion.derivative()
-    elif rates is None:
+    if rates is None:
         rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = _cut(rates, order), rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
@@ -170,17 +166,7 @@ def _beside(
         lever, along = straight_axis
         aside, curvature = constant + engagement.slot.offset, constant
     else:
-        # the slot is the path seen from the wheel, whose angle is known already
-        assert motion is not None
-        mx, my = in_wheel(engagement.path(x, order + 2), motion)
-        ux, uy = mx.derivative(), my.derivative()
-        bend_x, bend_y = ux.derivative(), uy.derivative()
-        mx, my, ux, uy = (_cut(jet, order) for jet in (mx, my, ux, uy))
-        outward = mx * ux + my * uy
-        way = library(outward.c[0]).copysign(1.0, outward.c[0])
-        along = sqrt(ux * ux + uy * uy) * way
-        lever, aside = outward / along, (mx * uy - my * ux) / along
-        curvature = (ux * bend_y - uy * bend_x) / (along * along * along)
+        lever, aside, along, curvature = _curved(engagement, x, order, rates)
     upright = engagement.slot.upright(x, order)
     touches = constant + engagement.slot.touches(x)
     spin = constant
@@ -189,6 +175,27 @@ def _beside(
     arm = (constant + upright) * touches
     held = _held(engagement, x, lever, aside) if reactions else None
     return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches, held)
+
+
+def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
+    """Lever, aside, along and curvature of a curved slot: the path p as the wheel sees it.
+
+    In axes that lie as the fixed ones do at the instant, where each vector's rate is its own less
+    the wheel's turning of it: products of two vectors are the same in all axes, and so the wheel's
+    angle does not matter.
+    """
+    path = engagement.path(x, order + 2)
+    dx, dy = (jet.derivative() for jet in path)
+    px, py = (_cut(jet, order + 1) for jet in path)
+    ux, uy = dx + py * rates, dy - px * rates
+    turn = _cut(rates, order)
+    bend_x, bend_y = ux.derivative(), uy.derivative()
+    px, py, dx, dy, ux, uy = (_cut(jet, order) for jet in (px, py, dx, dy, ux, uy))
+    outward = px * dx + py * dy
+    square = ux * ux + uy * uy
+    along = sqrt(square) * library(outward.c[0]).copysign(1.0, outward.c[0])
+    curvature = (ux * bend_y - uy * bend_x - square * turn) / (square * along)
+    return outward / along, (px * uy - py * ux) / along, along, curvature
 
 
 def _held(
