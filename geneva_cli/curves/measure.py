@@ -169,7 +169,8 @@ def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
 def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:
     if isinstance(segment, Cubic):
         return Cubic(*map(point, segment))
-    return segment._replace(start=point(segment.start), end=point(segment.end))
+    start, end = point(segment.start), point(segment.end)
+    return Arc(start, end, segment.bulge) if isinstance(segment, Arc) else Line(start, end)
 
 
 def _box(points: Iterable[Point]) -> Box:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+from typing import TYPE_CHECKING
+
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.laws.law import Law, remaining
@@ -9,6 +12,9 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import ascending
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
@@ -54,9 +60,30 @@ class LawMotion(Motion):
             rest = self.law.near_end((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
-        s = piecewise(input_deg, (middle,), (first, second))
+        if not isinstance(input_deg, float | int) and input_deg.ndim == 1 and self._halves_alike:
+            s = self._at_once(input_deg, middle, order)
+        else:
+            s = piecewise(input_deg, (middle,), (first, second))
         rate = 1.0 / (whole * DEGREE)
         return (Jet([c * rate**k if k else c for k, c in enumerate(s.c)]),)
+
+    @cached_property
+    def _halves_alike(self) -> bool:
+        """Whether both halves of its law are one formula, and it is not of many designs."""
+        varies = self.law.varies or not isinstance(self.exit_deg * self.half_step, float)
+        return self.law.halves_alike and not varies
+
+    def _at_once(self, x: Array, middle: float, order: int) -> Jet:
+        """Both halves, each from its own end, of a law of which they are one formula."""
+        import numpy as np
+
+        before = x <= middle
+        share = np.where(before, x - self.entry_deg, self.exit_deg - x)
+        share /= self.exit_deg - self.entry_deg
+        s = self.law.first(share, order) * (2.0 * self.half_step)
+        after = remaining(s, self.half_step)
+        pairs = zip((s - self.half_step).c, after.c, strict=True)
+        return Jet([np.where(before, one, other) for one, other in pairs])
 
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:

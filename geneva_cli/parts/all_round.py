@@ -7,6 +7,7 @@ of it.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.locking_rings import seen
 from geneva_cli.parts.reliefs import Relief, followed, reliefs
 from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.around import half_seen
 from geneva_cli.parts.wheel import opening
 
 if TYPE_CHECKING:
@@ -53,14 +55,19 @@ def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
 
 
 def corners(assembly: Assembly, sizes: Sizes, at: Array) -> tuple[Array, Array]:
-    """Where on the crank the recesses' corners are at input angles, in degrees: x and y, mm.
+    """Where on the crank the recesses' corners come within the locking disc at input angles, in
+    degrees: x and y, mm.
 
     Raises GenevaError where the rim does not meet the recesses.
     """
     half = opening(assembly.L, sizes.rim, sizes.recess)
     corner: Array = np.array([rest + side * half for rest in assembly.rests for side in (-1, 1)])
     turn = corner + assembly.wheel(at)[:, None]
+    # only in directions near to that of the crank's axis is anything within the disc
+    beside = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi)
+    place, which = np.nonzero(beside <= half_seen(sizes.lock, assembly.L))
+    turn, pose = turn[place, which], assembly.crank(at)[place]
     x, y = sizes.rim * np.cos(turn) - assembly.L, sizes.rim * np.sin(turn)
-    pose = assembly.crank(at)[:, None]
     c, s = np.cos(pose), np.sin(pose)
-    return (x * c + y * s).ravel(), (y * c - x * s).ravel()
+    within = x * x + y * y < sizes.lock * sizes.lock
+    return (x * c + y * s)[within], (y * c - x * s)[within]

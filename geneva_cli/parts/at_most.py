@@ -29,7 +29,7 @@ from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.all_round import corners
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
-from geneva_cli.parts.locking_rings import EDGE, SHARES, THIN, Reached, seen
+from geneva_cli.parts.locking_rings import CLEARLY, SHARES, beyond, seen
 from geneva_cli.parts.locking_rings import LAYER as DISC
 from geneva_cli.parts.outlines import CURVED, EXACT, SWEPT_DEG, Outlines, slot_walls
 from geneva_cli.parts.reliefs import SAME, followed, reliefs
@@ -38,8 +38,6 @@ from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps, swept_deg
 from geneva_cli.parts.walls.curved import mirrored
 from geneva_cli.parts.wheel import LAYER, opening, wheel_contour
-
-CLEARLY = 1.0 + 1e-6  # times a distance: what is farther is so whatever the rounding
 
 
 def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
@@ -122,23 +120,10 @@ def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
         wheel = seen(x, y, middle)
         wide = (share * whole for share in SHARES)
-        half = next((each for each in wide if not _beyond(sizes, wheel, each)), None)
+        half = next((each for each in wide if not beyond(sizes, wheel, each)), None)
         if half is None:
             raise GenevaError("nothing is left of a locking sector", ("size", "lock_radius_mm"))
         outer = about((0.0, 0.0), sizes.lock, middle - half, 2.0 * half)
         edges = Line(outer.end, (0.0, 0.0)), Line((0.0, 0.0), outer.start)
         found.append(closed(DISC, [outer, *edges]))
     return found
-
-
-def _beyond(sizes: Sizes, wheel: Reached, half: float) -> bool:
-    """Whether no inner arc of a sector clears some places of the wheel, within its limit.
-
-    An arc that meets both edges within the limit, and passes beyond a place that lies beyond it,
-    has its middle beyond it too; ``inner_arc`` ends it farther out than places near the edges are.
-    """
-    limit, aside = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
-    inside = CLEARLY * aside < half
-    beside = wheel.radius[inside & (aside > half - EDGE / CLEARLY)]
-    edge = beside + np.minimum(sizes.relief, (sizes.lock - beside) / 3.0)
-    return bool((wheel.radius[inside] >= limit).any() or (edge >= limit).any())

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: how far a sector's edge reaches
 TINY = 1e-9
+CLEARLY = 1.0 + 1e-6  # times a distance: what is farther is so whatever the rounding
 BESIDE = 1e-9  # of a cosine: more than its rounding
 THIN = 0.1  # of the disc's radius: a locking sector is no thinner
 POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
@@ -80,7 +81,7 @@ def rings(
         few = seen(*towards(*some, middle, whole), middle)
         every = cache(lambda at=middle, half=whole: seen(*towards(*all_(1), at, half), at))
         for half in (share * whole for share in SHARES):
-            if beyond(few, half, limit):  # and so it is with all
+            if beyond(sizes, few, half) or beyond(sizes, every(), half):
                 continue
             edge, floor = inner_arc(sizes, half, every(), spare)
             if max(edge, floor) < limit:
@@ -96,17 +97,26 @@ def rings(
     return found
 
 
-def beyond(wheel: Reached, half: float, limit: float) -> bool:
-    """Whether a sector's edges, or the middle of its inner arc, lie beyond a limit on account of
-    some places alone: the edges are beyond those near to them, the middle beyond all.
+def beyond(sizes: Sizes, wheel: Reached, half: float) -> bool:
+    """Whether no inner arc of a sector clears some places of the wheel within its limit; nor does
+    any that clears more of them.
+
+    On a circle about a place ahead distances from the axis rise with the way ahead: an arc that
+    meets both edges within the limit, and passes beyond a place ahead that lies beyond the limit,
+    has its middle beyond it too. And the edges are farther out than places near to them.
     """
-    radius, off = wheel
-    aside = np.abs(off)
-    inside = (aside < half) & (radius >= limit)
-    if not inside.any():
-        return False
-    radius, aside = radius[inside], aside[inside]
-    return bool(((aside > half - EDGE) | (radius * np.cos(aside) >= limit)).any())
+    limit, aside = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
+    inside = CLEARLY * aside < half
+    if (wheel.radius[inside & (aside <= 0.5 * math.pi)] >= limit).any():
+        return True
+    beside = wheel.radius[inside & (aside > half - EDGE / CLEARLY)]
+    return bool((beside + _spare(sizes, beside) >= limit).any())
+
+
+def _spare(sizes: Sizes, at_edge: Array) -> Array:
+    """By how much the edges are farther out than the farthest place near to them."""
+    out: Array = np.minimum(sizes.relief, (sizes.lock - at_edge) / 3.0)
+    return out
 
 
 def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:

@@ -87,14 +87,18 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
     Raises GenevaError where the machine has no flat parts, or its sizes leave none.
     """
     where = assembly(mechanism)
-    size = sizes(where)
-    curved = any(engagement.slot.curved for engagement in where.kinds)
-    fine = max(0.5 * CURVED * where.L, tolerance)
-    walls = {engagement: slot_walls(where, size, engagement, fine) for engagement in where.kinds}
-    close = (CURVED if curved else EXACT) * where.L
-    wheel = wheel_contour(where, size, walls)
-    crank, relief, gaps = _relieved(Gaps(where, size, wheel, []), close)
-    return Outlines(where, size, walls, wheel, crank, relief, gaps, close, fine)
+    return drawn(where, sizes(where), tolerance)
+
+
+def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
+    """The same of an assembly whose sizes are known."""
+    kinds, L = assembly.kinds, assembly.L
+    fine = max(0.5 * CURVED * L, tolerance)
+    walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
+    close = (CURVED if any(engagement.slot.curved for engagement in kinds) else EXACT) * L
+    wheel = wheel_contour(assembly, sizes, walls)
+    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), close)
+    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
 
 
 def slot_walls(

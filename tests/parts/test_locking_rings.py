@@ -20,11 +20,11 @@ def test_what_is_beyond_is_so_by_the_whole_arc_too():
     size = sizes(assembly(build(Spec(Internal(6)))))
     limit, some = 0.9 * size.lock, np.random.default_rng(8)
     told = []
-    for _ in range(200):
-        half = some.uniform(0.2, 1.5)
-        radius = size.lock * (1.0 - some.exponential(0.3, 40)) ** 2
-        places = Reached(radius, some.uniform(-math.pi, math.pi, 40))
-        told.append((beyond(places, half, limit), max(inner_arc(size, half, places, 0.0)) < limit))
+    for _ in range(2000):
+        half = some.uniform(0.2, 3.0)
+        radius = size.lock * (1.0 - some.exponential(0.3, 12)) ** 2
+        places = Reached(radius, some.uniform(-math.pi, math.pi, 12))
+        told.append((beyond(size, places, half), max(inner_arc(size, half, places, 0.0)) < limit))
     assert {(True, False), (False, True)} <= set(told)
     assert (True, True) not in told
 

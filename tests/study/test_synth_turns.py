@@ -105,7 +105,7 @@ def test_a_play_that_fails_with_more_material_fails_before_parts_are_drawn(
     parts = Proof(machine).turned
     assert loose_about(parts, at_deg) > finds_slot(parts)
     seen = [Failing("hand_over_play_deg", at_deg), Failing("gap_mm", at_deg)]
-    monkeypatch.setattr(turns, "Proof", None)  # which draws them
+    monkeypatch.setattr(turns, "drawn", None)
     assert Turns().some_failing(machine, seen) == seen[:1]
 
 

@@ -94,6 +94,15 @@ class Law(SpecTable):
         """
         return self.first(w, order)
 
+    @property
+    def halves_alike(self) -> bool:
+        """Whether the second half is worked out as the first.
+
+        >>> Cycloidal().halves_alike, SineGroup(0.1).halves_alike
+        (True, False)
+        """
+        return type(self).second is Law.second
+
     def near_start(self, u: Number, order: int) -> Jet:
         """``first``; at 0 and 1/2, which every machine of the law asks for, it is kept.
 
@@ -111,7 +120,7 @@ class Law(SpecTable):
         return self._kept(self.second, True, w, order)
 
     def _kept(self, half: Callable[[Number, int], Jet], last: bool, u: Number, order: int) -> Jet:
-        if not isinstance(u, float) or u not in (0.0, 0.5) or self._varies:
+        if not isinstance(u, float) or u not in (0.0, 0.5) or self.varies:
             return half(u, order)
         key = last, u, order
         if key not in self._at_ends:
@@ -119,7 +128,7 @@ class Law(SpecTable):
         return self._at_ends[key]
 
     @cached_property
-    def _varies(self) -> bool:
+    def varies(self) -> bool:
         """Whether it is of many designs, with arrays."""
         return any(is_array(getattr(self, field.attribute)) for field in fields(type(self)))
 

@@ -19,6 +19,7 @@ from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.at_most import at_most
 from geneva_cli.parts.crank import rollers_gap
+from geneva_cli.parts.outlines import drawn
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
@@ -109,7 +110,7 @@ class _Turn:
     def _made(self) -> Turned | Failing:
         """The parts, or the key in their way."""
         try:
-            return Proof(self._machine, advice=False).turned
+            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).turned
         except GenevaError as error:
             return Failing(str(error.key[-1]) if error.key else "outline")
 
