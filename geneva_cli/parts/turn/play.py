@@ -9,6 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import reduce
+from itertools import groupby
+from operator import or_
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -145,8 +148,9 @@ def _measured(parts: Turned, at: Array, fits: bool) -> Play:
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
     last = assembly.start_deg + assembly.span_deg
-    for a, b, motion, rests in windows(parts):
-        here = np.flatnonzero((at >= a - NEAR) & (at <= b + NEAR))
+    for motion, spans in groupby(windows(parts), key=lambda window: window.motion):
+        inside = [(w, (at >= w.start - NEAR) & (at <= w.end + NEAR)) for w in spans]
+        here = np.flatnonzero(reduce(or_, [mask for _, mask in inside]))
         if not len(here):
             continue
         x = at[here]
@@ -154,10 +158,11 @@ def _measured(parts: Turned, at: Array, fits: bool) -> Play:
         before, after = np.split(parts.in_wheel(motion, np.concatenate((low, high))), 2)
         moved = np.linalg.norm(after - before, axis=1) / (high - low)
         speed[here] = np.maximum(speed[here], moved)
-        if rests:
-            resting[here] = True
-        else:
-            guided[here] |= parts.past_mouth(motion, x) > -NEAR * assembly.L
+        for window, mask in inside:
+            if window.rests:
+                resting |= mask
+            elif mask.any():
+                guided[mask] |= parts.past_mouth(motion, at[mask]) > -NEAR * assembly.L
     known = touching(parts)
     back_push, on_push = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
     return Play(

@@ -23,7 +23,8 @@ SHARE = 0.25  # of the thinnest feature: parts move no farther between two posit
 POSITIONS = 4000  # at most
 DIP = 1e-9  # mm: a gap that is less by less is not
 DIPS = 12  # smallest gaps that are looked at more closely
-FINER = 9  # positions put around each of them, each time
+FINER = 9  # positions put around each of them, each time,
+HALF = FINER // 2  # of which those at both ends and amid are mostly known
 ROUNDS = 6
 CHANGE_DEG = 15.0  # of the input, on either side of entry and exit,
 ENDS = 24  # there are that many positions
@@ -122,15 +123,20 @@ def _least(
     ]
     # Only where it comes near to the smallest can a smaller one lie between.
     dips = dips[np.argsort(values[dips])][:DIPS]
-    low, high = at[dips - 1], at[dips + 1]
+    about = dips[:, None] + (-1, 0, 1)  # the place, and those beside it
+    known_at, known = at[about], values[about]
     closer: list[tuple[Array, Array]] = []
     for _ in range(ROUNDS if len(dips) else 0):
-        x = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINER)
-        v = gap(x.ravel()).reshape(x.shape)
+        low, high = known_at[:, :1], known_at[:, -1:]
+        x = low + (high - low) * np.linspace(0.0, 1.0, FINER)
+        v, fresh = np.empty(x.shape), np.ones(x.shape, dtype=bool)
+        v[:, ::HALF], fresh[:, ::HALF] = known, x[:, ::HALF] != known_at
+        v[fresh] = gap(x[fresh])
         i = np.argmin(v, axis=1)
         rows = np.arange(len(x))
         closer.append((v[rows, i], x[rows, i]))
-        low, high = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, FINER - 1)]
+        about = np.clip(i[:, None] + (-1, 0, 1), 0, FINER - 1)
+        known_at, known = x[rows[:, None], about], v[rows[:, None], about]
     yield _earliest(at, values, closer, close, earlier, parts)
 
 
