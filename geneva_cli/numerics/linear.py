@@ -33,7 +33,9 @@ def gram(shape: Array, other: Array) -> Array:
 
 def inverse2(matrix: Array) -> Array:
     """The inverses of 2 x 2 matrices in a stack (..., 2, 2); not finite where there is none."""
-    (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
-    adjugate = np.stack([np.stack([d, -b], -1), np.stack([-c, a], -1)], -2)
-    out: Array = adjugate / (a * d - b * c)[..., None, None]
+    a, b, c, d = (matrix[..., i, k] for i in (0, 1) for k in (0, 1))
+    whole = a * d - b * c
+    out = np.empty(matrix.shape)
+    for i, k, cofactor in ((0, 0, d), (0, 1, -b), (1, 0, -c), (1, 1, a)):
+        out[..., i, k] = cofactor / whole
     return out
