@@ -82,7 +82,8 @@ def _refined(f: Signed, range_: Range, tops: Tops, turns: Turns) -> list[Doubted
         value, slope, bend, *signed = jets(f, x, turns, live)
         # an end that is stationary itself is divided out of the slope that Newton sees
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
-        least = (np.stack(signed) / size[:, live]).min(axis=0, initial=np.inf)
+        of_signs = np.reshape(signed, (f.signs, len(live)))  # that are none, too
+        least = (of_signs / size[:, live]).min(axis=0, initial=np.inf)
         return slope, bend - slope * np.nan_to_num(others), value, least
 
     width = b - a

@@ -255,6 +255,18 @@ def test_sizes_of_half_a_motion_are_those_of_the_whole(name):
         assert sizes[load].max == pytest.approx(most, rel=32 * ULP), load
 
 
+def test_a_torque_alone_has_no_sign_that_counts():
+    """Of a constant torque the force is greatest where its lever is least, at mid-motion."""
+    spec = MACHINES["side-crank"][0].replace(load=Load(torque_Nm=3.0))
+    found = many(spec, {"drive.A": np.array([-0.2, 0.0, 0.6])})
+    names = ("pin_force_N", "input_torque_Nm")
+    sizes = greatest_of_many(found.machine, names)
+    for i, row in enumerate(found.which.tolist()):
+        one = build(spec.replace(drive=spec.drive.replace(A=(-0.2, 0.0, 0.6)[row])))
+        for name, ends in zip(names, ends_of(Cycle(one), *names), strict=True):
+            assert sizes[name].max[i] == pytest.approx(max(ends.max, -ends.min), rel=32 * ULP)
+
+
 def test_the_inertia_alone_against_the_theory():
     """theory-loads: the pin force's factor of the classic wheel of six slots, at -19.96 deg."""
     spec, _ = MACHINES["crank"]
