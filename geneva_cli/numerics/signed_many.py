@@ -9,7 +9,7 @@ Those in which a function may pass what is known of it are left to ``turns_many`
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -52,10 +52,11 @@ if TYPE_CHECKING:
 
 BLOCK = 2048  # designs sampled at a time: so many lie in the processor's cache
 CELLS = 8  # of a span, to begin with
+FEW = 4  # of one that is short
+SHORT = 0.4  # share of the widest span on the same side of 0
 ENDED = 1e-6  # share of a cell: after so short a step, what is left of a zero is rounding
 NARROWEST = 0.25  # share of a span: samples are spread no more than by this
 NARROW = 1e-9  # share of a place: a cell no wider is not halved
-_HALF = np.arange(CELLS // 2) / CELLS
 
 
 class Found(NamedTuple):
@@ -86,9 +87,9 @@ def search(
         return _Search(f, n, sized, known, w, cuts).found(spans)
 
 
-def places(a: Array, b: Array) -> Array:
+def places(a: Array, b: Array, cells: int = CELLS) -> Array:
     """Places of samples, of mirrored spans mirrored: each half is counted from its own end."""
-    way = (b - a) * _HALF
+    way = (b - a) * (np.arange(cells // 2) / cells)
     return np.asfortranarray(np.hstack((a + way, 0.5 * (a + b), b - way[:, ::-1])))
 
 
@@ -118,11 +119,13 @@ class _Search:
                 self.tops.add(self.tops.number(k, sign), there, place[there], side)
 
     def found(self, spans: Sequence[tuple[Array, Array]]) -> Found:
+        groups = list(_by_cells(spans))
         for i in range(0, self.n, BLOCK):
             part, every = slice(i, i + BLOCK), []
-            for number, (a, b) in enumerate(spans):
-                if (b > a)[part].any():
-                    every.append(self._sampled(a[part], b[part], part, number))
+            for number, count, there in groups:
+                if there[part].any():
+                    a, b = (end[part] for end in spans[number])
+                    every.append(self._sampled(a, b, part, number, count, there[part]))
             # a cell is judged by what is known of all spans
             for samples, there in every:
                 self._judge(samples, there)
@@ -140,12 +143,13 @@ class _Search:
             self._settle(joined([half for one in doubted for half in self._parted(one)]))
         return Found(self.tops.most, self.tops.places(), joined(self.cuts))
 
-    def _sampled(self, a: Array, b: Array, part: slice, number: int) -> tuple[Samples, Mask]:
-        """One span of some designs, and which of them have one."""
-        f, there = self.f, (b > a)[:, 0]
-        b = np.maximum(a, b)
+    def _sampled(
+        self, a: Array, b: Array, part: slice, number: int, count: int, there: Mask
+    ) -> tuple[Samples, Mask]:
+        """One span of a part of the designs, in so many cells; those that are ``there`` count."""
+        f, b = self.f, np.maximum(a, b)
         # Designs lie side by side in memory: each operation runs along all of them.
-        x = places(a, b) if self.w is None else spread_places(a, b, self.w[part])
+        x = places(a, b, count) if self.w is None else spread_places(a, b, self.w[part], count)
         at = f.at(x, part, 1)
         positive, (value, slope) = f.look(at)
         slope *= DEGREE
@@ -398,10 +402,24 @@ class _Search:
         return taken(halves[0], open_), taken(halves[1], open_)
 
 
-def spread_places(a: Array, b: Array, w: Array) -> Array:
+def _by_cells(spans: Sequence[tuple[Array, Array]]) -> Iterator[tuple[int, int, Mask]]:
+    """The number of each span, into how many cells it is cut, and in which of the designs: (n,).
+
+    A piece of a motion that is short beside another one on its side of 0 has less to tell.
+    """
+    width = np.stack([(b - a)[:, 0] for a, b in spans])
+    before = np.stack([(a + b)[:, 0] < 0.0 for a, b in spans])
+    first, last = (np.where(side, width, 0.0).max(axis=0) for side in (before, ~before))
+    short = width <= SHORT * np.where(before, first, last)
+    for number, there in enumerate(width > 0.0):
+        yield number, FEW, there & short[number]
+        yield number, CELLS, there & ~short[number]
+
+
+def spread_places(a: Array, b: Array, w: Array, cells: int = CELLS) -> Array:
     """The same, spread about 0, but so that no cell is wider than a quarter of the span."""
     w = np.maximum(w, NARROWEST * (b - a))
-    x = np.clip(gathered(places(spread(a, w), spread(b, w)), w)[0], a, b)
+    x = np.clip(gathered(places(spread(a, w), spread(b, w), cells), w)[0], a, b)
     x[:, :1], x[:, -1:] = a, b
     return x
 
