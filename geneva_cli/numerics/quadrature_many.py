@@ -25,6 +25,8 @@ BLOCK = 1024  # spans at a time: their places lie in the processor's cache
 NODES = 20  # of a load between its cuts most are settled by so many
 FEW = 12  # and by so many where the span is below a share of its design's widest
 NARROW = 0.25
+MANY = 28  # and by so many where the span is so many times as wide as poles are far
+WIDE = 1.6
 TERMS = 2  # taken together: of an even or odd function every other one is 0
 LEFT = 2e-13  # share of a design's integral that may be left
 
@@ -38,6 +40,7 @@ def integrals_many(
     ends: bool = False,
     analytic: bool = True,
     apart: bool = False,
+    poles: Array | None = None,
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
@@ -48,7 +51,8 @@ def integrals_many(
     ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
     (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
     then t² (3 - 2 t) of it. With ``apart`` the integral of each span is had: (functions, spans),
-    to the same share of its design's.
+    to the same share of its design's. ``poles`` (spans,) is how far from the real axis the nearest
+    are, if that is known.
     """
     n = asked.shape[1]
     into = np.arange(len(a)) if apart else design
@@ -56,16 +60,20 @@ def integrals_many(
     widest = np.zeros(n)
     np.maximum.at(widest, design, b - a)
     narrow = b - a <= NARROW * widest[design]
-    of = np.concatenate((np.flatnonzero(narrow), np.flatnonzero(~narrow)))
-    low, high, few = np.zeros(len(a)), np.ones(len(a)), int(narrow.sum())
+    wide = ~narrow & (b - a > WIDE * (np.inf if poles is None else poles))
+    groups = [(FEW, narrow), (NODES, ~(narrow | wide)), (MANY, wide)]
+    of = np.concatenate([np.flatnonzero(which) for _, which in groups])
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    counts = [(nodes, int(which.sum())) for nodes, which in groups]
     for _ in range(DEEPEST):
         check_time()
-        found = []
-        for nodes, start, stop in ((FEW, 0, few), (NODES, few, len(of))):
-            for i in range(start, stop, BLOCK):
-                part = slice(i, min(i + BLOCK, stop))
+        found, start = [], 0
+        for nodes, count in counts:
+            for i in range(start, start + count, BLOCK):
+                part = slice(i, min(i + BLOCK, start + count))
                 spans = a, b, of[part], low[part], high[part]
                 found.append(_parts(functions, *spans, nodes, ends, analytic))
+            start += count
         whole, left, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
         if not len(total):
             total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
@@ -76,7 +84,8 @@ def integrals_many(
             return total
         middle = 0.5 * (low + high)[open_]
         low, high = np.concatenate((low[open_], middle)), np.concatenate((middle, high[open_]))
-        of, few = np.concatenate((of[open_], of[open_])), 0
+        of = np.concatenate((of[open_], of[open_]))
+        counts = [(NODES, len(of))]
     total[:, into[of]] = np.inf
     return total
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics import quadrature_many
-from geneva_cli.numerics.quadrature_many import FEW, LEFT, NODES, integrals_many
+from geneva_cli.numerics.quadrature_many import FEW, LEFT, MANY, NODES, WIDE, integrals_many
 
 
 def summed(f, n=1, ends=False):
@@ -54,6 +54,22 @@ def test_designs_that_need_more_are_halved(ends):
     s = np.array([1.0, 1e-4])
     found, _ = summed(lambda x, which: 1.0 / (x * x + s[which, None] ** 2), 2, ends)
     assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=4e-15)
+
+
+def test_spans_with_poles_beside_them_begin_with_more_places():
+    """∫ dx/(x² + s²) over [0, 1], with poles at i s and -i s."""
+    s = np.array([0.58, 0.65])
+    assert (WIDE * s < 1.0).tolist() == [True, False]
+    places = []
+
+    def functions(x, which):
+        places.append(x.shape[1])
+        return 1.0 / (x * x + s[which, None] ** 2)[None]
+
+    every, asked = (np.zeros(2), np.ones(2), np.arange(2)), np.full((1, 2), True)
+    found = integrals_many(functions, *every, asked, poles=s)[0]
+    assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=LEFT)
+    assert places == [NODES, MANY]
 
 
 def test_narrow_spans_begin_with_fewer_places():

@@ -155,7 +155,8 @@ def sums(load: Loaded, pieces: Cuts, bounded: Mask, n: int, plain: bool, analyti
     with np.errstate(all="ignore"):
         asked = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
-        total = integrals_many(by_spread, *ends, design, asked, rooted, analytic)
+        poles = 0.5 * np.pi * w
+        total = integrals_many(by_spread, *ends, design, asked, rooted, analytic, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]
