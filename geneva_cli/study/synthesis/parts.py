@@ -72,6 +72,14 @@ def suited(spec: Spec) -> tuple[Mechanism, Parts]:
     return mechanism, parts(mechanism)
 
 
+def nothing_in_the_way(spec: Spec) -> bool:
+    """Whether it makes a machine, and nothing stands in the way of its parts."""
+    try:
+        return not suited(spec)[1].why
+    except GenevaError:
+        return False
+
+
 def parts(mechanism: Mechanism) -> Parts:
     """The largest usual roller that does, up to L/20; a larger one where the slot needs it.
 

@@ -135,11 +135,11 @@ def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | Non
     not goes to ``errors``.
     """
     with searches_kept():  # every machine is looked at with others first
-        found = _rows(wish, [_limited(wish, spec) for spec in specs], errors)
+        found = _rows(wish, [limited(wish, spec) for spec in specs], errors)
     return [row if row and _granted(wish, row) else None for row in found]
 
 
-def _limited(wish: Wish, spec: Spec) -> Spec:
+def limited(wish: Wish, spec: Spec) -> Spec:
     """The spec with the limit that the wish is, beside its own."""
     if wish.acceleration_max is None:
         return spec

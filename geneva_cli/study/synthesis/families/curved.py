@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
@@ -31,7 +30,7 @@ from geneva_cli.study.synthesis.families.family import (
     wanted,
 )
 from geneva_cli.study.synthesis.looks import look_at
-from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.parts import nothing_in_the_way
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
@@ -132,20 +131,13 @@ def more_rollers(
     while growing:
         specs = {i: some for i, m in growing.items() if (some := lines[i][1](m))}
         look_at(first for first, *_ in specs.values())
-        stuck = {i for i, (first, *_) in specs.items() if not _nothing_in_the_way(first)}
+        stuck = {i for i, (first, *_) in specs.items() if not nothing_in_the_way(first)}
         look_at(spec for i in stuck for spec in specs[i][1:])
-        stuck = {i for i in stuck if not any(map(_nothing_in_the_way, specs[i][1:]))}
+        stuck = {i for i in stuck if not any(map(nothing_in_the_way, specs[i][1:]))}
         growing = {i: growing[i] + 1 for i in specs if i not in stuck}
         for i in growing:
             found[i].append(specs[i][0])
     return found
-
-
-def _nothing_in_the_way(spec: Spec) -> bool:
-    try:
-        return not suited(spec)[1].why
-    except GenevaError:
-        return False
 
 
 def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
