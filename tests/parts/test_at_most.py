@@ -8,7 +8,12 @@ import pytest
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.laws.standard import Cycloidal, ModifiedSine, ModifiedTrapezoid
+from geneva_cli.machine.laws.standard import (
+    Cycloidal,
+    ModifiedSine,
+    ModifiedTrapezoid,
+    SineGroup,
+)
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
@@ -39,7 +44,7 @@ def pairs():
     while len(found) < 12:
         drive = some.choice([Crank, Cam])(rollers=some.choice([1, 1, 2]))
         ratio = some.choice(["matched", None]) if drive.NAME == "crank" else None
-        law = some.choice([ModifiedSine(), ModifiedTrapezoid(), Cycloidal()])
+        law = some.choice([ModifiedSine(), ModifiedTrapezoid(), Cycloidal(), SineGroup(0.1)])
         size = {"roller_radius_mm": some.choice([5.0, 4.0, 3.0, 2.5, 2.0, 1.0])}
         if some.random() < 0.3:
             size["slot_clearance_mm"] = some.uniform(0.0, 0.2)
