@@ -98,24 +98,24 @@ class Growing(Closing):
                 f"--resume: {cut(os.path.basename(self.partial))} was begun for something else "
                 "(another spec, other options or another version); start without --resume"
             )
-        self._cut_to_whole_lines(self.file)
+        self.done = self._cut_to_whole_lines(self.file) - bool(header)
         if self.done < 0:  # not even the header was written
             self.file.close()
             self.done = 0
             self._begin(header)
         return True
 
-    def _cut_to_whole_lines(self, rows: TextIO) -> None:
-        """A line that was being written when the run ended is written again."""
+    def _cut_to_whole_lines(self, rows: TextIO) -> int:
+        """How many there are: one that was being written when the run ended is written again."""
         lines, end = 0, 0
         with open(self.partial, "rb") as file:
             while piece := file.read(1 << 20):
                 lines += piece.count(b"\n")
                 last = piece.rfind(b"\n")
                 end = file.tell() - len(piece) + last + 1 if last >= 0 else end
-        self.done = lines - 1
         rows.seek(end)
         rows.truncate()
+        return lines
 
     def append(self, text: str) -> None:
         """Whole lines, which are on disk before the next are worked on."""

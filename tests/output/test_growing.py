@@ -47,6 +47,18 @@ def test_a_stopped_run_is_gone_on_from_its_last_whole_line(path):
     assert read(path) == "a,b\n1,2\n3,4\n5,6\n"
 
 
+@pytest.mark.parametrize("text", ["1,2\n3,4\n5,", "1", ""])
+def test_a_later_share_has_no_header_to_be_counted(path, text):
+    """The row that was taken for one came twice."""
+    with Growing(path, "", KEY, False) as file:
+        file.append(text)
+    with Growing(path, "", KEY, True) as file:
+        assert file.done == text.count("\n")
+        file.append("5,6\n")
+        file.finish()
+    assert read(path) == text[: text.rfind("\n") + 1] + "5,6\n"
+
+
 def test_without_resume_it_begins_again(path):
     begun(path, "1,2\n")
     with Growing(path, HEADER, KEY, False) as file:
