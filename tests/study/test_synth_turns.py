@@ -19,7 +19,7 @@ from geneva_cli.parts.turn.glance import gap_about, loose_about
 from geneva_cli.study.synthesis import turns
 from geneva_cli.study.synthesis.built import built, built_together
 from geneva_cli.study.synthesis.looks import gap_at_rest, look
-from geneva_cli.study.synthesis.parts import USUAL, exact, with_roller
+from geneva_cli.study.synthesis.parts import USUAL, exact, parts, with_roller
 from geneva_cli.study.synthesis.reading import read_wish
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.turns import Failing, Turns, same_turn
@@ -180,3 +180,28 @@ def test_the_first_roller_that_passes_every_check_is_taken(spec, name, radius):
     first = next(s for s in sized if all(c.passes is not False for c in checks(build(s))))
     assert built(spec) == (first, "")
     assert first.size.roller_radius_mm == radius
+
+
+@pytest.mark.parametrize(("z", "alpha0"), [(5, 0.0), (8, 0.0), (8, -20.0)])
+def test_an_undercut_near_its_limit_is_told_as_its_check_tells_it(z, alpha0):
+    """Where a look at few places is within a fifth of the limit, at all of them."""
+    motion = Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched")
+
+    def machine(r):
+        return build(with_roller(Spec(External(z), motion=motion), r))
+
+    def check(r):
+        (found,) = [c for c in checks(machine(r), parts=False) if c.name == "undercut_mm"]
+        return found
+
+    low, high = 0.5, 15.0
+    for _ in range(16):
+        middle = 0.5 * (low + high)
+        low, high = (
+            (low, middle) if check(middle).value > 0.9 * check(low).limit else (middle, high)
+        )
+    near = 0
+    for r in np.linspace(0.995 * low, 1.005 * low, 9).tolist():
+        near += 0.8 < check(r).value / check(r).limit <= 1.0
+        assert (parts(machine(r)).why == "undercut") == (check(r).passes is False)
+    assert near

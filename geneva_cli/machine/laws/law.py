@@ -129,7 +129,11 @@ class Law(SpecTable):
 
     @cached_property
     def varies(self) -> bool:
-        """Whether it is of many designs, with arrays."""
+        """Whether it is of many designs, with arrays.
+
+        >>> Cycloidal().varies
+        False
+        """
         return any(is_array(getattr(self, field.attribute)) for field in fields(type(self)))
 
     @cached_property

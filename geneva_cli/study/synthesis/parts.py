@@ -25,11 +25,12 @@ from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synthesis.looks import PartsLook, gap_at_rest, look
 from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
+from geneva_cli.verdict.checks.undercut import undercut_depth
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
+NEARLY = 0.8  # of the undercut that is let pass: a look at more places tells which it is
 SPARE = 1.001  # times the least roller, for what lies between the places that are compared
 KEPT = 1024  # machines: those of more rollers are asked for twice
-NEARLY = 0.8  # of the undercut that is let pass, for the same reason
 
 # Why parts cannot be built, in one word
 ISLAND = "island"
@@ -124,7 +125,10 @@ def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]
     if mechanism.spec.size.roller_radius_mm is not None:
         r = mechanism.spec.size.roller_radius_mm
         return None, obstacle(r) or (ISLAND if r < at.least else "")
-    percent, why = _largest(_radii(at.least / L), of_share)
+    radii = _radii(at.least / L)
+    percent, why = _largest(radii, of_share)
+    if why == LOCK:  # the horns of a small roller are thin, and those of a larger one may do
+        percent, why = next(((r, "") for r in reversed(radii) if not of_share(r)), (None, LOCK))
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
         percent, _ = _largest(_radii(0.0), of_share)  # the island apart, nothing is in the way
         why = ISLAND
@@ -176,7 +180,7 @@ def _radii(least: float) -> list[float]:
 def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:
     """The largest radius that nothing stands in the way of, or what does so of the smallest.
 
-    What stands in the way of a roller does so of a larger one too.
+    What stands in the way of a roller does so of a larger one too, but for a lock's thin horns.
     """
     if not obstacle(radii[-1]):
         return radii[-1], ""
@@ -200,5 +204,8 @@ def _obstacle(where: Assembly, at: PartsLook, r: float) -> str:
     if at.back and gap_at_rest(at.back, found.rim, w, found.roller) < -CONTACT * L:
         return GAP
     bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
-    cuts = (depths_mm(wall, w, L)[0] for wall in bent)
-    return UNDERCUT if any(cut > NEARLY * SHOWN_UNDERCUT for cut in cuts) else ""
+    cut = max((float(depths_mm(wall, w, L)[0]) for wall in bent), default=0.0)
+    if NEARLY * SHOWN_UNDERCUT < cut <= SHOWN_UNDERCUT:
+        check = undercut_depth(UNDERCUT, mechanism)
+        return UNDERCUT if check and check.passes is False else ""
+    return UNDERCUT if cut > SHOWN_UNDERCUT else ""
