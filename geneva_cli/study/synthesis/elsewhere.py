@@ -45,16 +45,16 @@ class Place(NamedTuple):
     row: Row
 
 
-def with_others(wish: Wish, found: Sequence[Row]) -> list[Row]:
-    """The rows, and of each family none of whose rows can be built the best machine that may be;
-    where they break a limit of the frame, there is another search for such.
+def standing_in(wish: Wish, first: Sequence[Row], found: Sequence[Row]) -> list[Row]:
+    """For those of the ``first`` of some rows that cannot be built the best machines of their
+    families that may be; where they break a limit of the frame, there is another search for such.
     """
-    able = {row.family for row in found if not row.cannot_be or breaks_limit(row)}
-    stuck = [*dict.fromkeys(row.family for row in found if row.family and row.family not in able)]
+    able = {row.family for row in found if not row.cannot_be}
+    stuck = [row.family for row in first if row.cannot_be and not breaks_limit(row)]
+    families = [*dict.fromkeys(family for family in stuck if family and family not in able)]
     known = {row.spec for row in found}
-    others = elsewhere(wish, stuck) if stuck else []
-    standing = [row for row in others if row and row.spec not in known]
-    return [*found, *(row._replace(stands_in=True) for row in standing)]
+    others = elsewhere(wish, families) if families else []
+    return [row._replace(stands_in=True) for row in others if row and row.spec not in known]
 
 
 def elsewhere(wish: Wish, families: Sequence[Family], turn: Turn | None = None) -> list[Row | None]:

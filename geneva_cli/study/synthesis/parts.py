@@ -28,7 +28,7 @@ from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 from geneva_cli.verdict.checks.undercut import undercut_depth
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
-NEARLY = 0.8  # of the undercut that is let pass: a look at more places tells which it is
+NEARLY = 0.98  # of the undercut that is let pass: more places tell more, seldom by two hundredths
 SPARE = 1.001  # times the least roller, for what lies between the places that are compared
 KEPT = 1024  # machines: those of more rollers are asked for twice
 

@@ -16,7 +16,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best, known_bounds
-from geneva_cli.study.synthesis.elsewhere import with_others
+from geneva_cli.study.synthesis.elsewhere import standing_in
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import Kind, families, kinds, longest_first
 from geneva_cli.study.synthesis.families.family import BARE, natural_deg, pieces
@@ -34,6 +34,7 @@ from geneva_cli.study.synthesis.wish import Wish
 
 LOOKED_INTO = 120  # machines of a kind that are asked for what is not known of many together
 WORTH = 0.01  # share by which a machine of two numbers must better one of one number
+TURNED = 20  # rows whose parts are turned where nothing is said
 WHEELS = 6  # times laws: a search of fewer is done before a second process has begun
 
 
@@ -93,7 +94,11 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
     if frame_limits(wish) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
         within = _within_limits(narrowed, wanted, [any(map(breaks_limit, p.rows)) for p in parts])
         ranked = sorted(giving_way(ranked, within), key=lambda row: _rank(wish, wanted, row))
-    return FoundRows(ranked, narrowed, wanted)
+    found_rows = FoundRows(ranked, narrowed, wanted)
+    others = map(found_rows.in_turn, standing_in(narrowed, ranked[:TURNED], ranked))
+    ranked.extend(row for row in others if row)
+    ranked.sort(key=found_rows.rank)
+    return found_rows
 
 
 def _ranked(
@@ -162,8 +167,6 @@ def _part(task: tuple[Kind, Wish], names: Sequence[str], how_near: bool) -> _Par
         for spec, row in zip(shown, rows(wish, shown, errors), strict=True)
         if row
     ]
-    if not how_near:
-        found = with_others(wish, found)
     return _Part(found, asked_together(names, found), keeps, reached, errors)
 
 

@@ -12,14 +12,13 @@ from geneva_cli.study.synthesis.built import Built, built_together, passes
 from geneva_cli.study.synthesis.elsewhere import elsewhere
 from geneva_cli.study.synthesis.parts import MAYBE, YES
 from geneva_cli.study.synthesis.rows import Candidate, Row
-from geneva_cli.study.synthesis.search import FoundRows, search
+from geneva_cli.study.synthesis.search import TURNED, FoundRows, search
 from geneva_cli.study.synthesis.turns import Turns, same_turn
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks.registry import import_checks
 
 NAMES = ("no", *Candidate._fields)
-TURNED = 20  # rows whose parts are turned where nothing is said
 
 
 def synthesis_table(
@@ -61,13 +60,16 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
         maybe = [one for one in maybe if one.no <= count]
     built = _built([one.row.spec for one in maybe], fixed(found.wish), in_order=buildable)
     results: dict[int, Row] = {}
-    passed = 0
+    passed = last = 0
     for one in maybe:
         if buildable and passed >= count:
             break
         results[one.no] = with_result(one.row, next(built))
         passed += results[one.no].candidate.parts == YES
+        last = one.no if passed < count else last
     again = {no: r for no, r in results.items() if r.cannot_be and (buildable or r.stands_in)}
+    if buildable:
+        again |= _stuck(every[:last], found)
     others = _others(found, again)
     results |= others
     shown = [one._replace(row=results.get(one.no, one.row)) for one in every]
@@ -77,6 +79,12 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
         shown = [one for one in shown if one.no not in again or one.no in others]
     shown.sort(key=lambda one: found.rank(one.row))
     return shown[:count] if buildable else shown
+
+
+def _stuck(every: Sequence[Numbered], found: FoundRows) -> dict[int, Row]:
+    """Those of some rows that cannot be built, and for which no other stands in."""
+    able = {row.family for row in found.rows if not row.cannot_be}
+    return {no: row for no, row in every if row.cannot_be and row.family not in able}
 
 
 def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
