@@ -120,8 +120,8 @@ def run(
     Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
     they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
     the parts of its row. Where one of the first twenty says no without being turned, the best of
-    its range that is found to pass is a row too; --buildable shows rows that pass, and for any that fails in
-    its turn the best of its range that is found to.
+    its range that is found to pass is a row too; --buildable shows rows that pass, and for any
+    that fails in its turn the best of its range that is found to.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 
