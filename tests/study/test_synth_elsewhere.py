@@ -138,3 +138,13 @@ def test_more_rollers_where_only_shorter_motions_can_be_built():
     assert [row.cannot_be for row in rows] == [True, False]
     assert rows[0].candidate.motion_deg > rows[1].candidate.motion_deg
     assert {row.candidate.rollers for row in curved(found) if not row.cannot_be} >= {4, 5, 6, 7, 8}
+
+
+def test_one_below_the_last_that_may_be_built_is_looked_for_too():
+    """Of those that are to pass, where no other stands in for it."""
+    found = search(read_wish(motion_deg="100..200", z="8", **CURVED))
+    alone = found._replace(rows=curved(found)[:1])
+    assert [row.candidate.parts for row in alone.rows] == ["no: island"]
+    ((no, row),) = turned(alone, buildable=True)
+    assert (no, row.candidate.parts) == (1, "yes")
+    assert not [c for c in checks(build(row.spec)) if c.passes is False]

@@ -60,13 +60,13 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
         maybe = [one for one in maybe if one.no <= count]
     built = _built([one.row.spec for one in maybe], fixed(found.wish), in_order=buildable)
     results: dict[int, Row] = {}
-    passed = last = 0
+    passed, last = 0, len(every)
     for one in maybe:
         if buildable and passed >= count:
+            last = one.no
             break
         results[one.no] = with_result(one.row, next(built))
         passed += results[one.no].candidate.parts == YES
-        last = one.no if passed < count else last
     again = {no: r for no, r in results.items() if r.cannot_be and (buildable or r.stands_in)}
     if buildable:
         again |= _stuck(every[:last], found)
