@@ -34,8 +34,7 @@ def frame_limits(wish: Wish) -> tuple[Constraint, ...]:
 
 def breaks_limit(row: Row) -> bool:
     """Whether a row breaks a limit of its frame."""
-    _, _, why = (row.candidate.parts or "").partition(": ")
-    return not {*MOST, *LEAST}.isdisjoint(why.split(", "))
+    return not {*MOST, *LEAST}.isdisjoint(row.trouble.split(", "))
 
 
 def family(row: Row) -> tuple[object, ...]:

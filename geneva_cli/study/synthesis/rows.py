@@ -15,7 +15,7 @@ from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.synthesis.by_law import law_peaks
 from geneva_cli.study.synthesis.families.family import Family, holds
 from geneva_cli.study.synthesis.looks import look, look_at
-from geneva_cli.study.synthesis.parts import MAYBE, YES, suited
+from geneva_cli.study.synthesis.parts import suited
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
@@ -105,7 +105,12 @@ class Row(NamedTuple):
     @property
     def cannot_be(self) -> bool:
         """Whether it is known that its parts cannot be built."""
-        return self.candidate.parts not in (None, MAYBE, YES)
+        return bool(self.trouble)
+
+    @property
+    def trouble(self) -> str:
+        """Why its parts cannot be built, empty where that is not known of them."""
+        return (self.candidate.parts or "").partition(": ")[2]
 
 
 def _failing(machine: Mechanism, costs: Sequence[float]) -> str:

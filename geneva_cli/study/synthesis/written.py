@@ -27,8 +27,7 @@ def chosen(found: FoundRows, number: int, buildable: bool = False) -> tuple[Buil
         row = with_result(row, built(row.spec, fixed(found.wish)))
     if row.cannot_be and (buildable or row.stands_in):
         row = other(found, row) or row
-    _, _, why = (row.candidate.parts or "").partition("no: ")
-    made = Built(row.spec, why)
+    made = Built(row.spec, row.trouble)
     return made, commented(found.wish, number, row.candidate, made)
 
 
