@@ -67,7 +67,9 @@ def ratios(
                 base = _time(baseline, base_repeats)
             start = process_time()
             own = _time(call, repeats[i])
-            least[i] = min(least[i], (process_time() - start) / repeats[i])
+            # a processor's clock that ticks seldom may not have moved
+            core = (process_time() - start) / repeats[i] or own
+            least[i] = min(least[i], core)
             spent[i] += own * repeats[i]
             pairs[i].append((base, own))
     timed = [Timed(median_ratio(p), core) for p, core in zip(pairs, least, strict=True)]

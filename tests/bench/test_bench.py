@@ -106,6 +106,13 @@ def test_ratios_are_of_pairs():
     assert set(calls) == {0, 1}
 
 
+def test_where_the_clock_of_the_processor_stands_still_the_wall_counts(monkeypatch):
+    """Some systems' clock ticks every sixteen milliseconds."""
+    monkeypatch.setattr("geneva_cli.bench.timing_pairs.process_time", lambda: 1.0)
+    _, (found,) = ratios(lambda: 0, [lambda: sum(range(1000))], 1e-4)
+    assert 0.0 < found.core_s < 1.0
+
+
 def invoke(*words):
     return CliRunner().invoke(app, ["bench", *words])
 

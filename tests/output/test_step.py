@@ -100,7 +100,9 @@ def test_random_outlines(corners, thickness):
     solid = Solid(file, body)
     assert solid.euler == 2
     for volume in solid.volumes():
-        assert volume == pytest.approx(area(plate.outline) * thickness, rel=VOLUME)
+        # of a thin plate the 12 decimals of its thickness are what counts
+        off = VOLUME * area(plate.outline) * (thickness + 1.0)
+        assert volume == pytest.approx(area(plate.outline) * thickness, rel=0.0, abs=off)
 
 
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
