@@ -35,7 +35,7 @@ from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.quadrature_many import NODES
-from geneva_cli.numerics.signed_many import CELLS, places
+from geneva_cli.numerics.signed_many import by_cells, places
 from geneva_cli.spec.tables import Load
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ def _task(asked: Asked, of: Designs, built: int) -> Task:
         one_by_one(of.alone, built, partial(_one, asked), most),
         Method(
             "formulas alone, nothing searched",
-            _places(asked, of.together),
+            _places(asked, of.together, built),
             partial(_formulas, asked, of.together, built),
         ),
         Method("together", None, partial(_together, asked, of.together), True),
@@ -182,10 +182,11 @@ def _together(asked: Asked, machine: Mechanism) -> Array:
     return np.column_stack([*sizes, *[one.rms for one in found if one.rms is not None]])
 
 
-def _places(asked: Asked, machine: Mechanism) -> int:
-    """How many places of a motion the formulas are worked out at."""
-    spans = len(machine.engagements[0].motion.breaks_deg) - 1
-    return spans * ((CELLS + 1) * asked.sized + NODES * asked.summed)
+def _places(asked: Asked, machine: Mechanism, count: int) -> int:
+    """How many places of a motion the formulas are worked out at, in the mean of the designs."""
+    spans = spans_of(machine.engagements[0], count)
+    sampled = sum((cells + 1) * float(there.mean()) for _, cells, there in by_cells(spans))
+    return round(sampled * asked.sized + NODES * len(spans) * asked.summed)
 
 
 def _formulas(asked: Asked, mechanism: Mechanism, count: int) -> Array:
@@ -208,9 +209,12 @@ def _formulas(asked: Asked, mechanism: Mechanism, count: int) -> Array:
 def _sampled(load: Loaded, n: int) -> Array:
     """The greatest of samples that have slopes too."""
     spans = spans_of(load.machine[0], n)
+    spans = spans[: len(spans) // 2] if load.repeats else spans
     most = np.zeros((load.wanted, n))
-    for a, b in spans[: len(spans) // 2] if load.repeats else spans:
-        _, (value, _) = load.look(load.at(places(a, b), slice(0, n), 1))
+    for number, cells, there in by_cells(spans):
+        if not there.any():
+            continue
+        _, (value, _) = load.look(load.at(places(*spans[number], cells), slice(0, n), 1))
         most = np.maximum(most, np.abs(value[load.signs :]).max(axis=2))
     squared = [name in SQUARED for name in load.names]
     most[squared] = np.sqrt(most[squared])

@@ -119,7 +119,7 @@ class _Search:
                 self.tops.add(self.tops.number(k, sign), there, place[there], side)
 
     def found(self, spans: Sequence[tuple[Array, Array]]) -> Found:
-        groups = list(_by_cells(spans))
+        groups = list(by_cells(spans))
         for i in range(0, self.n, BLOCK):
             part, every = slice(i, i + BLOCK), []
             for number, count, there in groups:
@@ -402,7 +402,7 @@ class _Search:
         return taken(halves[0], open_), taken(halves[1], open_)
 
 
-def _by_cells(spans: Sequence[tuple[Array, Array]]) -> Iterator[tuple[int, int, Mask]]:
+def by_cells(spans: Sequence[tuple[Array, Array]]) -> Iterator[tuple[int, int, Mask]]:
     """The number of each span, into how many cells it is cut, and in which of the designs: (n,).
 
     A piece of a motion that is short beside another one on its side of 0 has less to tell.
