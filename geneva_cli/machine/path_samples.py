@@ -170,8 +170,8 @@ def _padded(rows: Whole, base: PathPoints, whose: Whole, added: PathPoints) -> P
     starts = np.cumsum(counts) - counts
     width = int(counts.max())
     # beyond its own count a row stays at its last sample
-    place = starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)
-    return PathPoints._make(part[order][place] for part in parts)
+    place = order[starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)]
+    return PathPoints._make(part[place] for part in parts)
 
 
 def _samples(which: Whole, at: PathPoints, turned: Array) -> PathSamples:
