@@ -187,8 +187,16 @@ def _refuse_foreign(
 ) -> None:
     """Remove other kinds' keys that are at their defaults; raise GenevaError for the others."""
     own = {field.key for field in fields(cls)}
+    written = {k.casefold() for k in own}
     for key in [k for k in given if k not in own]:
         for other, theirs in kinds():
+            alike = [f.key for f in fields(theirs) if f.key.casefold() == key.casefold()]
+            if alike and key not in alike and key.casefold() not in written:
+                raise GenevaError(
+                    f"unknown key {cut(key)} in [{table}]{nearest(key, alike)}; "
+                    f"{alike[0]} belongs to {other}, and this is {of}",
+                    (table, key),
+                )
             field = next((f for f in fields(theirs) if f.key == key), None)
             if field and field.default is not REQUIRED and given[key] == field.default:
                 del given[key]

@@ -135,7 +135,14 @@ def pick(
 
 
 def _nearest(asked: str, known: Iterable[str]) -> str:
-    """`` (did you mean "..."?)``: by a whole name, or by the end of one, as dwell for dwell_s."""
+    """`` (did you mean "..."?)``: by a whole name, or by the end of one, as dwell for dwell_s.
+
+    A whole name behind a word too many, as velocity.max in peaks.velocity.max, comes first.
+    """
+    known = list(known)
+    behind = [name for name in known if asked.endswith(f".{name}")]
+    if behind:
+        return nearest(max(behind, key=len), behind)
     ends: dict[str, str] = {}
     for name in known:
         parts = name.split(".")

@@ -115,7 +115,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert file.read_text() == whole
     (tmp_path / "rows.csv.partial").write_text(whole[:300])
     (tmp_path / "rows.csv.partial.key").write_text(key)
-    other = geneva(*arguments, "--set", "wheel.z=7", "-o", str(file), "--resume")
+    other = geneva(*arguments, "--set", "drive.n_rpm=90", "-o", str(file), "--resume")
     assert other.exit_code == 2 and "begun for something else" in other.stderr
     assert file.read_text() == whole
 
@@ -280,6 +280,8 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--pareto", "min:wheel.gearing"], "a word has no order"),
         (["--vary", "drive.A=0.1", "--subject-to", "kind >= 1"], "drive.kind: a word has no"),
         (["--vary", "drive.A=0.1", "--pareto", "min:k,max:timing.k"], "both min and max"),
+        (["--vary", "drive.A=0.1", "--set", "drive.A=foo"], "--set drive.A=foo: --vary drive.A"),
+        (["--vary", "drive.A=0.1", "--pick", "peaks.velocity.max"], 'mean "velocity.max"?'),
         (["--vary", "drive.A=0.1", "--pick", "dwell"], '(did you mean "dwell_s"?)'),
         (["--vary", "drive.A=0.1", "--best", "k", "-o", "all.csv"], "--best writes a spec"),
         (["--vary", "drive.A=0.1", "--best", "k", "--format", "json"], "--best writes a spec"),
