@@ -105,8 +105,9 @@ def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:
     s, c = exactly(np.sin(phi)), exactly(np.cos(phi))
     found = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
     (x, vx), (y, vy) = cast("list[tuple[Long, Long]]", [jet.c for jet in found])
-    v = vx + 1j * vy
-    return x + 1j * y, v / np.abs(v)
+    v: LongComplex = vx + 1j * vy
+    unit: LongComplex = v / np.abs(v)
+    return x + 1j * y, unit
 
 
 def polished(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Long, Long]:

@@ -203,7 +203,7 @@ def driver_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, A
         i, slope = (array(c) for c in ratio.derivatives()[:2])
         C = gears.distance_mm
         r, change = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2
-        way = -np.exp(1j * sense * phi)
+        way: NDArray[np.complex128] = -np.exp(1j * sense * phi)
         return _points(r * way, (change + 1j * sense * r) * way)
 
     return curve

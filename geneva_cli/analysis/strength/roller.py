@@ -194,5 +194,6 @@ def wears_mm(mechanism: Mechanism, each: Sequence[Passage]) -> Array | None:
     if k is None or width is None:
         return None
     rate = np.ravel(1e6 * k / (width * 1000.0))
-    worn: Array = np.max([rate * way.work / way.travel_m for way in each], axis=0)
-    return worn
+    worn: Array = np.asarray([rate * way.work / way.travel_m for way in each])
+    most: Array = worn.max(axis=0)
+    return most
