@@ -187,22 +187,31 @@ def _refuse_foreign(
 ) -> None:
     """Remove other kinds' keys that are at their defaults; raise GenevaError for the others."""
     own = {field.key for field in fields(cls)}
-    written = {k.casefold() for k in own}
     for key in [k for k in given if k not in own]:
         for other, theirs in kinds():
-            alike = [f.key for f in fields(theirs) if f.key.casefold() == key.casefold()]
-            if alike and key not in alike and key.casefold() not in written:
-                raise GenevaError(
-                    f"unknown key {cut(key)} in [{table}]{nearest(key, alike)}; "
-                    f"{alike[0]} belongs to {other}, and this is {of}",
-                    (table, key),
-                )
             field = next((f for f in fields(theirs) if f.key == key), None)
             if field and field.default is not REQUIRED and given[key] == field.default:
                 del given[key]
                 break
             if field:
                 raise GenevaError(f"{key} belongs to {other}, and this is {of}", (table, key))
+        else:
+            if key.casefold() not in {k.casefold() for k in own}:
+                _refuse_other_capitals(key, table, of, kinds())
+
+
+def _refuse_other_capitals(
+    key: str, table: str, of: str, kinds: Iterator[tuple[str, type[SpecTable]]]
+) -> None:
+    """Raise GenevaError for a key that another kind has in other capitals."""
+    for other, theirs in kinds:
+        for field in fields(theirs):
+            if field.key.casefold() == key.casefold():
+                raise GenevaError(
+                    f"unknown key {cut(key)} in [{table}]{nearest(key, [field.key])}; "
+                    f"{field.key} belongs to {other}, and this is {of}",
+                    (table, key),
+                )
 
 
 def _values(

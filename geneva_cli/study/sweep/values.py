@@ -9,7 +9,7 @@ from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.specfile.settings import Setting, read_value, setting
+from geneva_cli.specfile.settings import Setting, read_value
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours, some gigabytes
@@ -42,10 +42,11 @@ def axis(text: str, random: bool = False) -> VariedKey:
 
 def refuse_set(axes: Sequence[VariedKey], given: Sequence[Setting]) -> None:
     """Raise GenevaError for a key that is varied and set: its one value would be passed over."""
-    varied = {setting(f"{a.key}=0", "--vary").path: a.key for a in axes}
+    varied = {a.key for a in axes}
     for one in given:
-        if one.path in varied:
-            raise GenevaError(f"{one.said}: --vary {cut(varied[one.path])} sets it too; keep one")
+        key = ".".join(map(str, one.path))
+        if key in varied:
+            raise GenevaError(f"{one.said}: --vary {cut(key)} sets it too; keep one")
 
 
 def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:
