@@ -62,9 +62,22 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 
 class Command(TyperCommand):
-    """A command whose help ends with examples."""
+    """A command whose help ends with examples, and whose options are not empty words."""
 
     examples: tuple[str, ...] = ()
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Refuse an option that is given as nothing, as a script does by a variable without a
+        value: it would count as not given.
+        """
+        rest = super().parse_args(ctx, args)
+        for option in self.params:
+            value = ctx.params.get(option.name)
+            empty = "" in value if isinstance(value, (list, tuple)) else value == ""
+            typed = ctx.get_parameter_source(option.name).name == "COMMANDLINE"
+            if empty and typed and option.param_type_name == "option":
+                raise GenevaError(f'{option.opts[0]} "": empty; give it a value, or leave it out')
+        return rest
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
         """The examples, a line each as they are typed."""

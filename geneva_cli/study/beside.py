@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.reader import Text, read, shown_name
 from geneva_cli.specfile.settings import setting
 from geneva_cli.study.names import short_name
-from geneva_cli.study.sweep.values import axis, refuse_set
+from geneva_cli.study.sweep.values import axis, refuse_twice
 
 MOST = 100  # designs that can be compared side by side
 
@@ -42,7 +42,7 @@ def beside(
 def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
     """One spec with each combination of the values."""
     axes = [axis(v) for v in vary]
-    refuse_set(axes, text.given)
+    refuse_twice(axes, text.given)
     out: dict[str, Text] = {}
     for some in itertools.product(*[a.values for a in axes]):
         said = [f"{a.key}={v}" for a, v in zip(axes, some, strict=True)]

@@ -7,6 +7,7 @@ import sys
 from typing import NamedTuple
 
 import pytest
+from typer.main import get_command
 from typer.testing import CliRunner
 
 from geneva_cli.app import COMMANDS, app
@@ -414,7 +415,6 @@ OPTIONS = [
     ("table --z 2", "at least 3"),
     ("table --z 6.5", "whole number", "3..12"),
     ("table --z six", "whole number", "3..12"),
-    ("table --z ''", "whole number"),
     ("table --z 3..", "whole number"),
     ("table --z ..", "whole number"),
     ("table --z 3,,5", "whole number"),
@@ -489,6 +489,31 @@ def test_wrong_option(line, wants):
 def test_wrong_usage(arguments, wants):
     write("spec.toml", WHEEL)
     refused(run(*arguments), *wants)
+
+
+def texts():
+    """Every option of every command whose value may be any text."""
+    group = get_command(app)
+    context = group.make_context("geneva", ["table"])
+    for name in COMMANDS:
+        _, command, _ = group.resolve_command(context, [name])
+        spec = ["spec.toml"] if name not in WITHOUT_SPEC else []
+        for option in command.params:
+            if option.param_type_name == "option" and option.type.name == "str":
+                for said in option.opts:
+                    words = [name, *spec, said, ""]
+                    yield pytest.param(words, option.opts[0], id=f"{name} {said}")
+
+
+@pytest.mark.parametrize(("arguments", "option"), [*texts()])
+def test_an_option_that_is_empty_is_not_one_that_is_not_given(arguments, option):
+    """A script has it of a variable without a value; what it is to ask for would be passed over."""
+    write("spec.toml", WHEEL)
+    refused(run(*arguments), "give it a value", place=f'{option} "": ')
+
+
+def test_some_options_are_texts():
+    assert len([*texts()]) > 80
 
 
 @pytest.mark.parametrize(

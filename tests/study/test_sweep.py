@@ -280,6 +280,7 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--pareto", "min:wheel.gearing"], "a word has no order"),
         (["--vary", "drive.A=0.1", "--subject-to", "kind >= 1"], "drive.kind: a word has no"),
         (["--vary", "drive.A=0.1", "--pareto", "min:k,max:timing.k"], "both min and max"),
+        (["--vary", "drive.A=0.1", "--vary", "drive.A=0.2"], "--vary drive.A: given twice"),
         (["--vary", "drive.A=0.1", "--set", "drive.A=foo"], "--set drive.A=foo: --vary drive.A"),
         (["--vary", "drive.A=0.1", "--pick", "peaks.velocity.max"], 'mean "velocity.max"?'),
         (["--vary", "drive.A=0.1", "--pick", "dwell"], '(did you mean "dwell_s"?)'),

@@ -62,7 +62,6 @@ def test_no_share(text):
     ("axes", "random", "seed", "said"),
     [
         ([], None, 0, "--vary is missing"),
-        ([axis("wheel.z=3"), axis("wheel.z=4")], None, 0, "--vary wheel.z: given twice"),
         (
             [axis("wheel.z=3..9999")] * 1 + [axis("mass.0.count=1..99999")],
             None,

@@ -86,10 +86,6 @@ def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
     """The plan of a sweep. Raises GenevaError, naming the option, where there is none."""
-    keys = [a.key for a in axes]
-    twice = next((k for k in keys if keys.count(k) > 1), None)
-    if twice:
-        raise GenevaError(f"--vary {cut(twice)}: given twice; put all its values into one")
     if not axes:
         raise GenevaError("--vary is missing: what is to be varied, as in --vary drive.A=0:0.9:0.1")
     if random is not None and not 1 <= random <= POINTS_MAX:

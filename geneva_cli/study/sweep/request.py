@@ -15,7 +15,7 @@ from geneva_cli.study.sweep.front import Objective, objective, refuse_opposites
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
-from geneva_cli.study.sweep.values import axis, refuse_set
+from geneva_cli.study.sweep.values import axis, refuse_twice
 
 DRAWN = 4096  # designs that --best looks at where nothing else is said
 
@@ -98,7 +98,7 @@ def request(
     except GenevaError as error:
         files = _files(text, vary, many, error)
     axes = [axis(words, many) for words in vary]
-    refuse_set(axes, text.given)
+    refuse_twice(axes, text.given)
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
     if seed is not None and random is None:

@@ -40,12 +40,17 @@ def axis(text: str, random: bool = False) -> VariedKey:
     return _axis(key.strip(), values.strip().strip('"'), said, random)
 
 
-def refuse_set(axes: Sequence[VariedKey], given: Sequence[Setting]) -> None:
-    """Raise GenevaError for a key that is varied and set: its one value would be passed over."""
-    varied = {a.key for a in axes}
+def refuse_twice(axes: Sequence[VariedKey], given: Sequence[Setting]) -> None:
+    """Raise GenevaError for a key that is varied twice, or varied and set: of both only one would
+    be looked at.
+    """
+    keys = [a.key for a in axes]
+    twice = next((k for k in keys if keys.count(k) > 1), None)
+    if twice:
+        raise GenevaError(f"--vary {cut(twice)}: given twice; put all its values into one")
     for one in given:
         key = ".".join(map(str, one.path))
-        if key in varied:
+        if key in keys:
             raise GenevaError(f"{one.said}: --vary {cut(key)} sets it too; keep one")
 
 
