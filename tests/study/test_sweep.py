@@ -176,6 +176,13 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
     ]
 
 
+@pytest.mark.parametrize("options", [{"picks": ["smallest_gap_mm"]}, {"check": True}])
+def test_what_takes_long_is_there_soon(options):
+    """A process that turns parts hands over few rows at a time: what is stopped loses no more."""
+    found = sweep(read(SPEC), plan([axis("drive.A=0:0.2:0.01")], None, 0), **options)
+    assert 0 < len(next(blocks(found, workers=1))) <= 8
+
+
 def test_the_best_of_some_says_what_was_left_out():
     """A word that is none would else be passed over without one."""
     words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "jerk.max")

@@ -25,6 +25,7 @@ CHECKED = ("checks.passes", "checks.failed")
 ERROR = "error"  # the column that says why a design cannot be built
 TEXTS = (ERROR, CHECKED[1])  # columns that hold no numbers, even where all is well
 TASK = 64  # designs that a process is given at a time
+DRAWN = 4  # and where their parts are drawn, which takes longer: what is stopped, loses little
 TRIED = 1000  # designs among which one must be built, to know the quantities
 
 
@@ -71,6 +72,13 @@ class Sweep(NamedTuple):
             [*some, *known[i], None] if i in known else self.row(some)
             for i, some in enumerate(every)
         ]
+
+    @property
+    def at_once(self) -> int:
+        """How many designs are worked on before their rows are there."""
+        if self.together:
+            return BLOCK
+        return DRAWN if any(s.makes_parts for s in self.pick.sections) else TASK
 
     @property
     def together(self) -> bool:
@@ -153,11 +161,10 @@ def _changed(key: str, value: Value) -> Setting:
 def blocks(found: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:
     """The rows of a sweep's share, some at a time, in order; ``done`` are there already."""
     start, stop = found.span
-    size = BLOCK if found.together else TASK
-    starts = range(start + done, stop, size)
+    starts = range(start + done, stop, found.at_once)
     count = min(len(starts), cores() if workers is None else workers)
-    yield from mapped(partial(_block, found, stop, size), starts, count)
+    yield from mapped(partial(_block, found, stop), starts, count)
 
 
-def _block(found: Sweep, stop: int, size: int, start: int) -> list[list[Cell]]:
-    return found.rows(start, min(start + size, stop))
+def _block(found: Sweep, stop: int, start: int) -> list[list[Cell]]:
+    return found.rows(start, min(start + found.at_once, stop))
