@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input, beside a place that is looked at
+BEFORE = np.arange(1.0, 26.0)  # and before an entry: the larger the roller, the earlier is its play
 
 
 def gap_about(parts: Turned, shown_deg: float) -> float:
@@ -29,7 +30,16 @@ def gap_about(parts: Turned, shown_deg: float) -> float:
 
 def loose_about(parts: Turned, shown_deg: float) -> float:
     """The largest play, degrees, at those of these positions where no roller is in its slot."""
-    at = _about(parts, shown_deg)
+    return _loose(parts, _about(parts, shown_deg))
+
+
+def loose_before(parts: Turned) -> float:
+    """The same at positions before an entry, where the lock lets go of the wheel."""
+    start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
+    return _loose(parts, start + (-BEFORE) % turn)
+
+
+def _loose(parts: Turned, at: Array) -> float:
     free = np.ones(len(at), dtype=bool)
     for start, end, motion, rests in windows(parts):
         here = np.flatnonzero((at >= start - NEAR) & (at <= end + NEAR))

@@ -24,7 +24,7 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import NotProved
-from geneva_cli.parts.turn.glance import gap_about, loose_about
+from geneva_cli.parts.turn.glance import gap_about, loose_about, loose_before
 from geneva_cli.parts.turn.once import looked_at_once
 from geneva_cli.parts.turn.turned import Turned
 from geneva_cli.study.synthesis.wish import USUAL_RPM
@@ -88,7 +88,7 @@ class Turns:
         looked at before.
         """
         turn = self._turn(machine)
-        early = turn.undrawn() or turn.overlapping() or turn.loose(seen) or turn.again(seen)
+        early = turn.undrawn() or turn.overlapping() or turn.loose() or turn.again(seen)
         return early or turn.standing(machine) or turn.first()
 
     def _turn(self, machine: Mechanism) -> _Turn:
@@ -112,7 +112,7 @@ class _Turn:
         try:
             return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).turned
         except GenevaError as error:
-            return Failing(str(error.key[-1]) if error.key else "outline")
+            return _in_the_way(error)
 
     @cached_property
     def _closer(self) -> Iterator[list[Failing]]:
@@ -141,16 +141,17 @@ class _Turn:
         gap = rollers_gap(*self._sized) if self._sized else None
         return [] if gap is None or keeps(gap, "at least", 0.0) else [Failing("rollers_apart_mm")]
 
-    def loose(self, seen: Iterable[Failing]) -> list[Failing]:
-        """Those of some plays between lock and slot that are too large here as with other sizes, as
-        outlines tell that have more material.
+    def loose(self) -> list[Failing]:
+        """The play between lock and slot, or the key that is in the way of the parts, where
+        outlines tell so that have more material. Whether to give up on it they do not tell.
         """
-        some = [one for one in seen if one.name in LOOSE]
         try:
-            more = at_most(*self._sized) if some and self._sized else None
-        except GenevaError:
-            return []
-        return [one for one in some if more and _fails_there(more, one)]
+            more = at_most(*self._sized) if self._sized else None
+        except GenevaError as error:
+            return [_in_the_way(error)]
+        (name,) = LOOSE
+        found = Failing(name, share=loose_before(more) / finds_slot(more) if more else 0.0)
+        return [found] if found.share > CLEARLY and not found.looser(0.5 * LOST) else []
 
     def standing(self, machine: Mechanism) -> list[Failing]:
         """The checks that fail of parts that stand still, of a machine that turns likewise."""
@@ -193,6 +194,11 @@ class _Turn:
             return False
         self._begun, self._failing = True, found
         return True
+
+
+def _in_the_way(error: GenevaError) -> Failing:
+    """The key that a refusal of parts names."""
+    return Failing(str(error.key[-1]) if error.key else "outline")
 
 
 def _looks(parts: Turned) -> Iterator[list[Failing]]:
