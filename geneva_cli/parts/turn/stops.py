@@ -21,18 +21,20 @@ from geneva_cli.parts.turn.touch import Touch, ahead_by, stopped
 from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from geneva_cli.numerics.jet import Array
 
 BLOCK = 1 << 15  # pairs of pieces that are looked at together: in the cache
 
 
-class Others(NamedTuple):
-    """What the wheel meets, as it stands in n poses: rollers, or the crank."""
+class Beside(NamedTuple):
+    """The arcs that the wheel meets, as they stand in n poses: rollers, and then the crank's."""
 
     rounds: Rounds
     x: Array  # (n, k), the centres
     y: Array
-    turn: Array  # (n,), from its own frame
+    turn: Array  # (n,), of the crank from its own frame
 
 
 class Stops:
@@ -51,8 +53,7 @@ class Stops:
         self.far = np.hypot(self.rounds.x, self.rounds.y)
         self.ahead = np.arctan2(self.rounds.y, self.rounds.x)
         self.low, self.high = reach(self.rounds, self.far, self.ahead)
-        one, no = np.ones(1), np.zeros(1)
-        self.roller = Rounds(no, no, roller * one, one, one, no, -2.0 * one)
+        self.roller = roller
         self.crank = rounds(crank) if crank else None
         self.edges = lines(crank) if crank else None
         self.pairs = (len(self.far) + len(self.lines.off)) * (1 + len(crank or ()))
@@ -63,25 +64,37 @@ class Stops:
         From positions where nothing overlaps by more than ``close`` mm, until something does; as
         far as ``most``, which is less than the pitch, where nothing stops it.
         """
+        count = pose.pins.shape[1]
+        beside = self._beside(pose)
         rolling: list[Touch] = []
         locking: list[Touch] = []
-        for x, y in (pose.pins[:, i].T for i in range(pose.pins.shape[1])):
-            roller = Others(self.roller, x[:, None], y[:, None], 0.0 * x)
-            rolling += self._at_rounds(roller, pose, way, most, close)
-            rolling += self._at_lines(roller, pose, way, most, close)
-        if self.crank is not None and self.edges is not None:
-            c, s = np.cos(pose.crank)[:, None], np.sin(pose.crank)[:, None]
-            x, y = self.crank.x * c - self.crank.y * s, self.crank.x * s + self.crank.y * c
-            crank = Others(self.crank, self.L + x, y, pose.crank)
-            locking += self._at_rounds(crank, pose, way, most, close)
-            locking += self._at_lines(crank, pose, way, most, close)
+        for at in (self._at_rounds, self._at_lines):
+            for touch, which in at(beside, pose, way, most, close):
+                rolling.append(touch.at(which < count))
+                locking.append(touch.at(which >= count))
+        if self.edges is not None:
             locking += self._at_edges(self.edges, pose, way, most, close)
         return stopped(rolling, locking, len(way), most)
 
+    def _beside(self, pose: Pose) -> Beside:
+        x, y = pose.pins[..., 0], pose.pins[..., 1]
+        one, no = np.ones(x.shape[1]), np.zeros(x.shape[1])
+        rollers = Rounds(no, no, self.roller * one, one, one, no, -2.0 * one)
+        if self.crank is None:
+            return Beside(rollers, x, y, 0.0 * pose.crank)
+        own = self.crank
+        c, s = np.cos(pose.crank)[:, None], np.sin(pose.crank)[:, None]
+        x = np.concatenate((x, self.L + (own.x * c - own.y * s)), axis=1)
+        y = np.concatenate((y, own.x * s + own.y * c), axis=1)
+        every = Rounds(*[np.concatenate(both) for both in zip(rollers, own, strict=True)])
+        return Beside(every, x, y, pose.crank)
+
     def _at_rounds(
-        self, others: Others, pose: Pose, way: Array, most: float, close: float
-    ) -> Iterator[Touch]:
-        """Arcs at arcs: both convex, or one of them in the hollow of the other."""
+        self, others: Beside, pose: Pose, way: Array, most: float, close: float
+    ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
+        """Arcs at arcs: both convex, or one of them in the hollow of the other; and which of the
+        others' each contact is with.
+        """
         own, other = self.rounds, others.rounds
         apart = own.sense[:, None] * own.radius[:, None] + other.sense * other.radius - close
         both = own.sense[:, None] + other.sense
@@ -119,12 +132,12 @@ class Stops:
             good &= other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
             lever = own.sense[p] * other.radius[q]
             touch = np.hypot(s - lever * x, lever * y)
-            yield Touch(n[good], lead[good], (np.abs(y) * s / touch)[good])
+            yield Touch(n[good], lead[good], (np.abs(y) * s / touch)[good]), q[good]
 
     def _at_lines(
-        self, others: Others, pose: Pose, way: Array, most: float, close: float
-    ) -> Iterator[Touch]:
-        """The wheel's lines at convex arcs."""
+        self, others: Beside, pose: Pose, way: Array, most: float, close: float
+    ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
+        """The wheel's lines at convex arcs, and which of them each contact is with."""
         own, other = self.lines, others.rounds
         ps, qs = np.nonzero((own.off[:, None] == own.off[:, None]) & (other.sense > 0.0))
         level = own.off[ps] + other.radius[qs] - close
@@ -141,7 +154,7 @@ class Stops:
             good = (lead < most) & (along >= own.start[p]) & (along <= own.end[p])
             good &= other.face(q, -1.0 + 0.0 * s, 0.0 * s, normal - others.turn[n])
             cosine = np.abs(along) / np.hypot(along, own.off[p])
-            yield Touch(n[good], lead[good], cosine[good])
+            yield Touch(n[good], lead[good], cosine[good]), q[good]
 
     def _at_edges(
         self, edges: Lines, pose: Pose, way: Array, most: float, close: float

@@ -24,6 +24,10 @@ class Touch(NamedTuple):
     lead: Array
     cosine: Array
 
+    def at(self, which: NDArray[np.bool_]) -> Touch:
+        """Some of them."""
+        return Touch(self.row[which], self.lead[which], self.cosine[which])
+
 
 def ahead_by(lead: Array, pitch: float) -> Array:
     """Angles from 0 up to the pitch, after which a wheel is as before."""
