@@ -54,6 +54,10 @@ class Groove(Protocol):
     def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The groove's pitch curve, the crank's axis being the origin."""
 
+    @property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """The second distance with two derivatives by the input in radians, at entry and exit."""
+
 
 class CarrierVelocity(Protocol):
     """Angular velocity of the body that carries the roller, where that is not the crank's arm."""

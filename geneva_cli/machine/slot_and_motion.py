@@ -86,6 +86,15 @@ class SolvedPath:
         slope = self.motion(0.0, 1).c[1]
         return slope / (slope * self.sign + 1.0)
 
+    @cached_property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """The roller's distance from the crank's axis with two derivatives, at entry and exit."""
+        entry, exit_ = (
+            self.distances(end, 2)[1].derivatives()
+            for end in (self.motion.entry_deg, self.motion.exit_deg)
+        )
+        return entry, exit_
+
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The roller in its straight slot, which stands at the wheel's angle."""
         rho, _ = self.distances(input_deg, order)

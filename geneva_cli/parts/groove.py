@@ -67,24 +67,24 @@ def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
     at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
     moving = at <= groove.motion.exit_deg
     out = [np.empty(len(at)) for _ in range(order + 1)]
-    if moving.any():
-        found = groove.distances(at[moving], order)[1].derivatives()
-        for column, values in zip(out, found, strict=True):
-            column[moving] = values
-    for column, values in zip(out, _back(groove, at[~moving]), strict=False):
-        column[~moving] = values
+    for here, distances in ((moving, _moving), (~moving, _back)):
+        if here.any():
+            for column, values in zip(out, distances(groove, at[here], order), strict=True):
+                column[here] = values
     return out
 
 
-def _back(groove: Groove, input_deg: Array) -> list[Array]:
+def _moving(groove: Groove, input_deg: Array, order: int) -> list[Array]:
+    """``_distances`` at input angles in the motion."""
+    return [*groove.distances(input_deg, order)[1].arrays()]
+
+
+def _back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
     """``_distances`` at input angles in the dwell after the motion."""
     span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = smaller(math.radians(EASED_DEG), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)
-    exit_, entry = (
-        groove.distances(end, 2)[1].derivatives()
-        for end in (groove.motion.exit_deg, groove.motion.entry_deg)
-    )
+    entry, exit_ = groove.ends
     after = _eased(exit_, eased, t, 1.0)
     before = _eased(entry, eased, span - t, -1.0)
     # Each is constant where the other begins; the step goes from one level to the other.
@@ -97,7 +97,7 @@ def _back(groove: Groove, input_deg: Array) -> list[Array]:
     )
     out = [a + b + rise * s for a, b, s in zip(after[:3], before[:3], step, strict=True)]
     out[0] -= before[3]
-    return out
+    return out[: order + 1]
 
 
 def _eased(
@@ -133,8 +133,8 @@ def seen(groove: Groove, input_deg: Array) -> GrooveLook:
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
     rest = groove.motion.exit_deg + dwell * (np.arange(FEW) / FEW)
     moving = groove.distances(input_deg, 1)[1].derivatives()
-    resting = _back(groove, np.atleast_2d(rest))
-    R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=False))
+    resting = _back(groove, np.atleast_2d(rest), 1)
+    R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
     steep = np.abs(slope) / R
     return GrooveLook(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
 
