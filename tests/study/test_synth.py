@@ -392,7 +392,10 @@ def test_several_rollers_share_the_turn():
             ["--motion-s 1 with --cycle 1", "no dwell"],
         ),
         ({"dwell_s": "1.6..", "cycle": "1.5"}, ["--dwell-s 1.6..", "no time to move"]),
-        ({"dwell_deg": "300..", "motion_deg": "90.."}, ["300..", "at most 60 deg", "least 90 deg"]),
+        (
+            {"dwell_deg": "100..", "motion_deg": "90..", "rollers": 2},
+            ["100..", "at most 80 deg", "least 90 deg"],
+        ),
         ({"tau": "0.4..0.2"}, ["--tau 0.4..0.2", "must not be above"]),
         ({"tau": ".."}, ["--tau ..", "LOW..HIGH"]),
         (

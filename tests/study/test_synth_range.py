@@ -72,6 +72,56 @@ def test_wishes_for_times_leave_motions_and_cycles():
         rows(motion_s="0.5", dwell_s="1", tau="0.5")
 
 
+@pytest.mark.parametrize(
+    ("wish", "rollers"),
+    [
+        ({"motion_deg": "54", "tau": "0.3"}, 2),
+        ({"motion_deg": "90", "dwell_deg": "90"}, 2),
+        ({"dwell_deg": "30..40", "tau": "0.7"}, 3),
+        ({"motion_deg": "80", "dwell_deg": "10", "z": "12"}, 4),  # more than the plain wheel takes
+    ],
+)
+def test_what_one_roller_cannot_do_several_may(wish, rollers):
+    """Motion and dwell make up a turn over the number of rollers, whatever else they are."""
+    found = rows(**{"z": "6..12", **wish})
+    assert found and {row.candidate.rollers for row in found} == {rollers}
+    for row in found:
+        c = row.candidate
+        assert c.motion_deg + c.dwell_deg == pytest.approx(360.0 / rollers, rel=1e-12)
+        assert c.tau == pytest.approx(c.motion_deg * rollers / 360.0, rel=1e-12)
+        assert all(abs(getattr(c, k) - float(v)) < 1e-9 for k, v in wish.items() if ".." not in v)
+
+
+def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
+    """A first wheel of n slots turns the crank by 360/n once a turn, and that is its motion."""
+    found = rows(dwell_deg="1000..")
+    assert {row.candidate.drive for row in found} == {"geneva-pair"}
+    assert len(found) == 8  # z = 3 behind 3 to 6 slots, 4 behind 3 and 4, 5 and 6 behind 3
+    for row in found:
+        c, turns = row.candidate, 360.0 * row.candidate.first_z
+        assert c.dwell_deg == pytest.approx(turns - c.motion_deg, rel=1e-12)
+    with pytest.raises(GenevaError, match="only behind a first wheel"):
+        rows(dwell_deg="400", z="6")
+
+
+@pytest.mark.parametrize(
+    ("wish", "bound", "said"),
+    [
+        ({"cycle": "2"}, "dwell_s >= 3", "--subject-to dwell_s 3.. with --cycle 2: that leaves no"),
+        ({"z": "6"}, "tau >= 1.2", "--subject-to tau 1.2..: that leaves no dwell"),
+        ({"z": "6"}, "k <= 0", "--subject-to k ..0: that leaves no time to move"),
+        ({"motion_deg": "100"}, "motion_deg >= 120", "nothing is at least 120 and at most 100"),
+        ({"motion_deg": "70", "rollers": 3}, "dwell_deg >= 51", "no machine does both"),
+    ],
+)
+def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(wish, bound, said, monkeypatch):
+    """As the options are that say the same, and before any machine is looked for."""
+    monkeypatch.setattr("geneva_cli.study.synthesis.search.families", None)
+    with pytest.raises(GenevaError) as error:
+        search(read_wish(**wish, subject_to=[bound]))
+    assert said in str(error.value)
+
+
 WISHES = [
     {"dwell_s": "0.8..", "cycle": "1.5", "z": "8", "motion_deg": "..180"},
     {"motion_deg": "100..140", "z": "6", "rollers": 1},

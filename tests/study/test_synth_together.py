@@ -129,7 +129,7 @@ def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     row = found.rows[0]
     assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
     with pytest.raises(GenevaError, match="none of 2 machines that grant the rest"):
-        search(read_wish(**wish, subject_to=["dwell_deg >= 51"]))
+        search(read_wish(**wish, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
 
 
 def test_cams_inside_are_as_quick_as_the_limit_lets_them():

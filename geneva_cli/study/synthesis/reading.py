@@ -24,7 +24,7 @@ SPANS = {
     "tau": (Range(0.0, 1.0, "()"), "tau", ""),
     "k": (Range(0.0, 1e6, "()"), "k", ""),
     "motion_deg": (Range(0.0, 360.0, "()"), "a motion of", " deg"),
-    "dwell_deg": (Range(0.0, 360.0, "()"), "a dwell of", " deg"),
+    "dwell_deg": (POSITIVE, "a dwell of", " deg"),
     "motion_s": (POSITIVE, "a motion of", " s"),
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (CYCLE, "a cycle of", " s"),
@@ -113,7 +113,7 @@ def read_wish(
         bounds,
         number("--space", space, SPACES) if space else SPACE,
     )
-    wish.refuse_contradictions(rollers or 1)
+    wish.refuse_contradictions()
     return wish
 
 

@@ -30,7 +30,7 @@ from geneva_cli.study.synthesis.limited import (
 from geneva_cli.study.synthesis.quantities import Asked, Cells, asked, asked_together, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.wish import TURNS, Wish
 
 LOOKED_INTO = 120  # machines of a kind that are asked for what is not known of many together
 WORTH = 0.01  # share by which a machine of two numbers must better one of one number
@@ -81,6 +81,7 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
     sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
     wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
     narrowed = wish.with_times()
+    narrowed.refuse_contradictions()
     parts = _parts(narrowed, wanted.names, meanwhile=meanwhile)
     if not any(part.keeps for part in parts):  # a refusal says how near they come
         parts = _parts(wish, wanted.names, how_near=True)
@@ -270,7 +271,8 @@ def synthesis(wish: Wish) -> list[tuple[Spec, Candidate]]:
 
 def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
     """What to say where no machine was found: what would be within reach."""
-    m = wish.rollers or 1
+    counts = wish.counts
+    m = wish.rollers or next((int(m) for m in counts if m >= 1.0), 1)
     if wish.only_acceleration and reached:
         return (
             f"--acceleration-max {wish.acceleration_max:.7g}: out of reach; with these wheels it "
@@ -286,6 +288,11 @@ def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
         return (
             f"{wish.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360; "
             f"with {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
+        )
+    if max(counts) < 1.0:
+        return (
+            f"{wish.words}: out of reach: only behind a first wheel, which turns the crank once in "
+            f"{TURNS[0]} to {TURNS[-1]} turns, does a wheel rest so long, and none of these so"
         )
     first = f"; the first says: {errors[0]}" if errors else ""
     return (

@@ -12,7 +12,7 @@ so that all of them together leave a span of M, and for each M in it a span of T
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -22,12 +22,15 @@ from geneva_cli.study.synthesis.spans import Interval
 
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
+TURN_END = 1e-9  # degrees of a turn: a shorter motion, or dwell, is rounding
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Interval(0.0, math.inf)
 PEAK = "acceleration.max"
 TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on which say how long a motion may be
 SECONDS = ("motion_s", "dwell_s")  # and on which do where the cycle is known
 SPACE = 3.0  # centre distances that a linkage may take where nothing is said
+TURNS = (3, 4, 5, 6)  # of the input in a cycle behind a first wheel: its step is a crank's motion
+ROLLERS = 60  # that a machine may have where nothing is said: more run into each other
 
 
 class Wish(NamedTuple):
@@ -47,6 +50,7 @@ class Wish(NamedTuple):
     sort: str = ""  # a quantity of a design; with a minus sign the greatest first
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
+    bounded: frozenset[str] = frozenset()  # the spans that bounds have narrowed
 
     @property
     def timed(self) -> bool:
@@ -83,7 +87,8 @@ class Wish(NamedTuple):
                 least, most = bound.span
                 spans[name] = Interval(max(low, least), min(high, most))
         left = tuple(bound for bound in self.bounds if bound.name not in names)
-        narrowed = self._replace(spans=spans, bounds=left)
+        bounded = frozenset(names[b.name] for b in self.bounds if b.name in names)
+        narrowed = self._replace(spans=spans, bounds=left, bounded=bounded)
         return self if narrowed.asks_nothing(1) else narrowed
 
     def cycle_s(self, m: float) -> Interval:
@@ -98,7 +103,7 @@ class Wish(NamedTuple):
     def demands(self, m: float) -> Iterator[tuple[str, Interval]]:
         """What each wish asks of the motion angle of m rollers, with the words for it."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
-        said = {name: f"--{name.replace('_', '-')} {_typed(s)}" for name, s in spans.items()}
+        said = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
         beside = said.get("cycle", "the spec's n_rpm" if self.frame else "")
         if "motion_deg" in spans:
             yield said["motion_deg"], spans["motion_deg"]
@@ -151,26 +156,46 @@ class Wish(NamedTuple):
         whole = min(max(60.0 / (m * usual), cycle.low), cycle.high)
         return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
 
-    def refuse_contradictions(self, m: float) -> None:
-        """Raise GenevaError for wishes that no machine of m rollers grants, alone or together."""
+    @property
+    def counts(self) -> Sequence[float]:
+        """The numbers of motions in a turn that a machine may have which grants the wish."""
+        several = (self.rollers,) if self.rollers else range(1, ROLLERS + 1)
+        behind = tuple(1.0 / turns for turns in TURNS) if self.rollers in (None, 1) else ()
+        return [m for m in (*several, *behind) if not self._contradiction(m)]
+
+    def refuse_contradictions(self) -> None:
+        """Raise GenevaError for wishes that no machine grants, alone or together."""
+        if not self.counts:
+            raise GenevaError(self._contradiction(self.rollers or 1))
+
+    def _contradiction(self, m: float) -> str:
+        """What of the wishes no machine of m motions in a turn grants; empty where one may."""
+        for name, (low, high) in self.spans.items():
+            if low > high:
+                return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
         asked = list(self.demands(m))
         for i, (one, first) in enumerate(asked):
-            if first.high <= 0.0 or first.low * m >= 360.0:
+            if first.high * m <= TURN_END or first.low * m >= 360.0 - TURN_END:
                 several = f" of {m} rollers" if m > 1 else ""
-                raise GenevaError(
+                return (
                     f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
                     f"and below {360.0 / m:.7g} deg (tau below 1)"
                 )
             for other, second in asked[:i]:
                 if first.within(second).empty:
-                    raise GenevaError(
+                    return (
                         f"{other} and {one}: no machine does both; the first leaves "
                         f"{_angles(second, m)}, the second {_angles(first, m)}"
                     )
+        return ""
+
+    def _option(self, name: str) -> str:
+        """The option by which a span is asked for."""
+        return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
 
 
 def _tau(k: float) -> float:
-    return k / (1.0 + k) if k < math.inf else 1.0
+    return max(k, 0.0) / (1.0 + k) if k < math.inf else 1.0
 
 
 def _typed(s: Interval) -> str:
@@ -181,8 +206,10 @@ def _typed(s: Interval) -> str:
 def _angles(s: Interval, m: float) -> str:
     """What a wish leaves of the motion, for a message."""
     whole = 360.0 / m
-    if s.high <= 0.0 or s.low >= whole:
-        return "no time to move" if s.high <= 0.0 else "no dwell"
+    if s.high * m <= TURN_END:
+        return "no time to move"
+    if s.low * m >= 360.0 - TURN_END:
+        return "no dwell"
     return Interval(
         s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf
     ).words("a motion of", " deg")

@@ -127,7 +127,9 @@ def more_rollers(
     found: list[list[Spec]] = [[] for _ in lines]
     if wish.rollers is not None:
         return found
-    growing = {i: rollers_max(natural) + 1 for i, (natural, _) in enumerate(lines)}
+    more = [int(m) for m in wish.counts if m >= 1.0]
+    begin = [next((m for m in more if m > rollers_max(natural)), None) for natural, _ in lines]
+    growing = {i: m for i, m in enumerate(begin) if m}
     while growing:
         specs = {i: some for i, m in growing.items() if (some := lines[i][1](m))}
         look_at(first for first, *_ in specs.values())
