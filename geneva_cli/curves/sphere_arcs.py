@@ -44,11 +44,18 @@ class Arcs:
         self.middle = self.at(np.arange(len(arcs)), 0.5 * self.sweep)
         half = np.sin(self.angle) * np.sin(0.25 * self.sweep)
         self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # from its middle to its ends
-        turns = [_turn(before, arc) for before, arc in zip((arcs[-1], *arcs), arcs, strict=False)]
+        self.first = self._turns(arcs)  # how far it turns to the left before each arc,
         if not closed:
-            turns[0] = 0.0
-        self.first = np.array(turns)  # how far it turns to the left before each arc,
-        self.last = np.array([*turns[1:], turns[0]])  # and after it
+            self.first[0] = 0.0
+        self.last = np.roll(self.first, -1)  # and after it
+
+    def _turns(self, arcs: Sequence[SphereArc]) -> Array:
+        """How far the boundary turns to the left from one arc to the next, which comes first."""
+        back = np.roll([arc.way(arc.end) for arc in arcs], 1, axis=0)
+        on = np.array([arc.way(arc.start) for arc in arcs])
+        aside = (np.cross(back, on) * self.start).sum(axis=1)
+        out: Array = np.arctan2(aside, (back * on).sum(axis=1))
+        return out
 
     def __len__(self) -> int:
         return len(self.angle)
@@ -99,9 +106,3 @@ class Arcs:
             owner.append(on)
             points.append(self.at(which[on], at[on]))
         return np.concatenate(owner), np.concatenate(points)
-
-
-def _turn(before: SphereArc, after: SphereArc) -> float:
-    """How far a boundary turns to the left from one arc to the next."""
-    back, on = np.array(before.way(before.end)), np.array(after.way(after.start))
-    return float(np.arctan2(np.cross(back, on) @ np.array(after.start), back @ on))

@@ -6,7 +6,6 @@ there, given as arcs of the sphere, mm.
 
 from __future__ import annotations
 
-import itertools
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,11 +48,12 @@ class BallGaps:
         self._sides = caps(self.sectors) if self.sectors else None
         self._frame = np.array(at_mid_motion(found))  # rows: its axes in the wheel's frame
         self._rollers = np.array([place(found.arm, azimuth) for azimuth in found.rollers])
-        self._corners = [
+        corners = [
             one.at(np.arange(len(one)), share * one.sweep)
             for one in self.sectors
             for share in SHARES
         ]
+        self._corners = np.concatenate(corners) if corners else np.zeros((0, 3))
         # What the sectors' edges are about, opposite ways alike: the crank's axis, and the poles
         # of their sides.
         axes = {max(a.axis, opposite(a.axis)) for region in sectors for a in region.boundary}
@@ -143,12 +143,12 @@ class BallGaps:
         for sector in self.sectors if len(seen) else ():
             np.minimum.at(least, which_, sector.signed(seen)[0])
         # ... and the sectors' corners against the wheel.
-        for corner in itertools.chain(*self._corners):
-            at = about(self._out(corner, pose.crank), -turn)
-            here = np.flatnonzero(polar(at) - self.found.rim < least)
-            if len(here):
-                away, _ = self._to_wheel(at[here])
-                least[here] = np.minimum(least[here], away)
+        owner = np.repeat(np.arange(len(turn)), len(self._corners))
+        corner = np.tile(self._corners, (len(turn), 1))
+        at = about(self._out(corner, pose.crank[owner]), -turn[owner])
+        here = np.flatnonzero(polar(at) - self.found.rim < least[owner])
+        if len(here):
+            np.minimum.at(least, owner[here], self._to_wheel(at[here])[0])
         return self.found.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array) -> Array:

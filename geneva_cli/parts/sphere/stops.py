@@ -123,4 +123,6 @@ def about(points: Array, angle: Array) -> Array:
     """Directions (n, 3), each turned about z by its own angle, radians."""
     c, s = np.cos(angle), np.sin(angle)
     x, y, z = points.T
-    return np.column_stack((x * c - y * s, x * s + y * c, z))
+    out = np.empty(points.shape)
+    out[:, 0], out[:, 1], out[:, 2] = x * c - y * s, x * s + y * c, z
+    return out
