@@ -141,19 +141,20 @@ def swept(found: Ball) -> tuple[Array, Array]:
     flat = math.sin(found.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     wheel = wheel[math.cos(found.axes) * wheel[:, 2] + flat > math.cos(found.lock) - SAME]
     turns = np.linspace(-found.half_motion, found.half_motion, STEPS)
-    index = np.array([_index(found, frame, turn) for turn in turns.tolist()])
-    x, y, up = np.moveaxis((wheel @ index) @ frame, -1, 0)
-    # of the points that do not come there most are told by what takes less than their angles
-    some = np.flatnonzero(up.max(axis=0) > math.cos(found.lock) - SAME)
-    x, y, up = x[:, some], y[:, some], up[:, some]
-    polar = np.arctan2(np.hypot(x, y), up)
-    comes = (polar < found.lock).any(axis=0)
-    return polar[:, comes], np.arctan2(y[:, comes], x[:, comes]) + turns[:, None]
+    x, y, up = np.moveaxis((wheel @ _index(found, frame, turns)) @ frame, -1, 0)
+    # less than their angles tells which points come there; those along the edge do not
+    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME) * found.lock))
+    x, y, up = x[:, comes], y[:, comes], up[:, comes]
+    return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
 
 
-def _index(found: Ball, frame: Array, turn: float) -> Array:
-    """The rotation of the wheel that brings its slot under the roller, for rows of points."""
-    s = math.sin(found.arm)
-    x, y, _ = frame @ (s * math.cos(turn), -s * math.sin(turn), math.cos(found.arm))
-    c, s = x / math.hypot(x, y), y / math.hypot(x, y)
-    return np.array(((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0)))
+def _index(found: Ball, frame: Array, turns: Array) -> Array:
+    """The rotations of the wheel that bring its slot under the roller, (n, 3, 3), for rows of
+    points.
+    """
+    flat, up = math.sin(found.arm), np.full(len(turns), math.cos(found.arm))
+    x, y, _ = frame @ np.stack((flat * np.cos(turns), -flat * np.sin(turns), up))
+    away = np.hypot(x, y)
+    c, s, no = x / away, y / away, 0.0 * away
+    rows = np.array(((c, s, no), (-s, c, no), (no, no, 1.0 + no)))
+    return np.ascontiguousarray(np.moveaxis(rows, -1, 0))
