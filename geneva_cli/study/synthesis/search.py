@@ -279,11 +279,16 @@ def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
             f"must be above {min(reached):.6g}, and more slots come lower"
         )
     motion = wish.motion_for(m)
+    most = max(
+        rollers_max(natural_deg(registry.gearing(g)(z))) for z in wish.z for g in wish.gearings
+    )
     if motion is None:
-        most = max(
-            rollers_max(natural_deg(registry.gearing(g)(z))) for z in wish.z for g in wish.gearings
-        )
         return f"--rollers {m}: they jam on every wheel asked for; at most {most}"
+    if wish.rollers is None and m > most:
+        return (
+            f"{wish.words}: out of reach: it takes {m} rollers, of which straight slots carry at "
+            f"most {most} here, and no curved slots or cam for so many can be built"
+        )
     if motion.low * m >= 360.0:
         return (
             f"{wish.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360; "
