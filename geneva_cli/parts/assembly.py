@@ -22,6 +22,7 @@ from geneva_cli.parts.groove import roller_in_groove
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
 
@@ -75,7 +76,7 @@ class Assembly(NamedTuple):
         """
         return self._path(*self.motions[number], input_deg)
 
-    def geared(self, input_deg: Array) -> Array:
+    def geared(self, input_deg: Array) -> Mask:
         """Where gears drive the wheel, and no roller, (n,)."""
         half = 0.5 * self.turn_deg
         found = np.zeros(len(input_deg), dtype=bool)

@@ -54,7 +54,7 @@ def test_a_stop_is_the_first_place_where_parts_overlap(name):
         assert (free[~apart] == 0.0).all()
         share = np.linspace(0.0, 1.0, LOOKS)[:, None]
         turned = np.where(apart, share * free, 0.0)
-        many = pose.at(np.tile(np.arange(len(at)), LOOKS))
+        many = parts.gaps.pose(np.tile(at, LOOKS))
         gap = parts.gaps.gap(many, way * turned.ravel(), parts.gaps.near).reshape(turned.shape)
         assert (gap[:, apart] >= -parts.close - ROUNDING).all()
         stopped = apart & (free < most)

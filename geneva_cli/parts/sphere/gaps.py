@@ -98,12 +98,12 @@ class BallGaps:
             for k, sector in enumerate(self.sectors)
         )
 
-    def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
         """How far the wheel can be turned until parts overlap by ``close`` mm; see ``Gapped``."""
         deep, wheel, rolling, locking = close / self.found.radius_mm, pose.wheel, [], []
         for i in range(pose.pins.shape[1]):
             one, axis = self._roller, pose.pins[:, i : i + 1]
-            rolling.append(self._turning.touches(one, axis, _same, wheel, way, deep))
+            rolling.append(self._turning.touches(one, axis, _same, wheel, most, deep))
         if self._sides:
             axes = [self._out(axis, pose.crank) for axis in self._sides.axis]
 
@@ -111,8 +111,8 @@ class BallGaps:
                 return self._in_crank(points, pose.crank[n])
 
             axis = np.stack(axes, axis=1)
-            locking.append(self._turning.touches(self._sides, axis, on_crank, wheel, way, deep))
-        return stopped(rolling, locking, len(way), most)
+            locking.append(self._turning.touches(self._sides, axis, on_crank, wheel, most, deep))
+        return stopped(rolling, locking, len(wheel), most)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """The gap between the locking sectors and the wheel, (n,); see ``rollers``."""

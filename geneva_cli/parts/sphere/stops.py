@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.sphere_arcs import FLAT, Arcs
-from geneva_cli.parts.turn.touch import SLACK, Touch, ahead_by
+from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, ahead_by
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -72,10 +72,11 @@ class WheelCaps:
         axis: Array,
         own: Callable[[Array, NDArray[np.intp]], Array],
         wheel: Array,
-        way: Array,
+        most: float,
         close: float,
     ) -> Touch:
-        """Contacts with other caps in n poses, the wheel at angles (n,) being turned one way, (n,).
+        """Contacts with other caps in n poses, the wheel at angles (n,) being turned up to ``most``
+        radians back and on.
 
         The others' axes stand at ``axis``, (n, k, 3); ``own`` takes points (m, 3) and which of the
         n each is for, to the frame that the others are given in.
@@ -90,21 +91,23 @@ class WheelCaps:
             sine = np.sin(0.5 * (d - rho + far)) * np.sin(0.5 * (d + rho - far)) / size
             cosine = np.sin(0.5 * (rho + far + d)) * np.sin(0.5 * (rho + far - d)) / size
         n, pair = np.nonzero((sine >= 0.0) & (cosine >= 0.0))
-        p, q, d = ps[pair], qs[pair], d[pair]
+        p, q = ps[pair], qs[pair]
         angle = 2.0 * np.arctan2(np.sqrt(sine[n, pair]), np.sqrt(cosine[n, pair]))
-        turn = towards[n, q] - way[n] * angle - self.azimuth[p]
-        lead = ahead_by(way[n] * (turn - wheel[n]), self.pitch)
+        turn = towards[n, q] - WAYS * angle - self.azimuth[p]
+        lead = ahead_by(WAYS * (turn - wheel[n]), self.pitch)
+        on, i = np.nonzero(lead < most)
+        n, p, q, d, turn, lead = n[i], p[i], q[i], d[pair[i]], turn[on, i], lead[on, i]
         one, other = about(self.caps.axis[p], turn), axis[n, q]
         angle = self.caps.angle[p]
         point = np.sin(d - angle)[:, None] * one + np.sin(angle)[:, None] * other
         point /= np.sin(d)[:, None]
         good = self.caps.edge(p, about(point, -turn)) & others.edge(q, own(point, n))
-        n, point, other = n[good], point[good], other[good]
-        along = np.column_stack((-point[:, 1], point[:, 0], np.zeros(len(n))))
+        point, other = point[good], other[good]
+        along = np.column_stack((-point[:, 1], point[:, 0], np.zeros(len(point))))
         normal = other - (other * point).sum(axis=1)[:, None] * point
         size = np.linalg.norm(normal, axis=1) * np.linalg.norm(along, axis=1)
         cosine = np.abs((normal * along).sum(axis=1)) / np.maximum(size, 1e-300)
-        return Touch(n, lead[good], cosine)
+        return Touch((n + len(wheel) * on)[good], lead[good], cosine)
 
 
 def polar(points: Array) -> Array:

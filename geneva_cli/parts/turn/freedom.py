@@ -32,19 +32,14 @@ def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stop
     ``fits`` says that nothing overlaps there; else it is looked for. Gears hold the wheel both
     ways where they drive it: their teeth are taken to fit.
     """
-    gaps, close, count = parts.gaps, parts.close, len(at)
-    pose, most = gaps.pose(at), math.radians(search_deg(parts))
-    both = np.concatenate((np.arange(count), np.arange(count)))
-    found = gaps.first_stop(pose.at(both), np.repeat((-1.0, 1.0), count), most, close)
+    gaps, close = parts.gaps, parts.close
+    pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # where parts overlap as it stands there is no play
-        overlap = np.flatnonzero(gaps.gap(pose, np.zeros(count), close) < -close)
-        for each in found:
-            each[overlap] = each[count + overlap] = 0.0
-    meshed = np.flatnonzero(parts.assembly.geared(at))
-    for each in found:
-        each[meshed] = each[count + meshed] = 0.0
-    back, on = ([x[i : i + count] for x in found] for i in (0, count))
-    return Stopped(*back), Stopped(*on)
+        held |= gaps.gap(pose, np.zeros(len(at)), close) < -close
+    back, on = gaps.stops(pose, math.radians(search_deg(parts)), close)
+    for each in (*back, *on):
+        each[held] = 0.0
+    return back, on
 
 
 def touching(parts: Turned) -> float:

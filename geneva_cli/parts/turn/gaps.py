@@ -139,10 +139,10 @@ class Gaps:
             out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
         return out
 
-    def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
         """How far the wheel can be turned until parts overlap by ``close``; see ``Stops.first``."""
-        self._work(len(way) * self._stops.pairs)
-        return self._stops.first(pose, way, most, close)
+        self._work(2 * len(pose.wheel) * self._stops.pairs)
+        return self._stops.first(pose, most, close)
 
     @cached_property
     def _stops(self) -> Stops:

@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.parts.turn.pieces import Lines, Rounds, lines, reach, rounds
-from geneva_cli.parts.turn.touch import Touch, ahead_by, stopped
+from geneva_cli.parts.turn.touch import WAYS, Touch, ahead_by, stopped
 from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
@@ -58,8 +58,8 @@ class Stops:
         self.edges = lines(crank) if crank else None
         self.pairs = (len(self.far) + len(self.lines.off)) * (1 + len(crank or ()))
 
-    def first(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
-        """How far the wheel can be turned in n poses, ``way`` 1 on or -1 back, and what stops it.
+    def first(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
+        """How far the wheel can be turned back and on from n poses, and what stops it.
 
         From positions where nothing overlaps by more than ``close`` mm, until something does; as
         far as ``most``, which is less than the pitch, where nothing stops it.
@@ -69,12 +69,12 @@ class Stops:
         rolling: list[Touch] = []
         locking: list[Touch] = []
         for at in (self._at_rounds, self._at_lines):
-            for touch, which in at(beside, pose, way, most, close):
+            for touch, which in at(beside, pose, most, close):
                 rolling.append(touch.at(which < count))
                 locking.append(touch.at(which >= count))
         if self.edges is not None:
-            locking += self._at_edges(self.edges, pose, way, most, close)
-        return stopped(rolling, locking, len(way), most)
+            locking += self._at_edges(self.edges, pose, most, close)
+        return stopped(rolling, locking, len(pose.wheel), most)
 
     def _beside(self, pose: Pose) -> Beside:
         x, y = pose.pins[..., 0], pose.pins[..., 1]
@@ -90,7 +90,7 @@ class Stops:
         return Beside(every, x, y, pose.crank)
 
     def _at_rounds(
-        self, others: Beside, pose: Pose, way: Array, most: float, close: float
+        self, others: Beside, pose: Pose, most: float, close: float
     ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
         """Arcs at arcs: both convex, or one of them in the hollow of the other; and which of the
         others' each contact is with.
@@ -102,8 +102,8 @@ class Stops:
         ps, qs = np.nonzero((both >= 0.0) & (apart > 0.0))
         ds, hollow = apart[ps, qs], both[ps, qs] == 0.0
         away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
-        step = max(1, BLOCK // max(1, len(ps)))
-        for block in range(0, len(way), step):
+        count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
+        for block in range(0, count, step):
             # how far from the wheel's axis they touch
             sigma = away[block : block + step]
             low, high = sigma - other.radius, sigma + other.radius
@@ -117,48 +117,47 @@ class Stops:
             meet = np.flatnonzero((sine >= 0.0) & (cosine >= 0.0))
             n, pair, s, r, d = row[meet] + block, pair[meet], s[meet], r[meet], d[meet]
             h, g = np.sqrt(sine[meet]), np.sqrt(cosine[meet])
-            p, q, sign = ps[pair], qs[pair], np.where(hollow[pair], way[n], -way[n])
+            p, q, sign = ps[pair], qs[pair], np.where(hollow[pair], WAYS, -WAYS)
             angle = sign * (2.0 * np.arctan2(h, g))
             lead = ahead_by(
-                way[n] * (towards[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
+                WAYS * (towards[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
             )
+            on, i = np.nonzero(lead < most)
+            angle, lead, sign = angle[on, i], lead[on, i], sign[on, i]
+            n, p, q, s, r, d, h, g = n[i], p[i], q[i], s[i], r[i], d[i], h[i], g[i]
             # the direction from the wheel's centre to the other, seen with the other ahead
             x = ((s - r) + 2.0 * r * h * h) / d
             y = -2.0 * sign * r * h * g / d
-            near = np.flatnonzero(lead < most)
-            n, p, q, s, x, y = n[near], p[near], q[near], s[near], x[near], y[near]
-            angle, lead = angle[near], lead[near]
             good = own.face(p, x, y, self.ahead[p] - angle, other.sense[q])
             good &= other.face(q, x, y, towards[n, q] - others.turn[n], -own.sense[p])
             lever = own.sense[p] * other.radius[q]
             touch = np.hypot(s - lever * x, lever * y)
-            yield Touch(n[good], lead[good], (np.abs(y) * s / touch)[good]), q[good]
+            cosine = np.abs(y) * s / touch
+            yield Touch((n + count * on)[good], lead[good], cosine[good]), q[good]
 
     def _at_lines(
-        self, others: Beside, pose: Pose, way: Array, most: float, close: float
+        self, others: Beside, pose: Pose, most: float, close: float
     ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
         """The wheel's lines at convex arcs, and which of them each contact is with."""
         own, other = self.lines, others.rounds
         ps, qs = np.nonzero((own.off[:, None] == own.off[:, None]) & (other.sense > 0.0))
         level = own.off[ps] + other.radius[qs] - close
         away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
-        step = max(1, BLOCK // max(1, len(ps)))
-        for block in range(0, len(way), step):
+        count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
+        for block in range(0, count, step):
             sigma = away[block : block + step, qs]
             row, pair = np.nonzero(np.abs(level) <= sigma)
             n, p, q, s = row + block, ps[pair], qs[pair], sigma[row, pair]
-            angle = -way[n] * np.arccos(level[pair] / s)  # from the normal to the arc's centre
-            normal = towards[n, q] - angle
-            lead = ahead_by(way[n] * (normal - own.normal[p] - pose.wheel[n]), self.pitch)
-            along = s * np.sin(angle)
-            good = (lead < most) & (along >= own.start[p]) & (along <= own.end[p])
-            good &= other.face(q, -1.0 + 0.0 * s, 0.0 * s, normal - others.turn[n])
+            angle = -WAYS * np.arccos(level[pair] / s)  # from the normal to the arc's centre
+            normal, along = towards[n, q] - angle, s * np.sin(angle)
+            lead = ahead_by(WAYS * (normal - own.normal[p] - pose.wheel[n]), self.pitch)
+            on, i = np.nonzero((lead < most) & (along >= own.start[p]) & (along <= own.end[p]))
+            n, p, q, lead, along = n[i], p[i], q[i], lead[on, i], along[on, i]
+            good = other.face(q, -1.0 + 0.0 * lead, 0.0 * lead, normal[on, i] - others.turn[n])
             cosine = np.abs(along) / np.hypot(along, own.off[p])
-            yield Touch(n[good], lead[good], cosine[good]), q[good]
+            yield Touch((n + count * on)[good], lead[good], cosine[good]), q[good]
 
-    def _at_edges(
-        self, edges: Lines, pose: Pose, way: Array, most: float, close: float
-    ) -> Iterator[Touch]:
+    def _at_edges(self, edges: Lines, pose: Pose, most: float, close: float) -> Iterator[Touch]:
         """The wheel's convex arcs at the crank's lines."""
         own, normal = self.rounds, edges.normal + pose.crank[:, None]
         # seen from the wheel's axis
@@ -166,16 +165,17 @@ class Stops:
         start, end = edges.start + shift, edges.end + shift
         ps, qs = np.nonzero((own.sense[:, None] > 0.0) & (edges.off == edges.off))
         level = own.radius[ps] - close
-        step = max(1, BLOCK // max(1, len(ps)))
-        for block in range(0, len(way), step):
+        count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
+        for block in range(0, count, step):
             high = off[block : block + step, qs] + level
             row, pair = np.nonzero(np.abs(high) <= self.far[ps])
             n, p, q, r = row + block, ps[pair], qs[pair], self.far[ps[pair]]
-            angle = way[n] * np.arccos(high[row, pair] / r)  # from the normal to the arc's centre
+            angle = WAYS * np.arccos(high[row, pair] / r)  # from the normal to the arc's centre
+            along, turn = r * np.sin(angle), self.ahead[p] - angle
             lead = ahead_by(
-                way[n] * (normal[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
+                WAYS * (normal[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
             )
-            along = r * np.sin(angle)
-            good = (lead < most) & (along >= start[n, q]) & (along <= end[n, q])
-            good &= own.face(p, -1.0 + 0.0 * r, 0.0 * r, self.ahead[p] - angle)
-            yield Touch(n[good], lead[good], np.zeros(len(n))[good])
+            on, i = np.nonzero((lead < most) & (along >= start[n, q]) & (along <= end[n, q]))
+            n, p, lead, turn = n[i], p[i], lead[on, i], turn[on, i]
+            good = own.face(p, -1.0 + 0.0 * lead, 0.0 * lead, turn)
+            yield Touch((n + count * on)[good], lead[good], 0.0 * lead[good])

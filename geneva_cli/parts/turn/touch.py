@@ -14,11 +14,15 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 ZERO = 1e-13  # radians: a stop that lies behind by less is here
+WAYS = np.array(((-1.0,), (1.0,)))  # back and on, for rows of angles
 SLACK = 1e-9  # radians, and of a length: pieces that meet smoothly leave nothing between them
 
 
 class Touch(NamedTuple):
-    """Contacts: of which pose, at which turn of the wheel, and the pressure angle's cosine."""
+    """Contacts: of which pose, at which turn of the wheel, and the pressure angle's cosine.
+
+    n poses are counted twice: the wheel turns back from the first n, and on from the others.
+    """
 
     row: NDArray[np.intp]
     lead: Array
@@ -35,14 +39,20 @@ def ahead_by(lead: Array, pitch: float) -> Array:
     return np.where(found > pitch - ZERO, 0.0, found)
 
 
-def stopped(rolling: list[Touch], locking: list[Touch], count: int, most: float) -> Stopped:
-    """What stops the wheel first in ``count`` poses: rollers, what locks, or nothing up to most."""
-    nothing = Touch(np.arange(count), np.full(count, most), np.zeros(count))
+def stopped(
+    rolling: list[Touch], locking: list[Touch], count: int, most: float
+) -> tuple[Stopped, Stopped]:
+    """What stops the wheel first on its way back from ``count`` poses, and on: rollers, what locks,
+    or nothing up to most.
+    """
+    twice = 2 * count
+    nothing = Touch(np.arange(twice), np.full(twice, most), np.zeros(twice))
     by_roller, cosine = _first([nothing, *rolling])
     by_crank, _ = _first([nothing, *locking])
     rolls = (by_roller < most) & (by_roller <= by_crank)
     pressure = np.where(rolls, np.arccos(np.minimum(cosine, 1.0)), 0.0)
-    return Stopped(np.minimum(by_roller, by_crank), pressure)
+    lead = np.minimum(by_roller, by_crank)
+    return Stopped(lead[:count], pressure[:count]), Stopped(lead[count:], pressure[count:])
 
 
 def _first(touches: list[Touch]) -> tuple[Array, Array]:

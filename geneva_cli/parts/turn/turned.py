@@ -6,9 +6,6 @@ from collections.abc import Sized
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.assembly import Assembly
 
@@ -19,10 +16,6 @@ class Pose(NamedTuple):
     wheel: Array  # (n,) radians
     crank: Array  # (n,) radians
     pins: Array  # (n, m, 2) of the m rollers, mm, or (n, m, 3), directions from a sphere's centre
-
-    def at(self, which: NDArray[np.intp]) -> Pose:
-        """Some of the positions."""
-        return Pose(self.wheel[which], self.crank[which], self.pins[which])
 
 
 class Stopped(NamedTuple):
@@ -61,10 +54,9 @@ class Gapped(Protocol):
     def repeats(self, count: int) -> bool:
         """Whether wheel and crank are as before after a slot and a turn over ``count``."""
 
-    def first_stop(self, pose: Pose, way: Array, most: float, close: float) -> Stopped:
-        """How far the wheel can be turned from positions where nothing overlaps by ``close`` mm.
-
-        ``way`` is (n,), 1 on or -1 back; it is turned until something does, or by ``most`` radians.
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
+        """What stops the wheel on its way back and on from positions where nothing overlaps by
+        ``close`` mm, until something does, or as far as ``most`` radians.
         """
 
 
