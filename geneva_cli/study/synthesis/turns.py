@@ -143,7 +143,7 @@ class _Turn:
 
     def loose(self) -> list[Failing]:
         """The play between lock and slot, or the key that is in the way of the parts, where
-        outlines tell so that have more material. Whether to give up on it they do not tell.
+        outlines tell so that have more material. None is given up on for these alone.
         """
         try:
             more = at_most(*self._sized) if self._sized else None
@@ -151,7 +151,7 @@ class _Turn:
             return [_in_the_way(error)]
         (name,) = LOOSE
         found = Failing(name, share=loose_before(more) / finds_slot(more) if more else 0.0)
-        return [found] if found.share > CLEARLY and not found.looser(0.5 * LOST) else []
+        return [found] if found.share > CLEARLY and not found.looser(LOST) else []
 
     def standing(self, machine: Mechanism) -> list[Failing]:
         """The checks that fail of parts that stand still, of a machine that turns likewise."""
