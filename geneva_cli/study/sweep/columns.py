@@ -42,11 +42,12 @@ def in_arrays(names: Sequence[str]) -> bool:
     (True, False)
     """
     return all(
-        _is_motion(name) or any(load_named(known)(name) for known in OTHERS) for name in names
+        is_motion(name) or any(load_named(known)(name) for known in OTHERS) for name in names
     )
 
 
-def _is_motion(name: str) -> bool:
+def is_motion(name: str) -> bool:
+    """Whether a quantity follows from the wheel's motion alone."""
     return _group(name) in ("timing", *QUANTITIES)
 
 
@@ -67,7 +68,7 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     if sought:
         found |= _peaks(machine, sought)
     for known, of in OTHERS.items():
-        others = [name for name in names if not _is_motion(name) and load_named(known)(name)]
+        others = [name for name in names if not is_motion(name) and load_named(known)(name)]
         if others:
             found |= load_named(of)(machine, others)
     out = []

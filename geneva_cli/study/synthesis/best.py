@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.columns import in_arrays
-from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import PEAK, Wish
@@ -29,11 +29,6 @@ FORGIVEN = 1e-200  # what rounding adds up to at most
 SAME = 1e-4  # share of a span, nearer than which the best is another family's machine
 CLOSE = 1e-12  # share of a span, between a place that keeps the bounds and one that does not
 ABOUT = 0.05  # share of what is between two such, on either side of where a straight line passes
-
-
-def known_bounds(wish: Wish) -> list[Constraint]:
-    """The bounds on quantities that ``together`` knows."""
-    return [b for b in wish.limits if in_arrays([b.name])]
 
 
 class Chosen(NamedTuple):
@@ -50,14 +45,11 @@ def best(
     breaks them least, with ``how_near`` to the last digit.
     """
     free = [f for f in families if f.is_free and math.isnan(f.best)]
-    search = Places(free, wish, how_near)
-    if search.nearest:
-        search.look([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
-    search.look([(i, x) for i, f in enumerate(free) if not search.done(i) for x in _first(f)])
-    search.begin()
-    for look in range(LOOKS):
-        search.nearer(look)
-    chosen = {id(f): search.found.get(i, NONE) for i, f in enumerate(free)}
+    chosen = {id(f): NONE for f in free}
+    first = of_motion(wish) if not how_near else None
+    if first:
+        free = [f for f, at in zip(free, _places(free, first, how_near), strict=True) if at.keeps]
+    chosen |= {id(f): at for f, at in zip(free, _places(free, wish, how_near), strict=True)}
     kept: list[Chosen] = []
     broken: list[Chosen] = []
     for f in families:
@@ -65,8 +57,20 @@ def best(
         place = chosen.get(id(f), Candidate(0.0, 0.0, sure))
         known = abs(place.x - f.known) <= SAME * (f.high - f.low)
         if not known and (spec := f.at(place.x)):
-            (broken if place.broken >= FORGIVEN else kept).append(Chosen(spec, f))
+            (kept if place.keeps else broken).append(Chosen(spec, f))
     return kept, broken
+
+
+def _places(free: Sequence[Family], wish: Wish, how_near: bool) -> list[Candidate]:
+    """Of each family the best place; ``NONE`` where there is no machine."""
+    search = Places(free, wish, how_near)
+    if search.nearest:
+        search.look([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
+    search.look([(i, x) for i, f in enumerate(free) if not search.done(i) for x in _first(f)])
+    search.begin()
+    for look in range(LOOKS):
+        search.nearer(look)
+    return [search.found.get(i, NONE) for i in range(len(free))]
 
 
 def _first(f: Family) -> list[float]:
@@ -83,6 +87,11 @@ class Candidate(NamedTuple):
     broken: float
     far: float
     x: float
+
+    @property
+    def keeps(self) -> bool:
+        """Whether it keeps the bounds, but for rounding."""
+        return self.broken < FORGIVEN
 
 
 NONE = Candidate(math.inf, math.inf, math.nan)

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels_for_paths import searches_kept
-from geneva_cli.study.synthesis.best import FORGIVEN, Candidate, Places
+from geneva_cli.study.synthesis.best import Candidate, Places
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.limited import breaks_limit
 from geneva_cli.study.synthesis.looks import look_at
@@ -113,7 +113,7 @@ class _Elsewhere:
         """The places of each family, in their order, that keep the bounds."""
         out: Seen = {}
         for (i, _), candidate in zip(asked, self.places.look(asked), strict=True):
-            if candidate.broken < FORGIVEN:
+            if candidate.keeps:
                 out.setdefault(i, []).append(candidate)
         self._look_at_straight(out)
         return out

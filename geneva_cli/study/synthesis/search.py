@@ -15,7 +15,8 @@ from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.sweep.constraints import Constraint, is_number
-from geneva_cli.study.synthesis.best import best, known_bounds
+from geneva_cli.study.synthesis.best import best
+from geneva_cli.study.synthesis.bounds import known_bounds
 from geneva_cli.study.synthesis.elsewhere import standing_in
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import Kind, families, kinds, longest_first
@@ -115,7 +116,7 @@ def _ranked(
 
 def _within_limits(wish: Wish, wanted: Asked, which: Sequence[bool]) -> list[Row]:
     """The rows, of ``which`` kinds, of machines that are to keep the frame's limits too."""
-    strict = wish._replace(bounds=(*wish.bounds, *frame_limits(wish)))
+    strict = wish._replace(bounds=(*wish.bounds, *frame_limits(wish)), strict=True)
     parts = _parts(strict, wanted.names, which=which)
     pairs = [pair for part in parts for pair in zip(part.rows, part.asked, strict=True)]
     kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]

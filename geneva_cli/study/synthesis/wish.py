@@ -51,6 +51,7 @@ class Wish(NamedTuple):
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
     bounded: frozenset[str] = frozenset()  # the spans that bounds have narrowed
+    strict: bool = False  # whether its bounds are the frame's limits too: many families keep none
 
     @property
     def timed(self) -> bool:

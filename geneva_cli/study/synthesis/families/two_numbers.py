@@ -18,7 +18,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from geneva_cli.analysis.peaks_many import QUANTITIES
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
@@ -27,7 +26,8 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.study.sweep.columns import columns, in_arrays
+from geneva_cli.study.sweep.columns import columns, in_arrays, is_motion
+from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
@@ -75,9 +75,14 @@ def two_numbers(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
     if wish.rollers not in (None, 1) or not inclined:
         return
     names = [*filter(None, [wish.sort.lstrip("-")]), *(b.name for b in wish.limits)]
-    moved = all(name.partition(".")[0] in ("timing", *QUANTITIES) for name in names)
+    moved = all(map(is_motion, names))
+    first = of_motion(wish)
     for drive in (SIDE,) if moved else (SIDE, *GEARS):
-        yield from map(only, _Search(wish, inclined, drive).found())
+        able = inclined
+        if first:
+            known = {spec.wheel.z for spec in _Search(first, inclined, drive).found()}
+            able = [wheel for wheel in inclined if wheel.z in known]
+        yield from map(only, _Search(wish, able, drive).found())
 
 
 class _Search:
@@ -88,7 +93,7 @@ class _Search:
         self.wish, self.drive = wish, drive
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
-        self.bounds = [b for b in wish.limits if in_arrays([b.name])]
+        self.bounds = known_bounds(wish)
         least = wish.sort.lstrip("-")
         self.least = least if least and in_arrays([least]) else PEAK
         self.sign = -1.0 if self.least == least and wish.sort.startswith("-") else 1.0

@@ -1,0 +1,26 @@
+"""The bounds of a wish: those that are known of many machines together, and soonest."""
+
+from __future__ import annotations
+
+from geneva_cli.study.sweep.columns import in_arrays, is_motion
+from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.synthesis.wish import Wish
+
+
+def known_bounds(wish: Wish) -> list[Constraint]:
+    """The bounds on quantities that ``together`` knows."""
+    return [b for b in wish.limits if in_arrays([b.name])]
+
+
+def of_motion(wish: Wish) -> Wish | None:
+    """The wish with those of its bounds alone that follow from the motion, and any machine that
+    keeps them; None where they are all that it asks for, or most families keep them.
+
+    What loads a machine has takes ten times as long: it need not be asked of a family of which none
+    moves as wished.
+    """
+    moved = tuple(b for b in wish.bounds if is_motion(b.name))
+    others = [b.name for b in wish.bounds] + [wish.sort.lstrip("-")] * bool(wish.sort)
+    if not (wish.strict and moved) or all(map(is_motion, others)):
+        return None
+    return wish._replace(bounds=moved, sort="")
