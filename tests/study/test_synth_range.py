@@ -92,6 +92,13 @@ def test_what_one_roller_cannot_do_several_may(wish, rollers):
         assert all(abs(getattr(c, k) - float(v)) < 1e-9 for k, v in wish.items() if ".." not in v)
 
 
+def test_a_spec_alone_is_a_wish():
+    """For machines of its wheel that move as a plain crank does, at its speed."""
+    frame = load(os.path.join(DESIGNS, "three-rollers-z4.toml")).spec
+    table = synthesis_table(read_wish(frame=frame), 0)
+    assert table.title.startswith("The spec alone: ")
+
+
 def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
     """A first wheel of n slots turns the crank by 360/n once a turn, and that is its motion."""
     found = rows(dwell_deg="1000..")

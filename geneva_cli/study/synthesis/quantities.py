@@ -51,6 +51,9 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     found = pick([*of_sort, *of_bounds], machine)
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # of two names for one quantity
+    for b in bounds:
+        if b.name in found.words:
+            raise GenevaError(f"--subject-to {b.name}: a word has no order; only numbers are bound")
     return Asked(found, bounds, of_sort[0] if of_sort else "")
 
 
@@ -108,6 +111,9 @@ def _how_near(wanted: Asked, nearest: dict[str, list[float]], count: int) -> str
     said = []
     for b in wanted.bounds:
         seen = nearest[b.name]
-        near = (max if b.sign == ">=" else min)(seen) if seen else None
-        said.append(f"{b}" + (f" (nearest {near:.6g})" if near is not None else " (known of none)"))
+        if seen:
+            said.append(f"{b} (nearest {(max if b.sign == '>=' else min)(seen):.6g})")
+        else:
+            load = ": --from SPEC has what resists the wheel" if b.name.startswith("loads.") else ""
+            said.append(f"{b} (known of none{load})")
     return f"none of {count} machines that grant the rest keeps {' and '.join(said)}"

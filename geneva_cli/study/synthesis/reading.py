@@ -98,7 +98,7 @@ def read_wish(
     bounds = tuple(constraint(text) for text in subject_to)
     refuse_contradictions(bounds)
     said += [str(bound) for bound in bounds]
-    words = ", ".join(said)
+    words = ", ".join(said) or "the spec alone"
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     wish = Wish(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
