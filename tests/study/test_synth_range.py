@@ -92,6 +92,13 @@ def test_what_one_roller_cannot_do_several_may(wish, rollers):
         assert all(abs(getattr(c, k) - float(v)) < 1e-9 for k, v in wish.items() if ".." not in v)
 
 
+def test_a_wheel_that_is_not_drawn_carries_no_more_rollers_than_the_plain_one():
+    """Of parts that nobody draws it is not known whether they can be: it went on for ever."""
+    found = rows(tau="0.4", z="361", external=True, internal=True)
+    assert {row.candidate.law for row in found} == {None, "modified-sine"}
+    assert {row.candidate.rollers for row in found} == {1, 2}  # a plain wheel moves for 179 deg
+
+
 def test_a_spec_alone_is_a_wish():
     """For machines of its wheel that move as a plain crank does, at its speed."""
     frame = load(os.path.join(DESIGNS, "three-rollers-z4.toml")).spec

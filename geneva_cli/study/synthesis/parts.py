@@ -74,9 +74,9 @@ def suited(spec: Spec) -> tuple[Mechanism, Parts]:
 
 
 def nothing_in_the_way(spec: Spec) -> bool:
-    """Whether it makes a machine, and nothing stands in the way of its parts."""
+    """Whether it makes a machine whose parts are drawn, and nothing stands in their way."""
     try:
-        return not suited(spec)[1].why
+        return suited(spec)[1].why == ""
     except GenevaError:
         return False
 
