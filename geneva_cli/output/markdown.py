@@ -23,6 +23,8 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
         for name, value in zip(table.names, next(table.rows()), strict=True):
             yield f"| {name} | {_escaped(value)} |\n"
         return
+    if not table.names:  # nothing is left of it but what it says
+        return
     yield "| " + " | ".join(table.names) + " |\n"
     yield "| " + " | ".join(["---:"] * len(table.names)) + " |\n"
     for row in table.rows():

@@ -55,7 +55,9 @@ def _headings(names: tuple[str, ...]) -> list[list[str]]:
 
 
 def _plain(table: Table) -> Iterator[str]:
-    """Rows under their headings."""
+    """Rows under their headings; nothing where none are left of both."""
+    if not table.names:
+        return
     heads = _headings(table.names)
     for block in table.blocks():
         rows = block if table.mixed else _without_noise(block)

@@ -411,10 +411,14 @@ def test_several_rollers_share_the_turn():
             ["nothing is both", "timing.dwell_s <= 0.7"],
         ),
         ({"tau": "0.3", "z": "6", "sort": "loads.pin"}, ["--sort loads.pin", "no quantity"]),
+        (
+            {"tau": "0.3", "z": "6", "sort": "-loads.pin_force_N.rms"},
+            ["loads.pin_force_N.rms: noth"],
+        ),
         ({"tau": "0.3", "z": "6", "subject_to": ["drive.kind >= 1"]}, ["a word has no order"]),
         (
             {"tau": "0.3", "z": "6", "subject_to": ["pin_force_N.max <= 9"]},
-            ["(known of none: --from SPEC has what resists the wheel)"],
+            ["pin_force_N.max: nothing resists the wheel", "--from SPEC"],
         ),
         ({"step": "60", "cycle": "1", "rollers": 3}, ["--rollers 3", "at most 2"]),
         ({"tau": "0.3", "rollers": 0}, ["--rollers 0", "at least 1"]),

@@ -1,13 +1,16 @@
 """Wishes that combine: ranges, bounds, a frame, an order; against dense sweeps of every kind."""
 
 import functools
+import json
 import math
 import os
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
+from geneva_cli.app import app
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
@@ -97,6 +100,28 @@ def test_a_wheel_that_is_not_drawn_carries_no_more_rollers_than_the_plain_one():
     found = rows(tau="0.4", z="361", external=True, internal=True)
     assert {row.candidate.law for row in found} == {None, "modified-sine"}
     assert {row.candidate.rollers for row in found} == {1, 2}  # a plain wheel moves for 179 deg
+
+
+@pytest.mark.parametrize("format", ["table", "md", "csv", "json"])
+def test_where_none_is_buildable_that_is_said(format):
+    """No part of so many slots is drawn."""
+    wish = ["--motion-deg", "150", "--z", "361", "--internal", "--buildable", "--format", format]
+    found = CliRunner().invoke(app, ["synth", *wish])
+    assert (found.exit_code, found.stderr) == (0, "")
+    title, _, rest = found.stdout.partition("machines is found to pass.\n")
+    if format in ("table", "md"):
+        assert title.endswith(": none of 4 ") and not rest.strip()
+    elif format == "csv":
+        assert found.stdout.startswith("no,z,gearing,") and found.stdout.count("\n") == 1
+    else:
+        assert json.loads(found.stdout) == {"rows": []}
+
+
+def test_rollers_that_leave_no_dwell_are_no_machines():
+    """Two rollers on right-angled shafts move the wheel all the time, whatever the speed."""
+    for row in rows(dwell_s="0.5", z="6", rollers=2):
+        assert row.candidate.motion_deg < 180.0
+        assert row.candidate.dwell_s == pytest.approx(0.5, rel=1e-12)
 
 
 def test_a_spec_alone_is_a_wish():

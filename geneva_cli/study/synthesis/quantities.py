@@ -54,6 +54,12 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     for b in bounds:
         if b.name in found.words:
             raise GenevaError(f"--subject-to {b.name}: a word has no order; only numbers are bound")
+    loads = [name for name in found.names if name.startswith("loads.")]
+    if loads and pick(loads[:1], machine).of(machine) == [None]:
+        raise GenevaError(
+            f"{loads[0]}: nothing resists the wheel, so it is known of none; --from SPEC says what "
+            "does, its [load]"
+        )
     return Asked(found, bounds, of_sort[0] if of_sort else "")
 
 
@@ -114,6 +120,5 @@ def _how_near(wanted: Asked, nearest: dict[str, list[float]], count: int) -> str
         if seen:
             said.append(f"{b} (nearest {(max if b.sign == '>=' else min)(seen):.6g})")
         else:
-            load = ": --from SPEC has what resists the wheel" if b.name.startswith("loads.") else ""
-            said.append(f"{b} (known of none{load})")
+            said.append(f"{b} (known of none)")
     return f"none of {count} machines that grant the rest keeps {' and '.join(said)}"

@@ -29,14 +29,11 @@ def synthesis_table(
     found = found or search(wish, import_checks if count else None)
     rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
-    by = wish.sort or "lowest peak acceleration"
-    title = f"{what}, {by} first" if len(rows) > 1 else what
+    title = f"{what}, {wish.sort or 'lowest peak acceleration'} first" if len(rows) > 1 else what
     if buildable:
-        title = (
-            f"{title}, of {len(found.rows)}"
-            if len(rows) != 1
-            else f"1 machine of {len(found.rows)}"
-        )
+        title = f"{title}{',' * (len(rows) > 1)} of {len(found.rows)}"
+    if not rows:
+        title = f"none of {len(found.rows)} machines is found to pass"
     return rows_table((*NAMES, *found.asked.names), rows, f"{wish.words}: {title}.")
 
 

@@ -152,7 +152,7 @@ class Wish(NamedTuple):
         if not cycle.exact:
             if "motion_s" in self.spans:
                 cycle = cycle.within(self.spans["motion_s"].times(1.0 / share))
-            if "dwell_s" in self.spans:
+            if "dwell_s" in self.spans and share < 1.0:  # else there is none, whatever the speed
                 cycle = cycle.within(self.spans["dwell_s"].times(1.0 / (1.0 - share)))
         whole = min(max(60.0 / (m * usual), cycle.low), cycle.high)
         return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
