@@ -10,6 +10,9 @@ import tomli
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
+from geneva_cli.parts.proof import Proof
+from geneva_cli.study.sweep.best_search import SweepSearch
+from geneva_cli.study.sweep.places import closer
 from geneva_cli.study.sweep.request import request
 
 SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
@@ -38,6 +41,29 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     # checks forgive 1e-9, and the least of what is forgiven is not the best
     assert design.timing.dwell_s >= 0.55 * (1.0 - 1e-12)
     assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
+
+
+def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
+    """Its gaps take a full turn of the parts, which need not be made of a thousand designs."""
+    turned = []
+    plain = Proof.turn.fget
+    monkeypatch.setattr(Proof, "turn", property(lambda proof: turned.append(proof) or plain(proof)))
+    asked = {"pick": "smallest_gap_mm,drive.kind", "check": True, "best": "max:dwell_s"}
+    lines, design = best(tmp_path, "drive.A=-0.2:0.5", **asked)
+    assert len({*map(id, turned)}) == 2  # of the first design too: what quantities there are
+    said = dict(line[2:].split(": ") for line in lines if line.startswith("# ") and ": " in line)
+    (gap,) = (check.value for check in design.checks if check.name == "gap_mm")
+    assert float(said["parts.smallest_gap_mm"]) == gap
+    assert (said["drive.kind"], said["checks.passes"]) == ("side-crank", "yes")
+
+
+def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
+    """A dwell of unequal steps is: 18,000 designs about the best ones would take minutes."""
+    spec = os.path.join(os.path.dirname(SPEC), "unequal-steps.toml")
+    asked = request(spec, ["drive.n_rpm=10:60"], random=2, jobs=1, best="timing.dwell_s")
+    rows = [row for block in asked.blocks() for row in block]
+    search = SweepSearch(asked.sweep, asked.objectives[0], asked.constraints)
+    assert asked.sweep.together and closer(search, rows) == rows
 
 
 def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.best_search import CLOSE, Row, SweepSearch
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
 from geneva_cli.study.sweep.front import Objective
@@ -32,6 +33,7 @@ class Winner(NamedTuple):
     tried: int
     feasible: int
     binding: tuple[Constraint, ...]
+    beside: dict[str, Cell]  # quantities that were asked for beside
 
     def lines(self, asked: Asked) -> list[str]:
         """The design as a spec, what it is the best of in a comment above it."""
@@ -44,6 +46,7 @@ class Winner(NamedTuple):
                 f"# {c}: {self.values[c.name]:.9g}{' (binds)' * c.binds(self.values[c.name])}"
                 for c in asked.constraints
             ],
+            *[f"# {name}: {_said(value)}" for name, value in self.beside.items()],
         ]
         spec = self.mechanism.spec
         # its title may tell what was varied
@@ -73,7 +76,18 @@ def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner
     values = dict(zip(found.names, best, strict=True))
     numbers = {name: float(v) for name, v in values.items() if is_number(v)}
     binding = tuple(c for c in asked.constraints if c.binds(numbers[c.name]))
-    return Winner(numbers, found.machine(search.keys(best)), tally.tried, tally.feasible, binding)
+    machine = found.machine(search.keys(best))
+    also = found.of_best
+    beside = dict(zip(also.names, also.of(machine), strict=True)) if also else {}
+    return Winner(numbers, machine, tally.tried, tally.feasible, binding, beside)
+
+
+def _said(value: Cell) -> str:
+    if value is None:
+        return "none"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.9g}" if is_number(value) else str(value)
 
 
 class Tally:

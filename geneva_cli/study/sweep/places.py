@@ -56,10 +56,10 @@ class Places:
 def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
     """Of each design the best of clouds about it that draw together; those that are near the best.
 
-    Only where many designs are worked out at once; else all are given back as they are.
+    Only where many such designs are worked out at once; else all are given back as they are.
     """
     best = list(rows)
-    if not search.found.together:
+    if not search.found.known([search.keys(row) for row in best]):
         return best
     draw = np.random.default_rng(0)
     width = FIRST

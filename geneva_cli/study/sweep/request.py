@@ -114,8 +114,9 @@ def request(
     asked = [o.name for o in wanted] + [c.name for c in bounds]
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
     by |= dict.fromkeys([o.name for o in wanted], "--best" if best else "--pareto")
-    found = sweep(text, plan(axes, random, seed or 0), [*asked, *names], check, part, by)
-    whole = dict(zip([*asked, *names], found.asked, strict=False))
+    every, later = (asked, names) if best else ([*asked, *names], None)
+    found = sweep(text, plan(axes, random, seed or 0), every, check, part, by, later)
+    whole = dict(zip(every, found.asked, strict=False))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)

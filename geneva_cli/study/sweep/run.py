@@ -36,6 +36,7 @@ class Sweep(NamedTuple):
     plan: SweepPlan
     pick: Pick
     shard: Shard = WHOLE
+    of_best: Pick | None = None  # quantities that are worked out of the best design alone
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -64,14 +65,16 @@ class Sweep(NamedTuple):
 
     def rows_of(self, every: Sequence[Sequence[Value]]) -> list[list[Cell]]:
         """The rows of designs by the values of their keys."""
-        keys = [a.key for a in self.plan.axes]
-        known: Mapping[int, list[Cell]] = {}
-        if self.together:
-            known = batch.table(every, keys, self.pick.names, self._spec)
+        known = self.known(every)
         return [
             [*some, *known[i], None] if i in known else self.row(some)
             for i, some in enumerate(every)
         ]
+
+    def known(self, every: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
+        """The quantities, by their numbers, of those designs of which they are known together."""
+        keys = [a.key for a in self.plan.axes]
+        return batch.table(every, keys, self.pick.names, self._spec) if self.together else {}
 
     @property
     def at_once(self) -> int:
@@ -107,18 +110,22 @@ def sweep(
     check: bool = False,
     shard: Shard = WHOLE,
     options: Mapping[str, str] | None = None,
+    of_best: Sequence[str] | None = None,
 ) -> Sweep:
     """The sweep of a spec. ``check`` adds whether each design passes every check; ``options`` says
-    which option asked for a quantity, where it was not --pick.
+    which option asked for a quantity, where it was not --pick. Where one is to be chosen, only it
+    is checked, and asked for the quantities ``of_best``.
 
     Raises GenevaError for a quantity that does not exist, and where none of some designs can be
     built.
     """
-    asked = [*picks, *(CHECKED if check else ())]
-    found = pick(asked, _first(text, plan), options=options)
+    checked = CHECKED if check else ()
+    machine = _first(text, plan)
+    later = None if of_best is None else pick([*of_best, *checked], machine)
+    found = pick([*picks, *([] if later else checked)], machine, options=options)
     varied = [a.key for a in plan.axes]  # these have their columns: no name may stand twice
     names = tuple(name for name in found.names if name not in varied)
-    return Sweep(text, plan, found._replace(names=names), shard)
+    return Sweep(text, plan, found._replace(names=names), shard, later)
 
 
 def _first(text: Text, plan: SweepPlan) -> Mechanism:
