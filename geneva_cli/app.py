@@ -62,21 +62,27 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 
 class Command(TyperCommand):
-    """A command whose help ends with examples, and whose options are not empty words."""
+    """A command whose help ends with examples, and all of whose options count."""
 
     examples: tuple[str, ...] = ()
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Refuse an option that is given as nothing, as a script does by a variable without a
-        value: it would count as not given.
+        """Refuse an option that would count as not given: one given as nothing, as a script does by
+        a variable without a value, and the first of one given twice.
         """
+        typed = list(args)
         rest = super().parse_args(ctx, args)
-        for option in self.params:
+        if ctx.resilient_parsing:  # by a shell that completes words
+            return rest
+        order: list[Any] = [*self.make_parser(ctx).parse_args(typed)[2]]
+        for option in dict.fromkeys(order):
+            if option.param_type_name != "option" or option.is_flag:
+                continue
             value = ctx.params.get(option.name)
-            empty = "" in value if isinstance(value, (list, tuple)) else value == ""
-            typed = ctx.get_parameter_source(option.name).name == "COMMANDLINE"
-            if empty and typed and option.param_type_name == "option":
+            if "" in value if option.multiple and value else value == "":
                 raise GenevaError(f'{option.opts[0]} "": empty; give it a value, or leave it out')
+            if order.count(option) > 1 and not option.multiple:
+                raise GenevaError(f"{option.opts[0]}: given twice; only one of both would count")
         return rest
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:

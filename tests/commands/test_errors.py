@@ -512,6 +512,28 @@ def test_an_option_that_is_empty_is_not_one_that_is_not_given(arguments, option)
     refused(run(*arguments), "give it a value", place=f'{option} "": ')
 
 
+@pytest.mark.parametrize(
+    ("arguments", "option"),
+    [
+        ("synth --tau ..0.1 --tau 0.2.. --z 6", "--tau"),
+        ("synth --tau=0.3 --rollers 2 --rollers=1", "--rollers"),
+        ("peaks spec.toml --format csv -o a.csv --output b.csv", "-o"),
+        ("table --z 6 --A 0.1 --A 0.1", "--A"),
+    ],
+)
+def test_an_option_of_one_value_is_given_once(arguments, option):
+    write("spec.toml", WHEEL)
+    refused(run(*arguments.split()), "only one of both would count", place=f"{option}: given twice")
+    assert os.listdir() == ["spec.toml"]
+
+
+def test_an_option_of_several_values_may_be_given_several_times():
+    write("spec.toml", SIDE + "A = 0.3\n" + WHEEL)
+    several = "sweep spec.toml --vary wheel.z=4,5 --vary drive.A=0,0.25 --set drive.n_rpm=9"
+    assert run(*several.split()).exit_code == 0
+    assert run(*["table", "--z", "6", "--internal", "--internal"]).exit_code == 0
+
+
 def test_some_options_are_texts():
     assert len([*texts()]) > 80
 

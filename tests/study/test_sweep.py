@@ -183,6 +183,16 @@ def test_what_takes_long_is_there_soon(options):
     assert 0 < len(next(blocks(found, workers=1))) <= 8
 
 
+def test_a_wrong_range_of_a_key_that_the_spec_lacks_is_what_is_said(tmp_path):
+    """Not that the key is missing, which --vary gives."""
+    spec = tmp_path / "spec.toml"
+    spec.write_text('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n')
+    found = geneva("sweep", str(spec), "--vary", "drive.A=0:1:0")
+    assert found.exit_code == 2
+    assert found.stderr.startswith("--vary drive.A=0:1:0: a step of 0 never comes from 0 to 1")
+    assert geneva("sweep", str(spec), "--vary", "drive.A=0:0.5:0.1").exit_code == 0
+
+
 def test_the_best_of_some_says_what_was_left_out():
     """A word that is none would else be passed over without one."""
     words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "jerk.max")

@@ -133,8 +133,8 @@ def _refuse_words(found: Sweep, options: Mapping[str, str]) -> None:
 
 def _files(text: Text, vary: Sequence[str], many: bool, error: GenevaError) -> tuple[str, ...]:
     """The files of a spec that is not valid alone: what it lacks may be a key that is varied."""
+    axes = [axis(words, many) for words in vary]  # what is wrong with these is said first
     try:
-        axes = [axis(words, many) for words in vary]
         return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files
     except GenevaError:
         raise error from None
