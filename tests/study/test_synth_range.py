@@ -117,6 +117,13 @@ def test_where_none_is_buildable_that_is_said(format):
         assert json.loads(found.stdout) == {"rows": []}
 
 
+def test_a_load_that_a_spec_leaves_unknown_is_no_refusal():
+    """Of a wheel without a face width no stress is known; its inertia resists all the same."""
+    frame = Design.of(Spec(Wheel(6), load=Load(inertia_kgm2=0.1))).spec
+    found = rows(tau="0.3", frame=frame, sort="loads.contact_stress_MPa.max")
+    assert found and {row.asked for row in found} == {(None,)}
+
+
 def test_rollers_that_leave_no_dwell_are_no_machines():
     """Two rollers on right-angled shafts move the wheel all the time, whatever the speed."""
     for row in rows(dwell_s="0.5", z="6", rollers=2):

@@ -55,7 +55,7 @@ def asked(wish: Wish, spec: Spec) -> Asked:
         if b.name in found.words:
             raise GenevaError(f"--subject-to {b.name}: a word has no order; only numbers are bound")
     loads = [name for name in found.names if name.startswith("loads.")]
-    if loads and pick(loads[:1], machine).of(machine) == [None]:
+    if loads and not load_named("analysis.loads.cycle:cycle_of")(machine).is_loaded:
         raise GenevaError(
             f"{loads[0]}: nothing resists the wheel, so it is known of none; --from SPEC says what "
             "does, its [load]"
