@@ -486,7 +486,8 @@ def test_walls_are_where_the_roller_passes(name):
     ],
 )
 def test_wrong_options(options, said):
-    arguments = ["profile", str(DESIGNS["press-straight"]), "-o", "part.dxf", *options]
+    output = [] if "-o" in options else ["-o", "part.dxf"]
+    arguments = ["profile", str(DESIGNS["press-straight"]), *output, *options]
     refused(CliRunner().invoke(app, arguments), 2, said)
     assert os.listdir() == []
 
