@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple, TypeGuard
 
 from geneva_cli.errors import GenevaError, cut
@@ -102,6 +102,15 @@ class Nearness:
             + (f", the nearest being {nearest:.6g}" if not count else "")
             for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True)
         ]
+
+
+def refuse_words(words: Collection[str], options: Mapping[str, str], instead: str) -> None:
+    """Raise GenevaError for a quantity that is a word, of those that ``options`` ask for by their
+    names; ``instead`` says what would be right.
+    """
+    for name, option in options.items():
+        if name in words:
+            raise GenevaError(f"{option} {name}: a word has no order; {instead}")
 
 
 def refuse_contradictions(given: Sequence[Constraint]) -> None:

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.points import digest
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
-from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
+from geneva_cli.study.sweep.constraints import (
+    Constraint,
+    constraint,
+    refuse_contradictions,
+    refuse_words,
+)
 from geneva_cli.study.sweep.front import Objective, objective, refuse_opposites
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
-from geneva_cli.study.sweep.values import axis, refuse_twice
+from geneva_cli.study.sweep.values import VariedKey, axis, refuse_twice
 
 DRAWN = 4096  # designs that --best looks at where nothing else is said
 
@@ -93,11 +98,11 @@ def request(
         raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
     text = read(path, given)
     many = random is not None or bool(best)
+    axes = [axis(words, many) for words in vary]
     try:  # what is wrong with the file is said before what is asked of it
         files = text.spec().files
     except GenevaError as error:
-        files = _files(text, vary, many, error)
-    axes = [axis(words, many) for words in vary]
+        files = _files(text, axes, error)
     refuse_twice(axes, text.given)
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
@@ -121,19 +126,13 @@ def request(
     refuse_contradictions(constraints)
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
     refuse_opposites(objectives)
-    _refuse_words(found, {whole[a]: option for a, option in by.items()})
+    options = {whole[a]: option for a, option in by.items()}
+    refuse_words(found.pick.words, options, "--vary or --set picks it")
     return Request(found, constraints, objectives, jobs, files)
 
 
-def _refuse_words(found: Sweep, options: Mapping[str, str]) -> None:
-    for name, option in options.items():
-        if name in found.pick.words:
-            raise GenevaError(f"{option} {name}: a word has no order; --vary or --set picks it")
-
-
-def _files(text: Text, vary: Sequence[str], many: bool, error: GenevaError) -> tuple[str, ...]:
+def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:
     """The files of a spec that is not valid alone: what it lacks may be a key that is varied."""
-    axes = [axis(words, many) for words in vary]  # what is wrong with these is said first
     try:
         return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files
     except GenevaError:

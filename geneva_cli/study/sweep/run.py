@@ -25,7 +25,7 @@ CHECKED = ("checks.passes", "checks.failed")
 ERROR = "error"  # the column that says why a design cannot be built
 TEXTS = (ERROR, CHECKED[1])  # columns that hold no numbers, even where all is well
 TASK = 64  # designs that a process is given at a time
-DRAWN = 4  # and where their parts are drawn, which takes longer: what is stopped, loses little
+FEW = 4  # and where their parts are drawn, which takes longer: what is stopped, loses little
 TRIED = 1000  # designs among which one must be built, to know the quantities
 
 
@@ -81,7 +81,7 @@ class Sweep(NamedTuple):
         """How many designs are worked on before their rows are there."""
         if self.together:
             return BLOCK
-        return DRAWN if any(s.makes_parts for s in self.pick.sections) else TASK
+        return FEW if any(s.makes_parts for s in self.pick.sections) else TASK
 
     @property
     def together(self) -> bool:

@@ -20,7 +20,6 @@ def of_motion(wish: Wish) -> Wish | None:
     moves as wished.
     """
     moved = tuple(b for b in wish.bounds if is_motion(b.name))
-    others = [b.name for b in wish.bounds] + [wish.sort.lstrip("-")] * bool(wish.sort)
-    if not (wish.strict and moved) or all(map(is_motion, others)):
+    if not (wish.strict and moved) or all(map(is_motion, wish.named)):
         return None
     return wish._replace(bounds=moved, sort="")

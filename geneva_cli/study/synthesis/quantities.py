@@ -13,7 +13,12 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.columns import in_arrays
-from geneva_cli.study.sweep.constraints import Constraint, is_number, refuse_contradictions
+from geneva_cli.study.sweep.constraints import (
+    Constraint,
+    is_number,
+    refuse_contradictions,
+    refuse_words,
+)
 from geneva_cli.study.synthesis.rows import Row
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
@@ -51,9 +56,8 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     found = pick([*of_sort, *of_bounds], machine)
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # of two names for one quantity
-    for b in bounds:
-        if b.name in found.words:
-            raise GenevaError(f"--subject-to {b.name}: a word has no order; only numbers are bound")
+    by = {b.name: "--subject-to" for b in bounds}
+    refuse_words(found.words, by, "only numbers are bound")
     loads = [name for name in found.names if name.startswith("loads.")]
     if loads and not load_named("analysis.loads.cycle:cycle_of")(machine).is_loaded:
         raise GenevaError(

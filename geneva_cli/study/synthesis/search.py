@@ -130,7 +130,7 @@ def _known_together(wish: Wish) -> bool:
     """Whether what the wish sorts by and its bounds are known of many machines together. Where not,
     of each family several machines are asked for them, and the best of these is shown.
     """
-    return in_arrays([*filter(None, [wish.sort.lstrip("-")]), *(b.name for b in wish.limits)])
+    return in_arrays(wish.named)
 
 
 def _parts(

@@ -16,13 +16,13 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.spans import Interval
 
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
-TURN_END = 1e-9  # degrees of a turn: a shorter motion, or dwell, is rounding
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Interval(0.0, math.inf)
 PEAK = "acceleration.max"
@@ -69,6 +69,11 @@ class Wish(NamedTuple):
         """All bounds, the one on the acceleration among them."""
         most = self.acceleration_max
         return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
+
+    @property
+    def named(self) -> list[str]:
+        """The quantities that it sorts by and bounds."""
+        return [*filter(None, [self.sort.lstrip("-")]), *(b.name for b in self.limits)]
 
     @property
     def only_acceleration(self) -> bool:
@@ -160,14 +165,21 @@ class Wish(NamedTuple):
     @property
     def counts(self) -> Sequence[float]:
         """The numbers of motions in a turn that a machine may have which grants the wish."""
-        several = (self.rollers,) if self.rollers else range(1, ROLLERS + 1)
-        behind = tuple(1.0 / turns for turns in TURNS) if self.rollers in (None, 1) else ()
-        return [m for m in (*several, *behind) if not self._contradiction(m)]
+        return [m for m in self._every_count if not self._contradiction(m)]
 
     def refuse_contradictions(self) -> None:
         """Raise GenevaError for wishes that no machine grants, alone or together."""
-        if not self.counts:
-            raise GenevaError(self._contradiction(self.rollers or 1))
+        if all(map(self._contradiction, self._every_count)):
+            raise GenevaError(self._contradiction(self._every_count[0]))
+
+    @property
+    def _every_count(self) -> Sequence[float]:
+        """The numbers of motions in a turn, whatever else is asked for: of rollers, or behind a
+        first wheel.
+        """
+        several = (self.rollers,) if self.rollers else range(1, ROLLERS + 1)
+        behind = [1.0 / turns for turns in TURNS] if self.rollers in (None, 1) else []
+        return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
         """What of the wishes no machine of m motions in a turn grants; empty where one may."""
@@ -176,7 +188,7 @@ class Wish(NamedTuple):
                 return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
         asked = list(self.demands(m))
         for i, (one, first) in enumerate(asked):
-            if first.high * m <= TURN_END or first.low * m >= 360.0 - TURN_END:
+            if first.high * m <= MOTION_MIN or first.low * m >= 360.0 - MOTION_MIN:
                 several = f" of {m} rollers" if m > 1 else ""
                 return (
                     f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
@@ -207,9 +219,9 @@ def _typed(s: Interval) -> str:
 def _angles(s: Interval, m: float) -> str:
     """What a wish leaves of the motion, for a message."""
     whole = 360.0 / m
-    if s.high * m <= TURN_END:
+    if s.high * m <= MOTION_MIN:
         return "no time to move"
-    if s.low * m >= 360.0 - TURN_END:
+    if s.low * m >= 360.0 - MOTION_MIN:
         return "no dwell"
     return Interval(
         s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf

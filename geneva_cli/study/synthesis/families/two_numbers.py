@@ -74,8 +74,7 @@ def two_numbers(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
     inclined = [wheel for wheel in wheels if not wheel.FLAT]
     if wish.rollers not in (None, 1) or not inclined:
         return
-    names = [*filter(None, [wish.sort.lstrip("-")]), *(b.name for b in wish.limits)]
-    moved = all(map(is_motion, names))
+    moved = all(map(is_motion, wish.named))
     first = of_motion(wish)
     for drive in (SIDE,) if moved else (SIDE, *GEARS):
         able = inclined
