@@ -34,7 +34,7 @@ def parts(proof: Proof) -> Values:
     if not proof.mechanism.spec.has_parts:
         return values
     try:
-        return values | _turned(proof) | (_sizes(proof) if proof.mechanism.spec.is_flat else {})
+        return values | _turned(proof) | (cut_sizes(proof) if proof.mechanism.spec.is_flat else {})
     except GenevaError as error:
         return values | {"parts.none": str(error)}
 
@@ -50,7 +50,8 @@ def _turned(proof: Proof) -> Values:
     }
 
 
-def _sizes(proof: Proof) -> Values:
+def cut_sizes(proof: Proof) -> Values:
+    """Sizes of flat parts as they are cut."""
     found, size = proof.found, proof.found.sizes
     locked = bool(found.crank)
     return {

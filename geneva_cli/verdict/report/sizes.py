@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 
 from geneva_cli.analysis.loads import loads
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import scalar
+from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.roller_paths import roller_paths
+from geneva_cli.parts.sizes import sizes as part_sizes
 from geneva_cli.verdict.report.values import Values
 
 _SPHERE = [
@@ -37,40 +42,50 @@ _FLAT = [
 
 
 def sizes(proof: Proof) -> Values:
-    """The wheel's radius is the one at which no roller fouls its rim."""
+    """Sizes of a flat wheel as it is cut, of a sphere's as it is turned.
+
+    The rim is None where the spec's sizes leave no wheel; the slots too where no wheel is drawn.
+    """
     mechanism = proof.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
-    R = mechanism.ratio * L
-    engagement = mechanism.engagements[0]
-    mouth, bottom = _distance(engagement, engagement.entry_deg) * L, _distance(engagement, 0.0) * L
     if not spec.wheel.FLAT:
         return _sphere_sizes(mechanism, L, r)
-    inside = spec.wheel.SIGN < 0.0
-    rim = math.hypot(mouth, r)
-    curved = engagement.slot.curved
     return {
         **dict.fromkeys(_SPHERE),
         "sizes.center_distance_mm": L,
-        "sizes.crank_radius_mm": R,
+        "sizes.crank_radius_mm": mechanism.ratio * L,
         "sizes.ratio": mechanism.ratio,
         "sizes.roller_radius_mm": r,
         "sizes.slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
         "sizes.clearances_from": spec.size.allowances.source,
-        "sizes.slot_mouth_radius_mm": mouth,
-        "sizes.slot_bottom_radius_mm": bottom,
-        "sizes.wheel_radius_mm": None if inside else rim,
-        "sizes.rim_radius_mm": rim if inside else None,
+        **_cut_radii(mechanism),
         "sizes.pressure_angle_max_deg": (
-            loads.greatest(mechanism, "pressure_deg").max if curved else None
+            loads.greatest(mechanism, "pressure_deg").max
+            if mechanism.engagements[0].slot.curved
+            else None
         ),
         "sizes.rollers_max": mechanism.rollers_max,
     }
 
 
-def _distance(engagement: Engagement, input_deg: float) -> float:
-    x, y = engagement.path(input_deg, 0)
-    return math.hypot(x.c[0], y.c[0])
+def _cut_radii(mechanism: Mechanism) -> Values:
+    """Radii of slots and rim as they are cut, mm."""
+    mouth = bottom = rim = None
+    inside = mechanism.spec.wheel.SIGN < 0.0
+    if mechanism.spec.is_flat:
+        where = assembly(mechanism)
+        path = roller_paths(where)
+        mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
+        bottom = max(path.ends) if inside else min(path.ends)
+        with suppress(GenevaError):  # ``parts.none`` says why
+            rim = part_sizes(where, path).rim
+    return {
+        "sizes.slot_mouth_radius_mm": mouth,
+        "sizes.slot_bottom_radius_mm": bottom,
+        "sizes.wheel_radius_mm": None if inside else rim,
+        "sizes.rim_radius_mm": rim if inside else None,
+    }
 
 
 def _sphere_sizes(mechanism: Mechanism, L: float, r: float) -> Values:

@@ -1,0 +1,78 @@
+"""Sizes that a report prints, measured on the outlines that are cut."""
+
+import math
+
+import pytest
+import repo
+from drawing_witness import vertices
+from words import load
+
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.parts.drawings import crank_shapes
+from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.wheel import wheel_circles
+from geneva_cli.verdict.report.parts import cut_sizes
+from geneva_cli.verdict.report.sizes import sizes
+
+pytestmark = pytest.mark.usefixtures("made_once")
+CHORD = 1e-4  # mm, of the polylines that stand for outlines
+CLOSE = 1e-3  # mm: curved walls are known to 2e-6 of L, here up to 420 mm
+FLAT = sorted(
+    file.stem for file in repo.DESIGNS.glob("*.toml") if "spherical" not in file.read_text()
+)
+GIVEN = {
+    "a given rim": "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 82\nslot_clearance_mm = 0.1\n",
+    "a given opening": "[wheel]\nz = 6\ngearing = 'internal'\n[size]\nwheel_radius_mm = 93\n",
+    "given steps and rim": "[wheel]\nz = 6\nsteps_deg = [50, 70]\n[size]\nwheel_radius_mm = 89\n",
+}
+
+
+def far(contour):
+    """The distances of a contour's points from its axis."""
+    return [math.hypot(*p) for p in vertices(contour, CHORD)]
+
+
+def about_axis(shapes, layer):
+    """The diameter of a drawing's hole about its axis, 0 without one."""
+    holes = [s for s in shapes if isinstance(s, Circle) and s.layer == layer]
+    return max((2.0 * s.radius for s in holes if s.centre == (0.0, 0.0)), default=0.0)
+
+
+@pytest.fixture
+def proof(name, tmp_path):
+    """The parts of a design, or of one of those above."""
+    file = repo.DESIGNS / f"{name}.toml"
+    if name in GIVEN:
+        file = tmp_path / "spec.toml"
+        file.write_text(GIVEN[name])
+    return Proof(load(str(file)))
+
+
+@pytest.mark.parametrize("name", [*FLAT, *GIVEN])
+def test_printed_sizes_are_those_of_the_outlines(proof):
+    found, size, part = proof.found, sizes(proof), cut_sizes(proof)
+    low, high = min(far(found.wheel)), max(far(found.wheel))
+    inside = found.assembly.sign < 0.0
+    rim, end = (low, high) if inside else (high, low)
+    printed = [size[f"sizes.{key}_radius_mm"] for key in ("wheel", "rim")]
+    assert printed[not inside] is None
+    assert printed[inside] == part["parts.rim_radius_mm"] == pytest.approx(rim, abs=CLOSE)
+    assert part["parts.slot_end_radius_mm"] == pytest.approx(end, abs=CLOSE)
+    # half a slot's width beyond the roller's centre, and the gap behind it
+    beyond = abs(size["sizes.slot_bottom_radius_mm"] - end) - 0.5 * size["sizes.slot_width_mm"]
+    assert -CLOSE <= beyond <= found.sizes.slot_bottom + CLOSE
+    reach = max((r for contour in found.crank for r in far(contour)), default=0.0)
+    assert part["parts.lock_radius_mm"] == pytest.approx(reach, abs=CLOSE)
+
+
+@pytest.mark.parametrize("name", [*FLAT, *GIVEN])
+def test_printed_bores_and_rollers_are_those_drawn(proof):
+    found, size, part = proof.found, sizes(proof), cut_sizes(proof)
+    circles, shapes = wheel_circles(found.assembly, found.sizes), crank_shapes(found)
+    assert part["parts.wheel_bore_mm"] == about_axis(circles, "BORE")
+    assert part["parts.crank_bore_mm"] == about_axis(shapes, "BORE")
+    rollers = [s for s in shapes if s.layer == "ROLLER"]
+    if rollers:  # and their pins
+        assert max(s.radius for s in rollers) == size["sizes.roller_radius_mm"]
+        radius = math.hypot(*rollers[0].centre)
+        assert size["sizes.crank_radius_mm"] == pytest.approx(radius, rel=1e-12)
