@@ -114,16 +114,20 @@ class Assembly(NamedTuple):
         return self._ahead - float(self.crank(np.array([input_deg]))[0])
 
     def wheel(self, input_deg: Array) -> Array:
-        """The wheel's angle at input angles of a whole turn from the first entry on."""
-        out = np.empty(len(input_deg))
+        """The wheel's angle at input angles (n,), degrees: it adds up over the turns."""
+        turns = np.floor((input_deg - self.start_deg) / self.turn_deg)
+        within = input_deg - turns * self.turn_deg
+        out = 2.0 * sum(engagement.half_step for engagement, _ in self.motions) * turns
         turned = 0.0
         for i, (engagement, mid) in enumerate(self.motions):
             begins = mid + engagement.entry_deg
             after = self.motions[i + 1] if i + 1 < len(self.motions) else None
             ends = after[1] + after[0].entry_deg if after else np.inf
-            here = (input_deg >= begins) & (input_deg < ends)
-            at = np.minimum(input_deg[here] - mid, engagement.exit_deg)
-            out[here] = turned + engagement.motion(at, 0).c[0]
+            here = (within >= begins) & (within < ends)
+            if i == 0:  # where rounding puts an angle before the turn
+                here |= within < begins
+            at = np.clip(within[here] - mid, engagement.entry_deg, engagement.exit_deg)
+            out[here] += turned + engagement.motion(at, 0).c[0]
             turned += engagement.half_step + (after[0].half_step if after else 0.0)
         return out
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves import chords
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.drive import Gears
@@ -34,6 +35,7 @@ NAMES = (
     "driven_convexity",
 )
 SAMPLES = 721
+ENDS = (-np.pi, 0.0, np.pi)  # of the input: a turn, and where the curves' frames stand
 
 
 class Convexity(NamedTuple):
@@ -44,26 +46,32 @@ class Convexity(NamedTuple):
 
 
 def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """Both pitch curves, each in its own gear's frame, x along the line of centres at input 0.
+    """Both pitch curves: for a chord tolerance, or ``samples`` evenly in the input angle.
 
+    Each is in its own gear's frame, x along the line of centres at input 0.
     The driver is given as it is cut, so its angle runs against the input; likewise the driven.
     """
     gears = required_gears(mechanism)
-    phi = np.linspace(-np.pi, np.pi, samples or SAMPLES)
+    if samples is None:
+        phi = chords.nodes(
+            lambda at: _pitch_points(gears, *_ratio(gears, at), at), ENDS, tolerance_mm
+        )
+    else:
+        phi = np.linspace(ENDS[0], ENDS[-1], samples)
     turn, ratio = _ratio(gears, phi)
-    C, i = gears.distance_mm, ratio.c[0]
-    r1, r2 = C * i / (1.0 + i), C / (1.0 + i)
+    r1, r2 = _radii(gears, ratio)
+    (x1, y1), (x2, y2) = (p.T for p in _pitch_points(gears, turn, ratio, phi))
     driver, driven = _convexities(ratio)
     columns = [
         np.degrees(phi),
         np.degrees(turn),
-        i,
+        ratio.c[0],
         r1,
-        r1 * np.cos(phi),
-        -r1 * np.sin(phi),
+        x1,
+        y1,
         r2,
-        -r2 * np.cos(turn),
-        -r2 * np.sin(turn),
+        x2,
+        y2,
         driver,
         driven,
     ]
@@ -94,11 +102,30 @@ def convexity(gears: Gears) -> Convexity:
     return Convexity(float(driver.min()), float(driven.min()))
 
 
+def _radii(gears: Gears, ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
+    """The radii of driver and driven gear where they touch, mm."""
+    C, i = gears.distance_mm, array(ratio.c[0])
+    return C * i / (1.0 + i), C / (1.0 + i)
+
+
+def _pitch_points(
+    gears: Gears, turn: np.ndarray, ratio: Jet, phi: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The points (n, 2) of driver and driven gear that touch at input angles, each in its frame."""
+    driver, driven = _radii(gears, ratio)
+    return (
+        np.column_stack((driver * np.cos(phi), -driver * np.sin(phi))),
+        np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn))),
+    )
+
+
 def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
     """The crank's angle and the ratio with two derivatives, over a turn of the input."""
     ratio, turned = ratio_and_turn(gears, phi)
-    turn = np.unwrap(np.angle(turned))
-    return turn - turn[len(turn) // 2], ratio
+    # How far the crank is ahead of the input, which is nothing at input 0.
+    ahead = np.unwrap(np.angle(turned * np.exp(-1j * phi)))
+    middle = float(ahead[np.argmin(np.abs(phi))])
+    return phi + ahead - np.round(middle / (2.0 * np.pi)) * 2.0 * np.pi, ratio
 
 
 def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:

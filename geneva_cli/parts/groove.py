@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves import chords
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
-SAMPLES = 721
 LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
 FEW = 360  # in the dwell, where a little less will do
 TOP = 0.99  # of the steepest place of them: another top may be as steep
@@ -173,10 +173,11 @@ def _steepest(groove: Groove, about: float) -> tuple[float, float]:
 
 
 def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """The groove over the motion, evenly in the input angle, the crank's axis being the origin.
+    """The groove over the motion: for a chord tolerance, or ``samples`` evenly in the input angle.
 
-    x points away from the wheel's axis; left and right are the flanks as the roller travels. The
-    pressure angle is the one between the groove's normal and the crank's arm, atan(R'/R).
+    The crank's axis is the origin, and x points away from the wheel's. Left and right are the
+    flanks as the roller travels. The pressure angle is the one between the groove's normal and the
+    crank's arm, atan(R'/R).
     """
     groove = mechanism.engagements[0].groove
     if groove is None:
@@ -185,7 +186,12 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
         )
     clearance = mechanism.spec.size.allowances.slot_clearance_mm
     L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + clearance
-    x = np.linspace(groove.motion.entry_deg, groove.motion.exit_deg, samples or SAMPLES)
+    ends = groove.motion.entry_deg, 0.0, groove.motion.exit_deg
+    if samples is None:
+        lines = [groove_curve(groove, L, side) for side in (0.0, offset, -offset)]
+        x = chords.nodes(lambda at: [line(at)[0] for line in lines], ends, tolerance_mm)
+    else:
+        x = np.linspace(ends[0], ends[-1], samples)
     R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
     px, py = groove.groove(x, 2)
     (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()

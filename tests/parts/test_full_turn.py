@@ -70,6 +70,29 @@ SOUND = [
 ]
 
 
+def test_the_wheel_goes_on_before_the_first_entry_and_after_a_turn() -> None:
+    """One roller, six slots: a closed form of the motion, and a step a turn."""
+    assembly = made(6).assembly
+    at = np.linspace(-1000.0, 1000.0, 4001)
+    away = (at + 180.0) % 360.0 - 180.0
+    steps = np.round((at - away) / 360.0)
+    phi = np.radians(away)
+    moving = np.abs(away) <= 60.0
+    motion = np.where(moving, np.arctan2(0.5 * np.sin(phi), 1.0 - 0.5 * np.cos(phi)), 0.0)
+    rest = np.where(moving, 0.0, np.copysign(math.pi / 6.0, away))
+    expected = motion + rest + math.pi / 3.0 * steps
+    assert np.abs(assembly.wheel(at) - expected).max() < 1e-13
+
+
+def test_unequal_steps_add_up_to_a_turn() -> None:
+    """Two rollers on the crank, for steps of 60 and 30 deg: 90 deg a turn of the crank."""
+    assembly = made(8, steps=(60.0, 30.0)).assembly
+    at = np.linspace(-900.0, 900.0, 2001)
+    assert assembly.turn_deg == 360.0
+    gained = assembly.wheel(at + 360.0) - assembly.wheel(at)
+    assert np.abs(gained - 0.5 * math.pi).max() < 1e-13
+
+
 @pytest.mark.parametrize("case", SOUND, ids=name)
 def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     """What touches without clearance has exactly the clearance with it: slot and lock. Only inside,

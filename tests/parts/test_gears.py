@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import repo
 from shapely.affinity import rotate, translate
-from shapely.geometry import Polygon
+from shapely.geometry import LineString, Point, Polygon
 from words import Drive, Keys, Motion, Spec, Wheel, points
 
 from geneva_cli import Design, External, Internal, NoncircularGears, load
@@ -171,6 +171,59 @@ def test_the_groove_against_the_law_of_sines():
     assert at["radius_mm"][off] == pytest.approx(expected, rel=1e-13)
     assert at["radius_mm"][~off] == pytest.approx(50.0, rel=1e-15)  # L V/(1+V), V = 1
     assert at["curvature_radius_mm"][0] == math.inf  # entering along a slot at rest
+
+
+def missed(x, y, true: np.ndarray) -> float:
+    """The greatest distance of true places x + iy from the chords between rows of a table."""
+    chords = LineString(np.column_stack((x, y)))
+    return max(chords.distance(Point(z.real, z.imag)) for z in true)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_the_gears_table_keeps_its_tolerance(tolerance):
+    """Ellipses about their foci, in closed form, between the rows: half-way, and all over."""
+    mechanism = build(
+        Spec(Wheel(6), Drive("elliptical-gears"), Keys("elliptical-gears", eccentricity=0.7))
+    )
+    at = columns(gears_table(mechanism, tolerance, None))
+    phi = np.linspace(-math.pi, math.pi, 5001)
+    true = 50.0 * (1.0 - 0.49) / (1.0 + 0.7 * np.cos(phi)) * np.exp(-1j * phi)
+    worst = missed(at["driver_x_mm"], at["driver_y_mm"], true)
+    assert 0.5 * tolerance < worst <= 1.005 * tolerance  # 15 places a chord miss 1/256 of it
+    # the driven ellipse is as large, and lies as the driver does about its own axis
+    assert missed(at["driven_x_mm"], at["driven_y_mm"], true) <= 1.005 * tolerance
+    assert 0.0 in at["input_deg"]
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_the_groove_table_keeps_its_tolerance(tolerance):
+    """Pitch curve and flanks by the law of sines, its slope by a complex step."""
+    spec = Spec(Wheel(6), Drive("cam"), Keys("cam"), Motion("cycloidal"))
+    at = columns(groove_table(build(spec), tolerance, None))
+
+    def distance(phi):
+        u = phi / math.radians(120.0) + 0.5
+        psi = math.pi / 3.0 * (u - np.sin(2.0 * math.pi * u) / (2.0 * math.pi) - 0.5)
+        return 100.0 * np.sin(psi) / np.sin(phi + psi)
+
+    phi = np.radians(np.linspace(-59.999, 59.999, 5000))  # without 0, where that is 0/0
+    R, slope = distance(phi), distance(phi + 1e-30j).imag / 1e-30
+    # x points away from the wheel; the roller runs by phi about the crank's axis
+    pitch = -R * np.exp(-1j * phi)
+    along = -(slope - 1j * R) * np.exp(-1j * phi)
+    normal = 1j * along / np.abs(along)
+    worst = [
+        missed(at[f"{side}x_mm"], at[f"{side}y_mm"], pitch + off * normal)
+        for side, off in (("", 0.0), ("left_", 5.0), ("right_", -5.0))
+    ]
+    assert 0.5 * tolerance < max(worst) <= 1.005 * tolerance
+
+
+@pytest.mark.parametrize("samples", [2, 4, 5, 100])
+def test_the_crank_is_at_0_where_the_input_is(samples):
+    """However many rows, a turn of the crank goes from -180 to 180 deg: the ratio is even."""
+    crank = columns(gears_table(gears(0.6), TOL, samples))["crank_deg"]
+    assert (crank[0], crank[-1]) == pytest.approx((-180.0, 180.0), abs=1e-12)
 
 
 @pytest.mark.parametrize("table", [gears_table, groove_table])
