@@ -17,19 +17,16 @@ from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_members
-from geneva_cli.parts.frame import frame_plate, lowest, standing_plates
-from geneva_cli.parts.gear_drawings import driver_shaft, gear_members
+from geneva_cli.parts.frame import framed, groove_plates
+from geneva_cli.parts.gear_drawings import gear_members
 from geneva_cli.parts.groove_plate import TOLERANCE
 from geneva_cli.parts.link_positions import links_at
-from geneva_cli.parts.link_shafts import link_shafts
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, roller_plates, wheel_part
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.sizes import pin_radius, thicknesses
-from geneva_cli.parts.turn.planes import crank_stop
 
 
 class Built(NamedTuple):
@@ -65,9 +62,8 @@ def link_members(proof: Proof) -> tuple[Member, ...]:
     members = (*bars.cut, *bars.joined, *carried, *link_gears(bars), *gear_members(proof))
     if not mechanism.spec.wheel.FLAT:
         return members
-    frame = frame_plate(proof, [], bars)
-    shafts = (*link_shafts(mechanism, bars, frame.low), *driver_shaft(proof, frame.low))
-    return (*members, *shafts, Member(frame))
+    frame = framed(proof, [], bars)
+    return (*members, *frame.shafts, Member(frame.plate))
 
 
 def _carried(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
@@ -100,11 +96,10 @@ def built(
     given, at = assembly.given, np.zeros(1)
     bars = drawn_links(given, found)
     arm = crank_arm(found) if has_arm(found) else None
-    standing = tuple(standing_plates(found, bars, tolerance, curves))
-    low, stop = lowest(standing), crank_stop(found, bars)
-    own = crank_shaft_radius(found) > 0.0, wheel_shaft_radius(found) > 0.0
-    first = tuple(first_members(given, bars))
     proof = Proof(given, found)
+    fixed = groove_plates(found, bars, tolerance, curves)
+    frame = framed(proof, fixed, bars)
+    first = tuple(first_members(given, bars))
     return Built(
         Member(wheel_part(found, contour or found.wheel), turn=float(assembly.wheel(at)[0])),
         Member(
@@ -116,10 +111,6 @@ def built(
         bars,
         (*([] if first else link_gears(bars)), *(gear_members(proof) if pitch else ())),
         first,
-        (
-            *shafts(found, low, stop),
-            *link_shafts(given, bars, low, stop, *own),
-            *driver_shaft(proof, low),
-        ),
-        standing,
+        frame.shafts,
+        (*fixed, Member(frame.plate)),
     )

@@ -1,56 +1,61 @@
-"""The frame: one plate with a hole for every shaft that stands, and four to mount it by.
+"""The frame: one plate with a hole for every shaft that reaches it, and four to mount it by.
 
-It lies below all that moves; a plate above the wheel is drilled alike. In the machine's frame, the
-wheel's axis the origin and the crank's on the x axis. Holes have the size of their shafts: what a
-bush or a bearing needs is for who chooses it.
+It lies below all that moves. A shaft that ends above it, as an internal wheel's, has its bearing
+elsewhere. In the machine's frame, the wheel's axis is the origin and the crank's is on the x axis.
+Holes have the size of their shafts: what a bush or a bearing needs is for who chooses it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
-
-import numpy as np
+from typing import NamedTuple
 
 from geneva_cli.curves.belt import belt
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.centre_marks import centre_marks
-from geneva_cli.parts.gear_drawings import gear_bores, gear_span
+from geneva_cli.parts.gear_drawings import driver_shaft, gear_span
 from geneva_cli.parts.groove_plate import TOLERANCE, groove_members
 from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.link_positions import links_at
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.link_positions import same
+from geneva_cli.parts.link_shafts import axes, link_shafts
 from geneva_cli.parts.links import Links, drawn_links, placed_holes
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.sizes import even, thicknesses, wall_min
+from geneva_cli.parts.turn.planes import crank_stop
+from geneva_cli.parts.wheel_hub import wheel_hub
 
 NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
-SAME = 1e-9  # of the centre distance: places nearer to each other are one
-ANGLES = 720  # input angles at which it is seen which joints stand
+
+
+class Framed(NamedTuple):
+    """The frame, and the shafts at their places, whether they reach it or not."""
+
+    plate: Plate
+    shafts: tuple[Member, ...]
 
 
 def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
     """The frame as it is drilled, with centre marks."""
-    plate = frame_plate(proof)
+    plate = framed(proof).plate
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     shapes = (plate.outline, *holes, *centre_marks(holes))
     return Drawing(f"{titled(proof.mechanism)}: frame", shapes, solid=plate)
 
 
-def frame_plate(
-    proof: Proof, fixed: list[Member] | None = None, bars: Links | None = None
-) -> Plate:
+def framed(
+    proof: Proof, fixed: Sequence[Member] | None = None, bars: Links | None = None
+) -> Framed:
     """The frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
 
     Both are worked out where they are not known. Raises GenevaError where wheel and crank stand in
-    no one plane.
+    no one plane, and, naming the key, for a shaft that ends above its upper end.
     """
     mechanism = proof.mechanism
     if not mechanism.spec.wheel.FLAT:
@@ -61,82 +66,87 @@ def frame_plate(
     found = proof.found if mechanism.spec.is_flat else None
     bars = bars or drawn_links(mechanism, found)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    known = list(_bores(proof, found, bars))
-    holes = [
-        Circle(HOLES, at, max((r for c, r in known if same(c, at, L)), default=even(L / 20.0)))
-        for at in standing(mechanism)
-    ]
     if fixed is None:
         fixed = groove_members(found, bars) if found else []
-    holes += [*_fixed(bars), *_mounted(fixed, L)]
+    lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
+    if mechanism.spec.drive.gears:
+        lows.append(gear_span(proof)[0])
+    top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
+    bottom = top - thicknesses(size, L).arm
+    every, places = tuple(_shafts(proof, found, bars, bottom)), list(standing(mechanism))
+    holes = [*_drilled(mechanism, every, places, top), *_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
+    # It goes as far as every axis, drilled or not.
+    within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
     low, high = (
-        [pick(c.centre[k] + way * c.radius for c in holes) + 3.0 * way * eye for k in (0, 1)]
+        [pick(c.centre[k] + way * c.radius for c in within) + 3.0 * way * eye for k in (0, 1)]
         for way, pick in ((-1.0, min), (1.0, max))
     )
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
-    lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
-    if mechanism.spec.drive.gears:
-        lows.append(gear_span(proof)[0])
-    top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
-    return Plate(NAME, LAYER, outline, tuple(holes), top - thicknesses(size, L).arm, top)
+    return Framed(Plate(NAME, LAYER, outline, tuple(holes), bottom, top), every)
 
 
-def standing_plates(
+def groove_plates(
     found: Outlines, bars: Links, tolerance: float = TOLERANCE, curves: str = "arcs"
-) -> Iterator[Member]:
-    """A cam's groove plate, unless there is no room for one, and the frame, where they are."""
-    fixed: list[Member] = []
-    with suppress(GenevaError):  # --part groove-plate says why
-        fixed = groove_members(found, bars, tolerance, curves)
-    yield from fixed
-    yield Member(frame_plate(Proof(found.assembly.given, found), fixed, bars))
+) -> list[Member]:
+    """A cam's groove plate where it is; none where there is no room for one."""
+    try:
+        return groove_members(found, bars, tolerance, curves)
+    except GenevaError:  # --part groove-plate says why
+        return []
 
 
-def lowest(standing: Sequence[Member]) -> float:
-    """The lower face of the frame, the last of the plates that stand."""
-    frame = standing[-1].part
-    assert isinstance(frame, Plate)
-    return frame.low
+def _shafts(proof: Proof, found: Outlines | None, bars: Links, lowest: float) -> Iterator[Member]:
+    """All shafts at their places; ``lowest`` is the frame's lower face."""
+    stop, own = None, (False, False)
+    if found:
+        stop = crank_stop(found, bars)
+        own = crank_shaft_radius(found) > 0.0, wheel_shaft_radius(found) > 0.0
+        yield from shafts(found, lowest, stop)
+    yield from link_shafts(proof.mechanism, bars, lowest, stop, *own)
+    yield from driver_shaft(proof, lowest)
+
+
+def _drilled(
+    mechanism: Mechanism, shafts_: Sequence[Member], places: Sequence[Point], top: float
+) -> Iterator[Circle]:
+    """The holes of the shafts that reach below the frame's upper face.
+
+    What stands without a shaft is one piece with it, of a size that nobody gives.
+    """
+    L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
+    given = {0.0: shaft.wheel_diameter_mm, L: shaft.crank_diameter_mm}
+    for at in places:
+        here = [one.part for one in shafts_ if same(one.at, at, L)]
+        radii = [
+            one.outline.radius
+            for one in here
+            if isinstance(one, Plate) and isinstance(one.outline, Circle) and one.low < top
+        ]
+        if here and not radii:
+            continue
+        diameter = given.get(at[0]) if at[1] == 0.0 else None
+        radii += [] if diameter is None else [0.5 * diameter]
+        yield Circle(HOLES, at, max(radii, default=even(L / 20.0)))
 
 
 def standing(mechanism: Mechanism) -> Iterator[Point]:
-    """Where shafts stand in the frame, each once: the wheel's, the crank's, what drives it."""
-    L, turns = mechanism.center_distance_mm, mechanism.spec.drive.turns
-    seen = [(0.0, 0.0), (L, 0.0)]
+    """Where shafts stand, each once: the wheel's, the crank's, what drives it.
+
+    An internal wheel is open in the middle, where its crank turns below it: it is held from above.
+    """
+    L = mechanism.center_distance_mm
+    seen = [*([(0.0, 0.0)] if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
     if mechanism.spec.drive.gears:
         seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
     yield from seen
-    for link in links_at(mechanism, np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)):
-        for joint, kind in zip(places(link), link.kinds, strict=True):
-            middle = complex(joint[len(joint) // 2])  # input angle 0
-            at = middle.real, middle.imag
-            stands = bool(np.abs(joint - middle).max() < SAME * L)
-            known = any(same(at, one, L) for one in seen)
-            if stands and kind in (Joint.SHAFT, Joint.PIN) and not known:
-                seen.append(at)
-                yield at
-
-
-def _bores(proof: Proof, found: Outlines | None, bars: Links) -> Iterator[tuple[Point, float]]:
-    """Places and radii of the shafts' bores in what they carry."""
-    mechanism = proof.mechanism
-    shaft, L = mechanism.spec.shaft, mechanism.center_distance_mm
-    if found and found.sizes.wheel_bore:
-        yield (0.0, 0.0), found.sizes.wheel_bore
-    if found and (has_arm(found) or found.sizes.crank_bore):
-        yield (L, 0.0), shaft_bore(found) if has_arm(found) else found.sizes.crank_bore
-    for x, given in ((0.0, shaft.wheel_diameter_mm), (L, shaft.crank_diameter_mm)):
-        if given is not None:
-            yield (x, 0.0), 0.5 * given
-    for member in bars.cut:
-        yield from ((hole.centre, hole.radius) for hole in placed_holes(member))
-    yield from ((gear.at, gear.bore) for gear in bars.gears if gear.bore)
-    if mechanism.spec.drive.gears:
-        yield from ((at, r) for at, r in gear_bores(proof) if r)
+    for axis in axes(mechanism):
+        if axis.stands and not any(same(axis.at, one, L) for one in seen):
+            seen.append(axis.at)
+            yield axis.at
 
 
 def _fixed(bars: Links) -> Iterator[Circle]:
@@ -150,7 +160,7 @@ def _fixed(bars: Links) -> Iterator[Circle]:
             yield Circle(HOLES, (x + u, y + v), hole.radius)
 
 
-def _mounted(members: list[Member], L: float) -> Iterator[Circle]:
+def _mounted(members: Sequence[Member], L: float) -> Iterator[Circle]:
     """The holes that mount plates about the crank's axis, once."""
     holes = dict.fromkeys(hole for one in members for hole in placed_holes(one))
     yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
@@ -161,10 +171,7 @@ def _lowest(mechanism: Mechanism, found: Outlines | None, bars: Links) -> float:
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
     under += [gear.plate.low for gear in bars.gears]
+    hub = wheel_hub(found.assembly, found.sizes) if found else None
+    under += [hub.low] if hub else []
     arm = thicknesses(size, L).arm if found and has_arm(found) else 0.0
     return min([*under, -size.pin_gap_mm - arm])
-
-
-def same(p: Point, q: Point, L: float) -> bool:
-    """Whether two places are one, with the centre distance L."""
-    return abs(complex(*p) - complex(*q)) < SAME * L

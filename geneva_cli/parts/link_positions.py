@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from geneva_cli.curves.shapes import Point
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.groove import roller_in_groove
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
+
+SAME = 1e-9  # of the centre distance: places nearer to each other are one
 
 
 def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
@@ -28,3 +31,8 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
         x, y = L * roller_in_groove(groove, input_deg - 360.0 * k / m).T
         joints.append((x, y))
     return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
+
+
+def same(p: Point, q: Point, L: float) -> bool:
+    """Whether two places are one, with the centre distance L."""
+    return abs(complex(*p) - complex(*q)) < SAME * L

@@ -17,8 +17,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.frame import ANGLES, SAME, same
-from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_positions import SAME, links_at, same
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shafts import SHAFT
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 ON_SHAFTS = (Joint.SHAFT, Joint.PIN)
+ANGLES = 720  # input angles at which it is seen which axes stand
 
 
 class Axis(NamedTuple):
@@ -53,7 +53,7 @@ def link_shafts(
     ``crank_has_one`` where that carries more than links, and is not one of these, as the wheel's.
     """
     L = mechanism.center_distance_mm
-    for axis in _axes(mechanism):
+    for axis in axes(mechanism):
         on_crank = same(axis.at, (L, 0.0), L)
         on_wheel = same(axis.at, (0.0, 0.0), L)
         if (on_crank and crank_has_one) or (on_wheel and wheel_has_one):
@@ -68,7 +68,7 @@ def link_shafts(
             yield from _through(bars, f"shaft of {', '.join(axis.names)}", axis, L)
 
 
-def _axes(mechanism: Mechanism) -> Iterator[Axis]:
+def axes(mechanism: Mechanism) -> Iterator[Axis]:
     """The axes of a machine's links, each once."""
     turns, near = mechanism.spec.drive.turns, SAME * mechanism.center_distance_mm
     turn = np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)

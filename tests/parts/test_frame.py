@@ -1,22 +1,25 @@
-"""The frame: a hole for every shaft that stands, and for nothing else."""
+"""The frame: a hole for every shaft that reaches it, and for nothing else."""
 
+import math
 from functools import cache
+from itertools import combinations
 
 import pytest
 import repo
 
-from geneva_cli import Design, External, Spherical, load
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.hole_walls import least_wall
 from geneva_cli.parts.sizes import wall_min
 
-# the pivots of the parts list that stand, of each kind of drive
+# The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
+# side-crank ends above the input crank, and the wheel's shaft of the four-bar above the wheel.
 STANDING = {
     "turret": ["wheel axis", "crank axis"],
-    "side-crank-z6": ["wheel axis", "crank axis", "input crank axis"],
-    "four-bar-z4": ["wheel axis", "crank axis", "rocker axis"],
+    "side-crank-z6": ["wheel axis", "input crank axis"],
+    "four-bar-z4": ["crank axis", "rocker axis"],
     "slider-crank": ["wheel axis", "crank axis"],
     "epicyclic-z4": ["wheel axis", "crank axis"],
     "geneva-pair": ["wheel axis", "crank axis", "first crank axis"],
@@ -38,7 +41,7 @@ def rows(design, row):
 
 
 @pytest.mark.parametrize("name", STANDING)
-def test_a_hole_for_every_shaft_that_stands(name):
+def test_a_hole_for_every_shaft_that_reaches_it(name):
     design, _, drawing = made(name)
     holes = [shape for shape in drawing.shapes if isinstance(shape, Circle)]
     pivots = rows(design, "pivot")
@@ -51,6 +54,43 @@ def test_a_hole_for_every_shaft_that_stands(name):
     marks = [shape.segments[0] for shape in drawing.shapes if shape.layer == "CENTER"]
     middles = [(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])) for a, b in marks[::2]]
     assert middles == [pytest.approx(hole.centre) for hole in holes]
+
+
+def drilled(design):
+    """The frame and its holes for shafts, which come first."""
+    (plate,) = plates(design.drawing("frame").solid)
+    return plate, [(hole.centre, hole.radius) for hole in plate.holes[:-MOUNTS]]
+
+
+@pytest.mark.parametrize(
+    ("z", "A"), [(6, 0.05), (6, 0.15), (6, 0.19), (12, 0.3), (16, 0.3), (24, 0.3), (6, -0.1)]
+)
+def test_no_two_holes_cross_where_the_crank_ends_above_its_input(z, A):
+    """The base offset of the input crank is A times the crank, R = L sin(pi/z)."""
+    plate, holes = drilled(Design(External(z), SideCrank(A=A)))
+    offset = 100.0 * math.sin(math.pi / z) * A
+    assert [at for at, _ in holes] == [(0.0, 0.0), (pytest.approx(100.0 - offset), 0.0)]
+    for one, other in combinations(plate.holes, 2):
+        assert math.dist(one.centre, other.centre) > one.radius + other.radius
+
+
+def test_a_shaft_that_ends_above_it_has_no_hole():
+    """The frame of a plain crank is from -20 to -10 mm, L/10 below the wheel and as thick."""
+    assert [at for at, _ in drilled(Design(Internal(6)))[1]] == [(100.0, 0.0)]
+    plate, holes = drilled(Design(External(6)))
+    assert (plate.low, plate.high) == (-20.0, -10.0)
+    assert [at for at, _ in holes] == [(0.0, 0.0), (100.0, 0.0)]
+    for low, count in ((-9.0, 1), (-10.0, 1), (-10.5, 2), (-30.0, 2)):
+        ends = Design(External(6), size=Size(wheel_shaft_low_mm=low))
+        assert len(drilled(ends)[1]) == count
+        # it goes as far along the line of centres
+        assert drilled(ends)[0].holes[-1].centre[0] == plate.holes[-1].centre[0]
+
+
+def test_it_is_below_the_wheels_hub():
+    """A hub longer than the arm is thick lowers the frame, which it would meet."""
+    plate, _ = drilled(Design(External(6), size=Size(wheel_hub_mm=24.0, wheel_hub_length_mm=12.0)))
+    assert (plate.low, plate.high) == (-22.0, -12.0)
 
 
 @pytest.mark.parametrize("name", ["side-crank-z6", "slider-crank", "turret"])

@@ -13,8 +13,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
 from geneva_cli.curves.sheet import OUTLINE
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.frame import same
-from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_positions import links_at, same
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.sheet import sized

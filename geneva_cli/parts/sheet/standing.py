@@ -19,7 +19,8 @@ def draw_frame(view: View, plate: Plate) -> None:
         view.draw(shape, OUTLINE)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     for hole in holes:
-        view.cross(hole.centre, hole.radius)
+        if hole.centre != (0.0, 0.0):
+            view.cross(hole.centre, hole.radius)
     alike: dict[str, list[Circle]] = {}
     for hole in holes:
         alike.setdefault(sized.bore(hole.radius), []).append(hole)
@@ -30,7 +31,8 @@ def draw_frame(view: View, plate: Plate) -> None:
     up = 0.5 * math.pi
     view.linear((box.x0, box.y0), (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
     view.linear((box.x0, box.y0), (box.x0, box.y1), up, number(box.y1 - box.y0))
-    wheel = holes[0].centre  # the origin
+    wheel = (0.0, 0.0)  # its axis, drilled or not
+    view.cross(wheel, holes[0].radius)
     view.linear((box.x0, box.y0), wheel, 0.0, number(-box.x0))
     view.linear((box.x0, box.y0), wheel, up, number(-box.y0))
     for axis, turn in ((0, 0.0), (1, up)):
