@@ -21,7 +21,7 @@ from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.parts.hole_walls import apart, beyond
-from geneva_cli.parts.keyways import bore, key
+from geneva_cli.parts.keyways import bore, key, reach
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import keyway_direction, sectors
 from geneva_cli.parts.sizes import even
@@ -74,7 +74,7 @@ def crank_arm(found: Outlines) -> CrankArm:
     far = max(math.hypot(*c) for c in centres)
     radius = shaft_bore(found)
     fitted = key(spec.size.crank_keyway, radius)
-    deep = radius + (fitted.in_hub if fitted else 0.0)
+    deep = reach(spec.size.crank_keyway, radius)
     wall = sizes.wall_min
     under = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on it
     hub = _half_or(spec.size.arm_hub_mm, max(even(HUB * radius), deep + wall, under))

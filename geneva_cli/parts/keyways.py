@@ -72,6 +72,18 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
     )
 
 
+def reach(standard: str | None, radius: float, part: str = "crank") -> float:
+    """How far a part's bore goes from its axis: its radius, or to the top of its keyway.
+
+    Raises GenevaError as ``key`` does.
+
+    >>> reach("DIN 6885-1", 10.0)
+    12.8
+    """
+    fitted = key(standard, radius, part)
+    return radius + fitted.in_hub if fitted else radius
+
+
 def bore(layer: str, radius: float, fitted: ParallelKey | None, direction: float) -> Shape:
     """A bore about the origin, with its keyway in a direction, radians, where it has one."""
     if fitted is None:

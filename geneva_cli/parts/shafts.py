@@ -27,13 +27,23 @@ SAME = 1e-9  # of the centre distance: what is nearer to an axis is on it
 
 
 def crank_hub(found: Outlines) -> Plate | None:
-    """The crank's hub above the locking disc, or the arm; None where it is not given, or lower."""
+    """The crank's hub above the locking disc, or the arm; None where it is not given, or lower.
+
+    Raises GenevaError, naming the key, where there is neither disc nor arm for it to stand on.
+    """
     given, sizes = found.assembly.mechanism.spec.size, found.sizes
     asked = given.crank_hub_mm is not None or given.crank_hub_length_mm is not None
     if not asked or sizes.crank_hub <= sizes.crank_bore:
         return None
     on_arm = 0.0 - given.pin_gap_mm  # no -0.0
     disc = bool(found.crank) and is_whole(found.assembly, sizes)
+    if not (disc or has_arm(found)):
+        key = "crank_hub_length_mm" if given.crank_hub_mm is None else "crank_hub_mm"
+        raise GenevaError(
+            f"{key}: a hub stands on the locking disc or on the crank arm, and there is neither; "
+            "remove it",
+            ("size", key),
+        )
     low = on_arm + (sizes.lock_thickness if disc else 0.0)
     high = sizes.wheel_thickness
     if given.crank_hub_length_mm is not None:

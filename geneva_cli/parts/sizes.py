@@ -12,9 +12,22 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.keyways import reach
 from geneva_cli.parts.reliefs import arc_room, has_arcs
 from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
+
+PLAIN = 0.4  # of a hub's diameter: the radius of a bore in it
+KEYED = 0.5 / 1.6  # the same of a bore with a keyway, which is up to 0.39 of the radius deep
+
+# what stands on the axis of a wheel, and has nothing to stand on where that is a ring
+ON_AXIS = (
+    "wheel_bore_mm",
+    "wheel_hub_mm",
+    "wheel_hub_length_mm",
+    "wheel_shaft_low_mm",
+    "wheel_shaft_high_mm",
+)
 
 
 class Sizes(NamedTuple):
@@ -32,8 +45,10 @@ class Sizes(NamedTuple):
     relief: float  # clearance between wheel and relief
     wall_min: float
     wheel_bore: float
+    wheel_reach: float  # of the bore with its keyway, from the axis
     wheel_hub: float
     crank_bore: float
+    crank_reach: float
     crank_hub: float
     pin: float
     wheel_thickness: float  # along the axis, of the rollers too
@@ -85,8 +100,11 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
         room = min(room, arc_room(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
     wall = wall_min(given, L)
-    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(end, wall, given.wheel_hub_mm, L))
+    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(given, end, wall, L))
     wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
+    wheel_reach = _reach(given.wheel_keyway, wheel_bore)
+    crank_reach = _reach(given.crank_keyway, bore)
+    wheel_hub = _around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
     thick = thicknesses(given, L)
     out = Sizes(
         roller=r,
@@ -101,15 +119,18 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
         relief=relief,
         wall_min=wall,
         wheel_bore=wheel_bore,
-        wheel_hub=_or(_half(given.wheel_hub_mm), even(min(1.6 * wheel_bore, 0.75 * end))),
+        wheel_reach=wheel_reach,
+        wheel_hub=_or(_half(given.wheel_hub_mm), wheel_hub),
         crank_bore=bore,
-        crank_hub=_or(_half(given.crank_hub_mm), even(1.5 * bore)),
+        crank_reach=crank_reach,
+        crank_hub=_or(_half(given.crank_hub_mm), _around(crank_reach, bore, wall, 1.5 * bore)),
         pin=pin_radius(given, r),
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
         arm_thickness=thick.arm,
     )
     _refuse(assembly, out)
+    _refuse_hubs(given, out)
     return out
 
 
@@ -148,17 +169,36 @@ def _half(diameter: float | None) -> float | None:
     return None if diameter is None else 0.5 * diameter
 
 
-def _bore(end: float, wall: float, hub: float | None, L: float) -> float:
+def _bore(given: Size, end: float, wall: float, L: float) -> float:
     """The wheel's default bore: it leaves a wall to the slots' ends, within a given hub."""
-    return even(min(L / 12.0, 0.4 * end, end - wall, *([0.4 * hub] if hub else [])))
+    room = _within(given.wheel_hub_mm, given.wheel_keyway)
+    return even(min(L / 12.0, 0.4 * end, end - wall, room))
 
 
 def _crank_bore(given: Size, room: float, L: float) -> float:
     """The crank's bore: by default half the room inside the relief, none where that is too thin."""
     if given.crank_bore_mm is not None:
         return 0.5 * given.crank_bore_mm
-    within = 0.4 * given.crank_hub_mm if given.crank_hub_mm else math.inf
+    within = _within(given.crank_hub_mm, given.crank_keyway)
     return even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
+
+
+def _within(hub_mm: float | None, keyway: str | None) -> float:
+    """The largest default bore within a hub of a given diameter, if there is one."""
+    return (KEYED if keyway else PLAIN) * hub_mm if hub_mm else math.inf
+
+
+def _reach(standard: str | None, bore: float) -> float:
+    """How far a bore goes with its keyway; without it where the standard has none so large."""
+    try:
+        return reach(standard, bore)
+    except GenevaError:  # which the part that is cut says
+        return bore
+
+
+def _around(bored: float, bore: float, wall: float, usual: float) -> float:
+    """The default hub round a bore: as wide as usual, or with a wall round its keyway."""
+    return max(even(usual), bored + wall) if bored > bore else even(usual)
 
 
 def even(radius: float) -> float:
@@ -238,11 +278,6 @@ def _refuse(assembly: Assembly, found: Sizes) -> None:
             f"{found.slot_end:.6g} mm; it must be below {2.0 * found.slot_end:.6g}",
             ("size", "wheel_bore_mm"),
         )
-    if not outside and found.wheel_bore > 0.0:
-        raise GenevaError(
-            "wheel_bore_mm: an internal wheel is open in the middle; remove it, or set 0",
-            ("size", "wheel_bore_mm"),
-        )
     if found.lock and found.crank_bore >= found.lock:
         raise GenevaError(
             f"crank_bore_mm = {2.0 * found.crank_bore:g}: it must be below the locking disc's "
@@ -265,3 +300,22 @@ def _refuse(assembly: Assembly, found: Sizes) -> None:
             "wheel_outer_radius_mm is for internal wheels; here wheel_radius_mm is the outside",
             ("size", "wheel_outer_radius_mm"),
         )
+
+
+def _refuse_hubs(given: Size, found: Sizes) -> None:
+    """Raise GenevaError, naming the key, for what stands on no wheel, and for a hub cut through."""
+    on_axis = [key for key in ON_AXIS if vars(given)[key]]
+    if found.outer and on_axis:
+        raise GenevaError(
+            f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
+            ("size", on_axis[0]),
+        )
+    hubs = {"wheel": (found.wheel_hub, found.wheel_reach, found.wheel_bore)}
+    hubs["crank"] = found.crank_hub, found.crank_reach, found.crank_bore
+    for part, (hub, bored, bore) in hubs.items():
+        if bore < hub <= bored:
+            raise GenevaError(
+                f"{part}_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * bored:.6g}, its bore "
+                f"and keyway; a smaller {part}_bore_mm leaves more of it",
+                ("size", f"{part}_hub_mm"),
+            )

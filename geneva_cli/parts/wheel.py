@@ -60,9 +60,7 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
     if sizes.outer:
         low, high = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
     else:
-        low, high = sizes.wheel_bore, sizes.slot_end
-        fitted = key(size.wheel_keyway, low, "wheel") if low else None
-        low += fitted.in_hub if fitted else 0.0
+        low, high = sizes.wheel_reach, sizes.slot_end
     far, room = 0.5 * (low + high), 0.5 * (high - low)
     if size.dial_bolt_circle_mm is not None:
         far = 0.5 * size.dial_bolt_circle_mm

@@ -211,6 +211,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "wheel_hub_mm", 0.2),
         scaled("size", "wheel_bore_mm", 0.2),
         replaced("size", "wheel_bore_mm", 0.0),
+        left_out("size", "wheel_hub_mm"),
     ),
     "arm_wall_mm": (
         *(left_out("size", key) for key in ("arm_hub_mm", "arm_eye_mm")),
@@ -224,7 +225,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         left_out("size", key) for key in ("link_bore_mm", "link_pin_mm", "link_width_mm", "pin_mm")
     ),
     "link_gap_mm": (
-        *(left_out("size", key) for key in ("link_width_mm", "link_pin_mm")),
+        *(left_out("size", key) for key in ("link_width_mm", "link_pin_mm", "crank_shaft_low_mm")),
         scaled("size", "wheel_hub_mm", 0.5),
         set_to("size", "wheel_hub_mm", 0.0),
     ),

@@ -5,7 +5,7 @@ import math
 import pytest
 import repo
 
-from geneva_cli import Design, External, Internal, Size, load
+from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import crank_arm
@@ -134,6 +134,59 @@ def test_a_shaft_ends_above_a_link_that_is_in_its_way():
     design = load(str(repo.DESIGNS / "side-crank-z6.toml"))
     assert part(design, "crank's shaft").low == part(design, "coulisse").low
     assert part(design, "wheel's shaft").low == part(design, "frame").low
+
+
+@pytest.mark.parametrize("low", [-20.0, -20.5, -36.0])
+def test_a_shaft_that_the_spec_takes_through_a_link(low):
+    """A side-crank's input crank turns in -30..-20 mm, and the coulisse above it.
+
+    Its axis is 0.6 R from the crank's. There the belt round its hub and the eye of its pin, R away,
+    is as wide as a share of 0.6 of the way from the one to the other.
+    """
+    size = Size(crank_shaft_low_mm=low)
+    found = row(Design(External(6), SideCrank(A=0.6), size=size), "link_gap_mm")
+    hub, eye, shaft = 8.0, 5.0, 4.8  # radii: 1.6 bores of 5, 2 pins of 2.5, the crank's bore
+    if low == -20.0:
+        assert found.passes
+    else:
+        assert found.value == pytest.approx(-(hub + 0.6 * (eye - hub)) - shaft, abs=1e-9)
+        assert found.passes is False and found.nearest == "leaving out crank_shaft_low_mm"
+
+
+def test_a_keyway_leaves_a_wall_of_its_hub():
+    """DIN 6885-1, t2: 1.0 mm on shafts above 6 mm, 1.8 above 10 mm, 2.3 above 12 mm."""
+    keyed = Size(wheel_hub_mm=20.0, wheel_keyway="DIN 6885-1")
+    design = Design(External(6), size=keyed)
+    assert design.parts.sizes.wheel_bore == 6.0  # of a hub of 20 mm without a keyway it is 8
+    assert row(design, "wheel_bore_wall_mm").value == pytest.approx(10.0 - 6.0 - 1.8)
+    given = Design(External(6), size=keyed.replace(wheel_bore_mm=15.0))
+    assert row(given, "wheel_bore_wall_mm").value == pytest.approx(10.0 - 7.5 - 2.3)
+    assert row(given, "wheel_bore_wall_mm").passes is False
+    for part in ("wheel", "crank"):
+        cut = {f"{part}_hub_mm": 20.0, f"{part}_bore_mm": 16.0, f"{part}_keyway": "DIN 6885-1"}
+        with pytest.raises(GenevaError, match=rf"{part}_hub_mm = 20: .* must be above 20.6, its"):
+            Design(External(4), size=Size(**cut)).drawing("crank")
+    # the default hub has its wall too
+    wide = Size(wheel_bore_mm=6.5, wheel_keyway="DIN 6885-1", wall_min_mm=3.0)
+    assert Design(External(6), size=wide).parts.sizes.wheel_hub == pytest.approx(3.25 + 1.0 + 3.0)
+
+
+def test_a_bore_leaves_a_wall_of_its_hub():
+    thin = with_(wheel_hub_mm=16.5, crank_hub_mm=9.5)
+    for name in ("wheel_bore_wall_mm", "crank_bore_wall_mm"):
+        assert row(thin, name).value == pytest.approx(0.25)
+        assert row(thin, name).passes is False
+
+
+def test_a_hub_stands_on_something():
+    for key, value in (("wheel_hub_mm", 20.0), ("wheel_hub_length_mm", 5.0)):
+        with pytest.raises(GenevaError, match=f"{key}: an internal wheel is open in the middle"):
+            Design(Internal(6), size=Size(**{key: value})).drawing("wheel")
+    Design(Internal(6), size=Size(wheel_hub_mm=0.0)).drawing("wheel")
+    linkage = load(str(repo.DESIGNS / "four-bar-z4.toml"), ["size.crank_hub_mm=20"])
+    with pytest.raises(GenevaError, match="crank_hub_mm: a hub stands on the locking disc or on"):
+        linkage.drawing("assembly")
+    assert row(linkage, "beside_shafts_mm").passes is False
 
 
 def test_refused():

@@ -184,14 +184,18 @@ class _Shaft:
         if self.through:
             self.carries.add(0)
         self.radius = max(bores)
+        low = found.assembly.given.spec.size.crank_shaft_low_mm
+        ends = math.inf if low is None else low + SAME * L
+        self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
 
     def _in(self, plane: int) -> Round:
         return Round("the crank's shaft", plane, self.way, self.radius)
 
     def between(self) -> Iterator[Round]:
-        """The planes that the shaft must cross."""
+        """The planes that the shaft must cross, or that the spec takes it down to."""
         if self.carries:
-            for plane in range(min(self.carries) + 1, max(self.carries)):
+            deepest = max(self.carries | self.reached)
+            for plane in range(min(self.carries) + 1, deepest + 1):
                 if plane not in self.carries:
                     yield self._in(plane)
 

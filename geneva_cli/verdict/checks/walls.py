@@ -9,6 +9,8 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
 from geneva_cli.parts.crank import is_whole, rollers_gap
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.wheel_hub import wheel_hub
 from geneva_cli.verdict.checks.check import Check, compared
 
 NO_WALL = {  # what it means that a wall is less than nothing
@@ -59,9 +61,13 @@ def horn(name: str, found: Outlines) -> Check | None:
 
 
 def wheel_bore(name: str, found: Outlines) -> Check | None:
-    """Between the wheel's bore and the ends of its slots."""
+    """Between the wheel's bore and the ends of its slots, and round it in a hub that is drawn."""
     size = found.sizes
-    return _wall(name, size.slot_end - size.wheel_bore, found) if size.wheel_bore else None
+    if not size.wheel_bore:
+        return None
+    hub = wheel_hub(found.assembly, size)
+    wall = size.slot_end - size.wheel_bore
+    return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, found)
 
 
 def outside(name: str, found: Outlines) -> Check | None:
@@ -74,11 +80,15 @@ def outside(name: str, found: Outlines) -> Check | None:
 
 
 def crank_bore(name: str, found: Outlines) -> Check | None:
-    """Between the crank's bore and the bottom of the locking disc's relief."""
+    """Between the crank's bore and the bottom of the locking disc's relief, and round it in a hub
+    that is drawn.
+    """
     size = found.sizes
     if not (size.crank_bore and found.crank and is_whole(found.assembly, size)):
         return None
-    return _wall(name, found.relief_depth - size.crank_bore, found)
+    wall = found.relief_depth - size.crank_bore
+    hub = crank_hub(found)
+    return _wall(name, min(wall, size.crank_hub - size.crank_reach) if hub else wall, found)
 
 
 def _wall(name: str, value: float, found: Outlines) -> Check:
