@@ -1,7 +1,7 @@
 """ISO 286: limits of the fits that the drawings name.
 
 H7 for holes, g6 and h6 for shafts in them; a pin is h6 all along, what is pressed on it P7, and
-what turns on it F7 (fits of the basis of shafts, ISO 286-1).
+what turns on it F7 (fits of the basis of shafts, ISO 286-1). And the loosest of its running fits.
 """
 
 from __future__ import annotations
@@ -18,26 +18,28 @@ class SizeRange(NamedTuple):
     g: int  # how far the upper limit of a shaft g is below the nominal size
     f: int  # that of a shaft f, and how far the lower limit of a hole F is above it
     p: int  # how far the lower limit of a shaft p is above it
+    it11: int | None = None
+    c: int | None = None  # that of a shaft c, of the larger sizes; the standard has none above 500
 
 
-# ISO 286-1:2010: grades IT6 and IT7 by its table 1, the fundamental deviations g, f and p by
-# its tables 4 and 5.
+# ISO 286-1:2010: grades IT6, IT7 and IT11 by its table 1, the fundamental deviations g, f, p and c
+# by its tables 4 and 5.
 ISO_286 = [
     SizeRange(*row)
     for row in (
-        (3, 6, 10, 2, 6, 6),
-        (6, 8, 12, 4, 10, 12),
-        (10, 9, 15, 5, 13, 15),
-        (18, 11, 18, 6, 16, 18),
-        (30, 13, 21, 7, 20, 22),
-        (50, 16, 25, 9, 25, 26),
-        (80, 19, 30, 10, 30, 32),
-        (120, 22, 35, 12, 36, 37),
-        (180, 25, 40, 14, 43, 43),
-        (250, 29, 46, 15, 50, 50),
-        (315, 32, 52, 17, 56, 56),
-        (400, 36, 57, 18, 62, 62),
-        (500, 40, 63, 20, 68, 68),
+        (3, 6, 10, 2, 6, 6, 60, 60),
+        (6, 8, 12, 4, 10, 12, 75, 70),
+        (10, 9, 15, 5, 13, 15, 90, 80),
+        (18, 11, 18, 6, 16, 18, 110, 95),
+        (30, 13, 21, 7, 20, 22, 130, 110),
+        (50, 16, 25, 9, 25, 26, 160, 130),
+        (80, 19, 30, 10, 30, 32, 190, 150),
+        (120, 22, 35, 12, 36, 37, 220, 180),
+        (180, 25, 40, 14, 43, 43, 250, 230),
+        (250, 29, 46, 15, 50, 50, 290, 280),
+        (315, 32, 52, 17, 56, 56, 320, 330),
+        (400, 36, 57, 18, 62, 62, 360, 400),
+        (500, 40, 63, 20, 68, 68, 400, 480),
         (630, 44, 70, 22, 76, 78),
         (800, 50, 80, 24, 80, 88),
         (1000, 56, 90, 26, 86, 100),
@@ -68,6 +70,20 @@ def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
         "g6": (-row.g, -row.g - row.it6),
         "h6": (0, -row.it6),
     }[fit]
+
+
+def loosest_mm(nominal_mm: float) -> float | None:
+    """The greatest clearance, mm of the diameter, of H11/c11: ISO 286's loosest preferred fit.
+
+    Both limits add up: the hole wide by IT11, the shaft narrow by c and IT11. None beyond 500 mm.
+
+    >>> loosest_mm(24.0)
+    0.37
+    """
+    row = next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
+    if row is None or row.it11 is None or row.c is None:
+        return None
+    return (2 * row.it11 + row.c) / 1000.0
 
 
 def toleranced(nominal_mm: float, shown: str, fit: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import lru_cache
 
 from geneva_cli.analysis.peaks import QUANTITIES, peak
@@ -12,7 +13,10 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.roots import extrema
+from geneva_cli.parts.fits import loosest_mm
+from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_LEAD = 1e-6  # degrees: less is rounding
@@ -40,6 +44,7 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
             )
         )
     engagement = mechanism.engagements[0]
+    out.extend(_loose_fits(mechanism))
     out.extend(_rounded_points(mechanism))
     out.extend(_overtaken(mechanism))
     law = mechanism.law
@@ -76,6 +81,32 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         out.extend(_loose(mechanism))
     out.extend(_undercut(mechanism))
     return out
+
+
+def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
+    """Clearances that are given larger than the loosest running fit, or the process, needs.
+
+    A locking disc that is not given is smaller than the crank, whose fit is looser.
+    """
+    size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
+    pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
+    if not _no_lock(mechanism):
+        radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
+        pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
+    for key, part, mate, radius in pairs:
+        given, fit = getattr(size, key), loosest_mm(2.0 * radius)
+        if given is None or fit is None:
+            continue
+        own = getattr(PROCESSES[size.process], key) if size.process else 0.0
+        most = max(0.5 * fit, own)
+        if not keeps(given, "at most", most):
+            helps = "" if size.process else ", or name the process that needs it"
+            yield Caution(
+                "loose-fit",
+                f"{key} = {given:g}: the {part} is loose in its {mate}; at Ø {2.0 * radius:.4g} mm "
+                f"the loosest running fit of ISO 286, H11/c11, leaves at most {0.5 * fit:.4g} mm a "
+                f"side: reduce {key} to {most:.4g}{helps}",
+            )
 
 
 def _overtaken(mechanism: Mechanism) -> list[Caution]:

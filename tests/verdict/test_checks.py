@@ -9,6 +9,7 @@ import repo
 from typer.testing import CliRunner
 from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
+from geneva_cli import Design, External
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import spec as machine_spec
@@ -154,6 +155,27 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     # L + R + r + r/20 is 155.25 mm
     assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
     assert not rows["outer_wall_mm"].passes
+
+
+@pytest.mark.parametrize(
+    ("radius", "most"),  # ISO 286: (2 IT11 + c) / 2 of H11/c11, in um, for the roller's diameter
+    [(2.0, (150 + 70) / 2), (12.0, (260 + 110) / 2), (20.0, (320 + 130) / 2)],
+)
+def test_a_fit_looser_than_any_is_said(radius: float, most: float) -> None:
+    def said(**keys: object) -> list[str]:
+        design = Design(External(6), size=Size(200.0, radius, **keys))
+        return [text for text in design.warnings if text.name == "loose-fit"]
+
+    assert said(slot_clearance_mm=1e-3 * most) == []
+    (text,) = said(slot_clearance_mm=1e-3 * most + 0.002)
+    assert f"H11/c11, leaves at most {1e-3 * most:.4g} mm a side" in text
+    assert said(slot_clearance_mm=5.0)
+    # the process's own clearance is no caution; more than that is one
+    assert said(process="print") == said(process="print", slot_clearance_mm=0.25) == []
+    assert said(process="print", slot_clearance_mm=0.26)
+    # a disc of Ø 120: (2 * 220 + 180) / 2
+    assert said(lock_radius_mm=60.0, lock_clearance_mm=0.31) == []
+    assert said(lock_radius_mm=60.0, lock_clearance_mm=0.32)
 
 
 def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
