@@ -32,7 +32,7 @@ def compare(
     """
     names, machines = _columns(paths, given, vary)
     if picks:
-        wanted = pick(picks, machines[0])
+        wanted = pick(picks)
         each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
     else:
         each = [values(Proof(m)) for m in machines]

@@ -127,7 +127,7 @@ def request(
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
     refuse_opposites(objectives)
     options = {whole[a]: option for a, option in by.items()}
-    refuse_words(found.pick.words, options, "--vary or --set picks it")
+    refuse_words(options, "--vary or --set picks it")
     return Request(found, constraints, objectives, jobs, files)
 
 

@@ -51,13 +51,13 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     wanted = [b.name for b in wish.bounds]
     machine = build(spec)
     pick = load_named("study.fields:pick")  # with all that a report has: most wishes name nothing
-    of_sort = pick([sort], machine, "--sort").names if sort else ()
-    of_bounds = pick(wanted, machine, "--subject-to").asked if wanted else ()
-    found = pick([*of_sort, *of_bounds], machine)
+    of_sort = pick([sort], "--sort").names if sort else ()
+    of_bounds = pick(wanted, "--subject-to").asked if wanted else ()
+    found = pick([*of_sort, *of_bounds])
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # of two names for one quantity
     by = {b.name: "--subject-to" for b in bounds}
-    refuse_words(found.words, by, "only numbers are bound")
+    refuse_words(by, "only numbers are bound")
     loads = [name for name in found.names if name.startswith("loads.")]
     if loads and not load_named("analysis.loads.cycle:cycle_of")(machine).is_loaded:
         raise GenevaError(
