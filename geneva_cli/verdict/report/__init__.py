@@ -11,11 +11,14 @@ from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.wheel_inertia import known_wheel_body
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.carried_cautions import carried_cautions
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.cycle_cautions import cycle_cautions
+from geneva_cli.verdict.life import life
 from geneva_cli.verdict.load_cautions import load_cautions
 from geneva_cli.verdict.report.sections import SECTIONS
 from geneva_cli.verdict.report.values import Values
@@ -24,7 +27,7 @@ from geneva_cli.verdict.turn_cautions import turn_cautions
 
 
 class Report(NamedTuple):
-    """A page on a design; ``passes`` as ``check`` has it, and what its checks and cautions say."""
+    """A page on a design; ``passes`` as ``check`` has it, and the warnings of every format."""
 
     table: Table
     passes: bool
@@ -46,6 +49,8 @@ def report(
         *cautions(mechanism),
         *load_cautions(mechanism),
         *cycle_cautions(cycle, summaries(cycle)),
+        *carried_cautions(mechanism, known_wheel_body(mechanism)),
+        *life(mechanism).cautions(),
         *turn_cautions(proof),
     )
     passes = all_pass(rows)
