@@ -89,6 +89,21 @@ def test_differing_rows_are_marked_and_alone_on_request():
     assert "wheel.z" not in marked and "acceleration.max" in marked
 
 
+def test_rounding_is_no_difference(tmp_path):
+    """Forces go with 1/L and speeds with L: pv is that of any centre distance, but for a unit in
+    the last place; a nanometre of 100 mm is more than rounding."""
+    spec = tmp_path / "loaded.toml"
+    spec.write_text(
+        '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.3\n[size]\nface_width_mm = 10\n'
+        "[load]\ninertia_kgm2 = 0.4\ntorque_Nm = 5\n"
+    )
+    found = by_quantity(compare([str(spec)], vary=["size.center_distance_mm=100,130,100.000001"]))
+    pv, L = found["life.pv_max_W_m2"], found["sizes.center_distance_mm"]
+    values = [pv[f"{key}"] for key in pv if key not in ("quantity", "differs")]
+    assert max(values) <= min(values) * (1.0 + 1e-12) and len(set(values)) > 1
+    assert not pv["differs"] and L["differs"]
+
+
 def test_picked_quantities_by_whole_and_short_names():
     """And a check that other machines have, whose row here would be empty."""
     some = ["dwell_s", "acceleration.max", "passes", "branches_apart_mm"]
