@@ -43,7 +43,7 @@ class Winner(NamedTuple):
             f"# The {word} {name} of {self.tried:,} designs, {self.feasible:,} of them within the "
             f"bounds: {self.values[name]:.9g}.",
             *[
-                f"# {c}: {self.values[c.name]:.9g}{' (binds)' * c.binds(self.values[c.name])}"
+                f"# {c}: {self.values[c.name]:.9g}{c.standing(self.values[c.name])}"
                 for c in asked.constraints
             ],
             *[f"# {name}: {_said(value)}" for name, value in self.beside.items()],

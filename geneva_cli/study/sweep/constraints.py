@@ -45,6 +45,12 @@ class Constraint(NamedTuple):
         """Whether a value stands at the bound."""
         return abs(self.room(value)) <= BINDING
 
+    def standing(self, value: float) -> str:
+        """How a value that keeps the bound stands to it: nothing to say of one well inside."""
+        if self.room(value) < 0.0:
+            return " (binds, met to rounding)"
+        return " (binds)" if self.binds(value) else ""
+
 
 def is_number(value: object) -> TypeGuard[float]:
     """Whether a cell of a row holds a number; yes and no are 1 and 0."""
