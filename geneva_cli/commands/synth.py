@@ -94,6 +94,8 @@ def run(
 ) -> None:
     """From wishes to machines that grant them all, the lowest peak acceleration first.
 
+    Where seconds are asked for, or --from gives a speed, peaks are compared in rad/s2.
+
     Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
     0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak, or with
     the least of --sort; with bounds, no wish for a motion and no --sort, the one that keeps them
@@ -121,7 +123,7 @@ def run(
     they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
     the parts of its row. Where one of the first twenty says no without being turned, the best of
     its range that is found to pass is a row too; --buildable shows rows that pass, and for any
-    that fails in its turn the best of its range that is found to.
+    that fails in its turn the best of its range that is found to, under its number.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 

@@ -35,6 +35,7 @@ class Asked(NamedTuple):
     pick: Pick | None
     bounds: tuple[Constraint, ...]
     sort: str
+    bound_by: str = "--subject-to"  # the option that sets the bounds
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -64,7 +65,7 @@ def asked(wish: Wish, spec: Spec) -> Asked:
             f"{loads[0]}: nothing resists the wheel, so it is known of none; --from SPEC says what "
             "does, its [load]"
         )
-    return Asked(found, bounds, of_sort[0] if of_sort else "")
+    return Asked(found, bounds, of_sort[0] if of_sort else "", wish.bound_by)
 
 
 def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:
@@ -97,7 +98,7 @@ def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None
         if all(b.kept(by_name[b.name]) for b in wanted.bounds):
             out.append(row._replace(asked=tuple(cells)))
     if not out:
-        raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(found))}")
+        raise GenevaError(f"{wanted.bound_by}: {_how_near(wanted, nearest, len(found))}")
     return out
 
 
