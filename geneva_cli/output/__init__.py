@@ -187,9 +187,9 @@ def _terminal(output: str) -> tuple[int, bool]:
     return shutil.get_terminal_size().columns, "utf" in (sys.stdout.encoding or "").lower()
 
 
-def show_text(text: str, output: str = "-") -> None:
-    """Print a text as it is, or write it to a file."""
-    _put([text], output, ())
+def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
+    """Print a text as it is, or write it to the file ``output``; ``inputs`` are not overwritten."""
+    _put([text], output, inputs)
 
 
 def show_markdown(text: str) -> None:
