@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import rows_of
+from geneva_cli.numerics.arrays import read_only, rows_of
 from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def rule(nodes: int) -> tuple[Array, Array]:
             before, here = here, ((2 * k - 1) * x * here - (k - 1) * before) / k
         slope = nodes * (before - x * here) / ((1.0 - x) * (1.0 + x))
         x = x - here / slope
-    return x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)
+    return read_only((x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)))
 
 
 def integrals(functions: Integrands, spans: Sequence[tuple[float, float]]) -> list[float]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import read_only
 from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.quadrature import DEEPEST, rule
 
@@ -134,4 +135,4 @@ def _rule(nodes: int) -> tuple[Array, Array]:
     series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)
     midway = range(nodes // 2 - TERMS, nodes // 2)
     kept = [series[:, i] for i in (*midway, *range(nodes - TERMS, nodes))]
-    return node, weight[:, None] * np.column_stack([np.ones(nodes), *kept])
+    return read_only((node, weight[:, None] * np.column_stack([np.ones(nodes), *kept])))

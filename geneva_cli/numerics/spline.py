@@ -26,7 +26,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.numerics.arrays import Array, N
+from geneva_cli.numerics.arrays import Array, N, read_only
 from geneva_cli.numerics.digits import FIFTY
 
 Row: TypeAlias = list[Decimal]
@@ -84,7 +84,9 @@ class Pieces:
     def _arrays(self) -> tuple[Array, Array, Array]:
         import numpy as np
 
-        return np.array(self.cuts), np.array(self.origins), np.array(self.rows).T.copy()
+        return read_only(
+            (np.array(self.cuts), np.array(self.origins), np.array(self.rows).T.copy())
+        )
 
     def __call__(self, x: N, order: int) -> Sequence[N]:
         """Taylor coefficients 0 to ``order`` at a number or an array of numbers."""

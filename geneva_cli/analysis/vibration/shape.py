@@ -13,7 +13,7 @@ from geneva_cli.analysis.vibration.panels import Panels, panelled
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Number
+from geneva_cli.numerics.arrays import Number, read_only
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Motion
@@ -94,4 +94,4 @@ def _by_width(flat: Panels) -> Shape:
         kept = flat.series[: smooth + 1, at]
         panels.append(Alike(0.5 * float(width[at[0]]), flat.left[at], flat.right[at], kept))
     greatest, variation = (row[: smooth + 1, 0] for row in (flat.greatest, flat.variation))
-    return Shape(tuple(panels), smooth, greatest, variation, flat)
+    return read_only(Shape(tuple(panels), smooth, greatest, variation, flat))
