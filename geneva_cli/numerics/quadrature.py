@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import read_only, rows_of
-from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -103,7 +102,6 @@ def _settled(functions: Integrands, spans: Sequence[tuple[float, float]]) -> tup
     before = np.full(whole.shape, np.inf)
     sure = np.ones(len(whole), dtype=bool)
     for _ in range(DEEPEST):
-        check_time()
         middle = 0.5 * (low + high)
         ends = np.concatenate((low, middle)), np.concatenate((middle, high))
         halves = parts(*ends, np.concatenate((span, span)))[0]

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.numerics.arrays import read_only
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.quadrature import DEEPEST, rule
 
 if TYPE_CHECKING:
@@ -67,7 +66,6 @@ def integrals_many(
     low, high = np.zeros(len(a)), np.ones(len(a))
     counts = [(nodes, int(which.sum())) for nodes, which in groups]
     for _ in range(DEEPEST):
-        check_time()
         found, start = [], 0
         for nodes, count in counts:
             for i in range(start, start + count, BLOCK):

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import read_only
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cubics import touches
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
 
@@ -117,7 +116,6 @@ def _refined(functions: Functions, x: Array, span: Whole, signed: slice) -> Scan
     low, high = _range(value)
     left_over = MOST + 16 * len(x)
     for _ in range(DEEPEST):
-        check_time()
         x = 0.5 * (left[0] + right[0])
         open_: Mask = (x > left[0]) & (x < right[0])
         if not open_.any():

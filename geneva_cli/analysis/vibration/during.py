@@ -9,7 +9,6 @@ import numpy as np
 from geneva_cli.analysis.vibration.panels import NODES, SERIES, Panels, X
 from geneva_cli.analysis.vibration.shape import Shape
 from geneva_cli.analysis.vibration.swing import Swing
-from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
@@ -49,7 +48,6 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
     total = np.append(begin[1:], last[-1]) - begin
     active, start, z = np.arange(len(motion)), 0, np.zeros(len(motion), dtype=complex)
     while len(active):
-        check_time()
         wide = max(1, BLOCK // len(active))
         at = start + np.arange(min(wide, int(total[active].max()) - start))
         there = at < total[active][:, None]

@@ -14,7 +14,6 @@ import numpy as np
 
 from geneva_cli.analysis.vibration.shape import Shape
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
-from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
@@ -68,7 +67,6 @@ def lobes_of_many(
         some = np.flatnonzero(count == number)
         ratio = np.linspace(low[some], high[some], number + 1, axis=1)
         share = share_at(np.repeat(some, number + 1), ratio.ravel()).reshape(ratio.shape)
-        check_time()
         before, here, after = share[:, :-2], share[:, 1:-1], share[:, 2:]
         row, at = np.nonzero((here >= before) & (here > after))
         found.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
