@@ -36,8 +36,9 @@ FREE = (
     "wheel_outer_radius_mm",
     "roller_radius_mm",
 )
-# Sizes that set how large the machine is: none of these is at fault where a part cannot be built.
-OVERALL = ("center_distance_mm", "face_width_mm", "process")
+# What the machine is made for: how large it is, how it is made, how thick its walls must be. No
+# advice asks for less.
+REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
 
 
 def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
@@ -72,7 +73,7 @@ def _given(mechanism: Mechanism) -> Iterator[Change]:
     """Each given size made smaller, larger, and left out; fewer of what is counted."""
     usual = Size().as_dict()
     for key, value in mechanism.spec.size.as_dict().items():
-        if value == usual[key] or key in OVERALL:
+        if value == usual[key] or key in REQUIRED:
             continue
         if isinstance(value, int):
             yield fewer("size", key, 0)

@@ -174,6 +174,14 @@ def test_fewer_bolts_are_advised(tmp_path: Path) -> None:
     assert int(most) == max(passing)
 
 
+def test_no_requirement_is_relaxed() -> None:
+    """Walls of 20 mm leave no room in this machine; thinner ones are not what was wanted."""
+    design = load(str(DESIGNS / "tuned-dial.toml")).spec.with_("size.wall_min_mm", 20.0)
+    failing = [c for c in Design.of(design).checks if c.passes is False]
+    assert failing
+    assert not any("wall_min_mm =" in c.nearest + c.why for c in failing)
+
+
 def test_trials_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without any left there is no advice, and the reason."""
     monkeypatch.setattr(advice, "GLANCES", 0)
