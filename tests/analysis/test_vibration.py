@@ -47,7 +47,7 @@ def test_residuals_of_laws(name, damping):
 
 
 @given(st.sampled_from(LAWS), st.floats(0.01, 60.0), st.floats(0.0, 0.99))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_residuals_anywhere(name, ratio, damping):
     found = amplitudes(of(name), [ratio], damping)[0]
     assert close(found, witness.amplitude(name, ratio, damping))

@@ -187,7 +187,7 @@ def test_against_50_digits(name):
                 assert abs(values[k][row, j] - float(expected)) <= 1e-13 * max(1.0, abs(expected))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.sampled_from(sorted(MACHINES)), st.integers(0, 2**32 - 1))
 def test_refused_together_as_alone(name, seed):
     spec, rules = MACHINES[name]
