@@ -17,7 +17,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_axes import Axis
 from geneva_cli.parts.link_positions import SAME, same
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.shafts import shaft
+from geneva_cli.parts.shafts import shaft, shaft_ends
 from geneva_cli.parts.sizes import thicknesses
 
 
@@ -51,6 +51,7 @@ def link_shafts(
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
             low = ends.stop if on_crank and ends.stop is not None else ends.lowest
             high = thicknesses(size, L).wheel if on_wheel else high
+            low, high = shaft_ends(size, whose, low, high)
             yield Member(shaft(whose, axis.radius, (low, high), what), axis.at)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those have their pin
             plate = shaft(axis.names[0], axis.radius, (low, high))
