@@ -40,11 +40,11 @@ EXAMPLES = {
         "steps of two sizes, a roller for each",
         {"wheel": {"z": 6, "steps_deg": [72, 48]}},
     ),
-    "side-crank-internal": Example(
-        "an internal wheel behind a side-crank",
+    "elliptical-internal": Example(
+        "an internal wheel behind elliptical gears: a shorter motion",
         {
             "wheel": {"z": 6, "gearing": "internal"},
-            "drive": {"kind": "side-crank", "A": -0.3},
+            "drive": {"kind": "elliptical-gears", "eccentricity": 0.25, "phase": "quick"},
         },
     ),
     "turret": Example(
