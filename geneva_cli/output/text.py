@@ -49,7 +49,7 @@ def paragraphs(text: str) -> list[str]:
 
 def _headings(names: tuple[str, ...]) -> list[list[str]]:
     """Column names broken at underscores, so that sixteen columns stay readable."""
-    parts = [name.split("_") for name in names]
+    parts = [clean(name).split("_") for name in names]
     height = max(len(p) for p in parts)
     return [[""] * (height - len(p)) + p for p in parts]
 
@@ -150,7 +150,7 @@ def _rich(table: Table) -> Iterator[str]:
     rows = list(table.rows())
     for i, head in enumerate(_headings(table.names)):
         is_text = bool(rows) and isinstance(rows[0][i], str)
-        out.add_column("\n".join(head), justify="left" if is_text else "right", no_wrap=True)
+        out.add_column(Text("\n".join(head)), justify="left" if is_text else "right", no_wrap=True)
     for row in rows:
         out.add_row(*[Text(cell(v)) for v in row])
     console = Console(file=io.StringIO(), force_terminal=True)
