@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table, flat
+from geneva_cli.table import Table, flat, in_digits
 
 WIDTH = 90
 HELD = 10_000  # rows that a terminal gets with frames: they are laid out as a whole
@@ -35,7 +35,7 @@ def cell(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value + 0.0:.{DIGITS}g}"  # + 0.0 turns -0.0 into 0
+        return in_digits(value, DIGITS)
     return clean(str(value))
 
 
