@@ -79,7 +79,7 @@ def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:
 
 
 def _one(text: str, said: str) -> Value:
-    value = read_value(text)
+    value = read_value(text, said)
     if isinstance(value, bool) or not isinstance(value, (int, float, str)) or not text.strip():
         raise GenevaError(f"{said}: {cut(text)!r} is neither a number nor a word")
     if isinstance(value, float) and not math.isfinite(value):
