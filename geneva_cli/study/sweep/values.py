@@ -24,6 +24,13 @@ class VariedKey(NamedTuple):
     values: Sequence[Value]
     span: bool = False
 
+    def __contains__(self, value: object) -> bool:
+        """Whether it is one of the values, or between the two ends of a span."""
+        if not self.span:
+            return value in self.values
+        low, high = map(float, self.values)
+        return isinstance(value, float | int) and low <= value <= high
+
 
 def axis(text: str, random: bool = False) -> VariedKey:
     """What ``KEY=VALUES`` varies; ``random`` where values are drawn, and LOW:HIGH is a span.
