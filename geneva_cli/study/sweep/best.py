@@ -57,9 +57,10 @@ class Winner(NamedTuple):
 def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner:
     """The best of the rows of a sweep, which come some at a time and are not kept.
 
-    It is refined over those of its keys that were given as spans: from the best places by clouds of
-    designs that draw together, from the best of these by an optimiser. Raises GenevaError, saying
-    how near the designs come, where none keeps the bounds.
+    The spec's own design is tried too, where it lies in what is varied. The best is refined over
+    those of its keys that were given as spans: from the best places by clouds of designs that draw
+    together, from the best of these by an optimiser. Raises GenevaError, saying how near the
+    designs come, where none keeps the bounds.
     """
     search = SweepSearch(found, asked.objective, asked.constraints)
     tally = Tally(search)
