@@ -91,9 +91,8 @@ class Loaded:
         held = own or any(name in REACTIONS for name in names)
         self.reactions = held and engagement.reactions is not None
         self.spins = own or "slides" in self.kinds or any(name in SLIDING for name in names)
-        motion, slot = engagement.motion, engagement.slot
-        radial = all_true(slot.offset == 0.0) and (not slot.curved or has_mirrored_path(engagement))
-        self.mirrored = radial and motion.symmetric and not self.reactions
+        radial = all_true(engagement.slot.offset == 0.0)
+        self.mirrored = radial and engagement.mirrored and not self.reactions
         # of the block of designs that is sampled: which, their machine, and places and contact
         self.kept: tuple[slice | None, Any] = (None, None)
         self.last: list[tuple[Array, Contact[Jet]]] = []
@@ -222,17 +221,6 @@ class Look(NamedTuple):
     signs: list[Array]
     jets: list[Jet]
     instant: Instant[Jet]
-
-
-def has_mirrored_path(engagement: Engagement) -> bool:
-    """Whether the roller's way out, of all designs, is the mirror image of its way in."""
-    for share in (0.3, 0.7):
-        at = share * engagement.exit_deg
-        (x, y), (u, v) = engagement.path(at, 0), engagement.path(-at, 0)
-        off = np.abs(x.c[0] - u.c[0]) + np.abs(y.c[0] + v.c[0])
-        if np.any(off > ZERO):
-            return False
-    return True
 
 
 def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:
