@@ -75,6 +75,47 @@ def test_means_as_one_by_one(name):
                 assert alone_.mean is None
 
 
+NARROW = {  # features that a sum's first terms hide: the law, a quantity, and what varies
+    "friction at the pin": (
+        "cycloidal",
+        "pin_force_N",
+        {
+            "motion.alpha0_deg": -0.28174141658582386,
+            "size.roller_radius_mm": 3.157456300630284,
+            "load.inertia_kgm2": 18.926894686871265,
+        },
+    ),
+    "sliding beside a pole": (
+        "harmonic",
+        "sliding_m_s",
+        {
+            "motion.alpha0_deg": 58.65874605837166,
+            "motion.ratio": 0.4032995646440021,
+            "wheel.z": 3,
+            "drive.n_rpm": 75.75217127963073,
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("case", NARROW)
+@pytest.mark.parametrize("told", [("rms",), ("mean", "rms")])
+def test_means_beside_narrow_features(case, told):
+    """Of each quantity alone, as others of a batch may have its motion halved for it."""
+    law, name, varied = NARROW[case]
+    spec, _ = MACHINES[law]
+    load = Load(inertia_kgm2=1.0, friction=0.1, friction_at="pin")
+    spec = spec.replace(load=load, size=spec.size.replace(face_width_mm=10.0))
+    columns = {key: np.array([value]) for key, value in varied.items()}
+    one = summaries(Cycle(alone(spec, columns, 0)))[name]
+    found = many(spec, columns).machine
+    for rms in (
+        summaries_of_many(found, [name], told)[name].rms,
+        means_of_many(found, [name], told)[name].rms,
+    ):
+        assert rms == pytest.approx(one.rms, rel=1e-12)
+
+
 @pytest.mark.parametrize("name", ["side-crank", "spherical", "gear sector, any ratio"])
 @pytest.mark.parametrize("friction", [{}, {"friction": 0.0}])
 def test_an_inertia_alone_is_summed_in_pairs(name, friction):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import is_analytic, of_groups
+from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
@@ -87,7 +87,7 @@ def summaries_of_many(
 
     Extremes are within some units in the last place of a quantity's greatest size of those of one
     design; means, and roots of the mean square, within 1e-12 of that size: both are sums of what
-    quadrature leaves of 1e-13, over stretches that may cancel. ``told`` says which of the two are
+    quadrature leaves of 2e-13, over stretches that may cancel. ``told`` says which of the two are
     asked for; of ``REACTIONS`` there are no means. One that is not told is None.
     """
     lent, sources = sources_of(mechanism, names)
@@ -117,11 +117,11 @@ def _over_all(
     own: Mapping[str, Wanted] = NONE,
 ) -> list[tuple[Array, Array, Array | None]]:
     """For each engagement the greatest values, their input angles as shown, and the integrals."""
-    given, analytic = setting(mechanism), is_analytic(mechanism.spec)
+    given = setting(mechanism)
     out = []
     for engagement in mechanism.engagements:
         every = machine(engagement, given, names, own)
-        most, x, whole = _of(every, names, sized, told, analytic)
+        most, x, whole = _of(every, names, sized, told)
         places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
         shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, whole))
@@ -129,20 +129,18 @@ def _over_all(
 
 
 def _of(
-    every: Machine, names: Sequence[str], sized: bool, told: Collection[str], analytic: bool
+    every: Machine, names: Sequence[str], sized: bool, told: Collection[str]
 ) -> tuple[Array, Array, Array | None]:
     """The same for one engagement, at its own input angles."""
 
     def found(some: Machine, n: int) -> tuple[Array, Array, Array]:
-        return _group(Loaded(some, names), n, sized, told, analytic)
+        return _group(Loaded(some, names), n, sized, told)
 
     most, x, whole = of_groups(every, found)
     return most, x, whole if told else None
 
 
-def _group(
-    load: Loaded, n: int, sized: bool, told: Collection[str], analytic: bool
-) -> tuple[Array, Array, Array]:
+def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Array, Array, Array]:
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
@@ -152,7 +150,7 @@ def _group(
         return found.most, found.x, found.most
     pieces = stretches_of(load, spans, found.cuts)
     bounded = np.asarray(np.isfinite(found.most).reshape(-1, 2, n).all(axis=1))
-    return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told, analytic)
+    return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told)
 
 
 def _outer(one: SummaryOfMany, other: SummaryOfMany) -> SummaryOfMany:

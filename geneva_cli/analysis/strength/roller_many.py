@@ -86,5 +86,5 @@ def _group(every: Machine, n: int, half: float) -> Array:
     asked = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
         # a law of points has knots at which its higher derivatives jump
-        total = integrals_many(rows, a, b, design, asked, ends=True, analytic=False) * DEGREE
+        total = integrals_many(rows, a, b, design, asked, ends=True) * DEGREE
     return np.where(asked, total, np.inf)

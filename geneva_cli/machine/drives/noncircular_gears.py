@@ -53,7 +53,6 @@ class NoncircularGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
-    ANALYTIC: ClassVar[bool] = False  # a ratio of points is a spline
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "the side-crank's ratio, as gears"] = None
     ratio: Annotated[
         Points | None,
