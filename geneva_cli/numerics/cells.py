@@ -9,14 +9,14 @@ import numpy as np
 
 from geneva_cli.numerics.cubics import cubic
 from geneva_cli.numerics.extrema_many import turn_of_cubic
-from geneva_cli.numerics.roots import PREDICTED, TIE
+from geneva_cli.numerics.roots import PREDICTED
+from geneva_cli.numerics.ties import bar, usual
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.arrays import Mask, Which, Whole
     from geneva_cli.numerics.extrema_many import Sample
     from geneva_cli.numerics.jet import Array
 
-MIDDLE = 3.0  # of the quartiles' distance: what is further out is near a pole
 FAR = 1e3  # times what a function is in a cell: more of a range is that of a pole elsewhere
 LEVEL = 1e-9  # share of a function's range: a rise over a cell that a slope of 0 may feign
 
@@ -129,8 +129,7 @@ def joined(parts: Sequence[Parts]) -> Parts:
 class Range(NamedTuple):
     """The least and the greatest finite sample of each function of each design: (functions, n).
 
-    Of a span in which a function has no bound those of the middle of its samples: near a pole they
-    are of any size, and say nothing of what is far from it.
+    Of a span in which a function has no bound those of the middle of its samples.
     """
 
     low: Array
@@ -138,18 +137,7 @@ class Range(NamedTuple):
 
     def widen(self, design: Whole, value: Array) -> None:
         """Take in samples (functions, m, k) of some designs."""
-        finite = np.isfinite(value)
-        if finite.all():
-            low, high = value.min(axis=2), value.max(axis=2)
-        else:
-            low = np.where(finite, value, np.inf).min(axis=2)
-            high = np.where(finite, value, -np.inf).max(axis=2)
-            lost = np.nonzero(~finite.all(axis=2) & finite.any(axis=2))
-            if len(lost[0]):
-                known = np.where(finite[lost], value[lost], np.nan)
-                first, third = quartiles(known)
-                low[lost] = np.maximum(low[lost], first - MIDDLE * (third - first))
-                high[lost] = np.minimum(high[lost], third + MIDDLE * (third - first))
+        low, high = usual(value)
         self.low[:, design] = np.fmin(self.low[:, design], low)
         self.high[:, design] = np.fmax(self.high[:, design], high)
 
@@ -167,30 +155,13 @@ class Range(NamedTuple):
         width: Array = self.high[row, design] - self.low[row, design]
         return width
 
-    def size(self, design: Whole) -> Array:
-        """The greatest size of each function of some designs."""
-        return np.maximum(-self.low[:, design], self.high[:, design])
+    def size(self, design: Which) -> Array:
+        """The greatest size of each function of some designs; 0 where none is known."""
+        return np.maximum(np.maximum(-self.low[:, design], self.high[:, design]), 0.0)
 
     def level(self, row: int, design: Whole) -> Array:
         """The rise over a cell that is rounding, of one function of some designs."""
         return LEVEL * self.width(row, design)
-
-
-def quartiles(rows: Array) -> tuple[Array, Array]:
-    """First and third quartile of rows (m, k), of what is a number in each: (m,) both.
-
-    As of ``np.nanquantile``, which takes one row after the other.
-    """
-    ordered = np.sort(rows, axis=1)  # NaN comes last
-    last = np.count_nonzero(~np.isnan(rows), axis=1) - 1
-    every = np.arange(len(rows))
-
-    def at(place: Array) -> Array:
-        below = np.floor(place).astype(int)
-        low, high = ordered[every, below], ordered[every, np.minimum(below + 1, last)]
-        return np.asarray(low + (high - low) * (place - below))
-
-    return at(0.25 * last), at(0.75 * last)
 
 
 class Tops:
@@ -228,7 +199,8 @@ class Tops:
         """The first greatest of samples (functions, m, k) at places (m, k)."""
         for sign, side in self.sides(value):
             most = side.max(axis=2)
-            least, first = bar(most), np.broadcast_to(x[:, -1], most.shape)
+            size = np.where(np.isfinite(side), np.abs(side), 0.0).max(axis=2)
+            least, first = bar(most, size), np.broadcast_to(x[:, -1], most.shape)
             for i in range(x.shape[1] - 2, -1, -1):
                 first = np.where(side[..., i] >= least, x[:, i], first)
             for k in range(len(value)):
@@ -254,9 +226,10 @@ class Tops:
         finite: Mask = self.most < np.inf
         return finite if self.sized else finite[::2] & finite[1::2]
 
-    def places(self) -> Array:
-        """The first places of the greatest values."""
-        least, first = bar(self.most), np.full(self.most.shape, np.nan)
+    def places(self, size: Array) -> Array:
+        """The first places of the greatest values of functions of these sizes, (functions, n)."""
+        own = size if self.sized else np.repeat(size, 2, axis=0)
+        least, first = bar(self.most, own), np.full(self.most.shape, np.nan)
         for number, design, x, value in self.known:
             near = value >= least[number, design]
             which = number if isinstance(number, int) else number[near]
@@ -286,11 +259,6 @@ class Tops:
         np.fmax.at(most, number, top)
         highest: Mask = ~(top < most[number])
         return highest
-
-
-def bar(most: Array) -> Array:
-    """What is no less is as good as the greatest."""
-    return np.where(np.isfinite(most), most - TIE * np.abs(most), most)
 
 
 def may_turn(before: Array, after: Array, level: Array) -> Mask:

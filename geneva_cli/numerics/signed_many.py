@@ -140,7 +140,11 @@ class _Search:
             if not doubted:
                 break
             self._settle(joined([half for one in doubted for half in self._parted(one)]))
-        return Found(self.tops.most, self.tops.places(), joined(self.cuts))
+        return Found(
+            self.tops.most,
+            self.tops.places(self.range.size(slice(None))[self.f.signs :]),
+            joined(self.cuts),
+        )
 
     def _sampled(
         self, a: Array, b: Array, part: slice, number: int, count: int, there: Mask

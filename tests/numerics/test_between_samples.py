@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics.between_samples import limits
-from geneva_cli.numerics.cells import Tops, quartiles
+from geneva_cli.numerics.cells import Tops
+from geneva_cli.numerics.ties import quartiles
 
 UNIT = np.linspace(0.0, 1.0, 401)
 

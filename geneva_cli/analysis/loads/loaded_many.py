@@ -107,10 +107,12 @@ class Loaded:
         """Whether the second half of the motion has no greater sizes than the first.
 
         Without friction nor a torque, or nor an inertia, forces are as great in both, and what
-        the input gives is no less than what it gets back.
+        the input gives is no less than what it gets back. A torque alone presses on one wall of a
+        curved slot all the way, whose two halves bend differently.
         """
-        given = self.machine[1]
-        alone = all_true(given.resists_Nm == 0.0) or all_true(given.inertia_Nm == 0.0)
+        engagement, given, _ = self.machine
+        alone = all_true(given.inertia_Nm == 0.0) and not engagement.slot.curved
+        alone = alone or all_true(given.resists_Nm == 0.0)
         return self.mirrored and alone and not given.rubs
 
     def at(self, x: Array, which: Which, order: int) -> At:
@@ -190,7 +192,11 @@ class Loaded:
             for k in orders:
                 values[k][i] = row.value.c[k]
             if row.room is not None:
-                lost = np.broadcast_to(row.room.c[0] <= ZERO, shape)
+                room = row.room.c[0]
+                lost = room <= ZERO
+                for kind in self.rooms:  # where it is known to end, a rounding may be left of it
+                    lost = lost | ((found.signs[kind] < 0.0) & (room == found.jets[kind].c[0]))
+                lost = np.broadcast_to(lost, shape)
                 if lost.any():
                     values[0][i] = np.where(lost, np.inf * row.way, values[0][i])
                     for k in orders[1:]:

@@ -24,12 +24,11 @@ from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
-from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
+from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, outermost
 from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of
 from geneva_cli.analysis.loads.summary import ends_told
 from geneva_cli.analysis.peaks_many import PeakOfMany, greater
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.roots import TIE
 from geneva_cli.numerics.signed_many import search
 
 if TYPE_CHECKING:
@@ -91,17 +90,19 @@ def summaries_of_many(
     asked for; of ``REACTIONS`` there are no means. One that is not told is None.
     """
     lent, sources = sources_of(mechanism, names)
-    best: dict[str, SummaryOfMany] = {}
+    each: dict[str, list[Array]] = {name: [] for name in sources}
     whole: Array | None = None
     for found, at_deg, total in _over_all(mechanism, sources, sized=False, told=told):
         for i, name in enumerate(sources):
-            here = SummaryOfMany(found[2 * i], at_deg[2 * i], -found[2 * i + 1], at_deg[2 * i + 1])
-            best[name] = _outer(best[name], here) if name in best else here
+            j = 2 * i + 1  # of the least
+            ends = (found[j - 1], at_deg[j - 1], -found[j], at_deg[j])
+            each[name].append(np.stack(ends))
         if total is not None:
             whole = total if whole is None else whole + total
     means = {} if whole is None else means_from(mechanism, sources, whole, "mean" in told)
-    for name in sources:
-        one = best[name]
+    best: dict[str, SummaryOfMany] = {}
+    for name, rows in each.items():
+        one = SummaryOfMany(*outermost(np.stack(rows)))
         most, least = ends_told(name, one.max, one.min)
         one = one._replace(max=most, min=least)
         best[name] = one._replace(**means[name]._asdict()) if name in means else one
@@ -151,15 +152,3 @@ def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Ar
     pieces = stretches_of(load, spans, found.cuts)
     bounded = np.asarray(np.isfinite(found.most).reshape(-1, 2, n).all(axis=1))
     return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told)
-
-
-def _outer(one: SummaryOfMany, other: SummaryOfMany) -> SummaryOfMany:
-    """The greater maximum and the lesser minimum; of two that are one, where the first is."""
-    more = other.max > one.max + np.where(np.isfinite(one.max), TIE * np.abs(one.max), 0.0)
-    less = other.min < one.min - np.where(np.isfinite(one.min), TIE * np.abs(one.min), 0.0)
-    return SummaryOfMany(
-        np.maximum(one.max, other.max),
-        np.where(more, other.max_at_deg, one.max_at_deg),
-        np.minimum(one.min, other.min),
-        np.where(less, other.min_at_deg, one.min_at_deg),
-    )
