@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.numerics.cubics import cubic
 from geneva_cli.numerics.extrema_many import turn_of_cubic
 from geneva_cli.numerics.roots import PREDICTED
-from geneva_cli.numerics.ties import bar, usual
+from geneva_cli.numerics.ties import NOUGHT, bar, usual
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Which, Whole
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 FAR = 1e3  # times what a function is in a cell: more of a range is that of a pole elsewhere
+FLAT = 0.1  # degrees: what is no further from a top may be its equal by the top being flat
 LEVEL = 1e-9  # share of a function's range: a rise over a cell that a slope of 0 may feign
 
 
@@ -229,9 +230,20 @@ class Tops:
     def places(self, size: Array) -> Array:
         """The first places of the greatest values of functions of these sizes, (functions, n)."""
         own = size if self.sized else np.repeat(size, 2, axis=0)
-        least, first = bar(self.most, own), np.full(self.most.shape, np.nan)
+        first = self._first(bar(self.most, own))
+        # a sample beside a top is its equal: the top is told
+        high = np.full(self.most.shape, -np.inf)
         for number, design, x, value in self.known:
-            near = value >= least[number, design]
+            index = number, design
+            np.fmax.at(high, index, np.where(np.abs(x - first[index]) <= FLAT, value, -np.inf))
+        return np.where(np.abs(high) > NOUGHT * own, self._first(high, first), first)
+
+    def _first(self, least: Array, after: Array | float = -np.inf) -> Array:
+        """The first places, not before others, of values that are no less than these."""
+        first, after = np.full(self.most.shape, np.nan), np.broadcast_to(after, self.most.shape)
+        for number, design, x, value in self.known:
+            index = number, design
+            near = (value >= least[index]) & (x >= after[index])
             which = number if isinstance(number, int) else number[near]
             np.fmin.at(first, (which, design[near]), x[near])
         return first

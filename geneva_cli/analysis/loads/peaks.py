@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
+CROWDED = 0.02  # share of a stretch that is its end
 NOUGHT = 1e-28  # of a quantity's size, squared: so small a greatest value is 0
 
 
@@ -65,6 +66,9 @@ def looked(
 
     # no two changes of sign of a room are stepped over: between them there is no bound
     found = scanned(sampled, [(p.start, p.end) for p in pieces], signed).first(len(first))
+    # samples crowd at the ends of stretches, where loads are often 0: those tell nothing of a size
+    start, end = np.array([piece[:2] for piece in pieces]).T[:, found.span]
+    even = np.minimum(found.x - start, end - found.x) >= CROWDED * (end - start)
     middle = _middle(engagement, given, rows)
     tops = _tops(engagement, found, rows, signs)
     brinks: dict[int, float] = {}
@@ -84,7 +88,7 @@ def looked(
             out.append(Greatest(math.inf, min([brink, *endless])))
         else:
             places = [*middle[i], *tops[i], *_ends(found, i)]
-            low, high = usual(found.value[i : i + 1])
+            low, high = usual(found.value[i : i + 1, even])
             size = max(-float(low[0]), float(high[0]), 0.0)
             out.append(_greatest(places, engagement, least, size))
     return out, found
