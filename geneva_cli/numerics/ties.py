@@ -21,8 +21,8 @@ MIDDLE = 3.0  # of the quartiles' distance: what is further out is near a pole
 def bar(most: Array, size: Array) -> Array:
     """The least value that is the equal of a greatest one, of functions of a greatest ``size``.
 
-    >>> bar(np.array([2.0, 1e-17, np.inf]), np.array([2.0, 1.0, 1.0])).tolist()
-    [1.9999999999979998, -9.999e-14, inf]
+    >>> bar(np.array([2.0, 0.0, np.inf]), np.array([2.0, 1.0, 1.0])).tolist()
+    [1.999999999998, -1e-13, inf]
     """
     finite = np.isfinite(most)
     tie = np.maximum(TIE * np.abs(np.where(finite, most, 0.0)), NOUGHT * size)
