@@ -91,7 +91,9 @@ def test_peaks_behind_a_ratio_that_is_not_even(quantity):
     size, at_deg = greatest(lambda x: mp.diff(angle, x, order))
     design = Design(External(6), gears())
     engagement = design.mechanism.engagements[0]
-    assert (engagement.entry_deg, engagement.exit_deg) == (-60.0, 60.0)
+    # the spline of the crank's angle is known to some units in the last place of a turn
+    ends = engagement.entry_deg, engagement.exit_deg
+    assert ends == pytest.approx((-60.0, 60.0), rel=0, abs=1e-12)
     found = getattr(worst(design.mechanism), quantity)
     # the ratio is given to six decimals, a degree apart
     assert found.max == pytest.approx(size, rel=1e-4)
