@@ -274,7 +274,7 @@ def counted(proof: Proof) -> Values:
     return {"slots.count": proof.mechanism.spec.wheel.z}
 
 
-def test_a_section_of_the_report(
+def test_a_group_of_the_report(
     add: Add, run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     add({}, "", "", "verdict.report")
