@@ -97,15 +97,19 @@ class _Pieces:
 
     def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
         self.length, self.make = length, make
-        self.start = -1
-        self.columns: Sequence[Any] = ()
+        # its start and its columns, replaced together: another thread may ask for another piece
+        self.last: tuple[int, Sequence[Any]] = (-1, ())
 
     def at(self, start: int) -> Sequence[Any]:
-        """The columns of the piece that begins there."""
-        if start != self.start:
-            self.columns = self.make(start, min(start + PIECE, self.length))
-            self.start = start
-        return self.columns
+        """The columns of the piece that begins there; arrays are read-only, since they are kept."""
+        known, columns = self.last
+        if start != known:
+            columns = self.make(start, min(start + PIECE, self.length))
+            for column in columns:
+                if not isinstance(column, (list, tuple)):
+                    column.flags.writeable = False
+            self.last = start, columns
+        return columns
 
 
 class Column:

@@ -2,6 +2,8 @@
 
 import inspect
 import math
+import subprocess
+import sys
 from functools import cached_property
 
 import numpy as np
@@ -371,6 +373,28 @@ def test_the_machine_is_built_once(monkeypatch):
     one = Design(External(6), load=Load(torque_Nm=5))
     _ = one.timings, one.peaks, one.loads, one.motion(), one.warnings, one.slot(), one.parts
     assert calls == [one.spec]
+
+
+# From several threads
+
+THREADS = """
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from geneva_cli import load
+
+with ThreadPoolExecutor(len(sys.argv) - 1) as pool:
+    for peak in pool.map(lambda path: load(path).peaks.velocity.max, sys.argv[1:]):
+        print(repr(peak))
+"""
+
+
+def test_the_first_use_may_be_from_threads():
+    """One thread imported NumPy, and the others asked for what its module had not yet."""
+    files = sorted(map(str, repo.DESIGNS.glob("*.toml")))[:6]
+    command = [sys.executable, "-c", THREADS, *files]
+    found = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert found.returncode == 0, found.stderr
+    assert [*map(float, found.stdout.split())] == [load(f).peaks.velocity.max for f in files]
 
 
 # What a program may use

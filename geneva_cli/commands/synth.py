@@ -166,6 +166,11 @@ def _frame(path: str, given: Sequence[str]) -> "Spec":
     return load(path, given).spec
 
 
+def _inputs(wish: "Wish") -> Sequence[str]:
+    """The files that the wish was read from."""
+    return wish.frame.files if wish.frame else ()
+
+
 def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import show
     from geneva_cli.output.formats import format_of
@@ -176,7 +181,7 @@ def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str)
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
     name = format or format_of(output)
     table = synthesis_table(wish, checked, buildable)
-    show(for_people(table) if name in ("table", "md") else table, output, format)
+    show(for_people(table) if name in ("table", "md") else table, output, format, _inputs(wish))
 
 
 def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str) -> None:
@@ -190,7 +195,7 @@ def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str)
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
     found, text = chosen(search(wish), number, buildable)
-    show_text(text, output)
+    show_text(text, output, _inputs(wish))
     path = "<stdout>" if output == "-" else output
     if found.trouble:
         said = f"{path}: warning: its parts cannot be built: {found.trouble}"

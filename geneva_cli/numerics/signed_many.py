@@ -17,7 +17,6 @@ import numpy as np
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import choose_record
 from geneva_cli.numerics.between_samples import limits
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.cells import (
     LEVEL,
     Across,
@@ -321,7 +320,6 @@ class _Search:
     def _settle(self, cells: Cells) -> None:
         """Cut at zeros, and halve until a cubic predicts."""
         for _ in range(2 * DEEPEST):
-            check_time()
             differ = (cells.positive[0] != cells.positive[1]).any(axis=0)
             rest = [*self._cut(taken(cells, differ)), *self._halved(taken(cells, ~differ))]
             cells = joined(rest)

@@ -19,7 +19,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_drawings import driver_shaft, gear_span
-from geneva_cli.parts.groove_plate import TOLERANCE, groove_members
+from geneva_cli.parts.groove_plate import TOLERANCE, groove_members, require_groove_plate
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.link_shafts import axes, link_shafts
@@ -90,13 +90,18 @@ def framed(
 
 
 def groove_plates(
-    found: Outlines, bars: Links, tolerance: float = TOLERANCE, curves: str = "arcs"
+    found: Outlines,
+    bars: Links,
+    tolerance: float = TOLERANCE,
+    curves: str = "arcs",
+    fitted: bool = True,
 ) -> list[Member]:
-    """A cam's groove plate where it is; none where there is no room for one."""
-    try:
-        return groove_members(found, bars, tolerance, curves)
-    except GenevaError:  # --part groove-plate says why
-        return []
+    """Return a cam's groove plates at their place; none without ``fitted``.
+
+    Raises GenevaError where there is no room for them, even if they are left out.
+    """
+    require_groove_plate(found)
+    return groove_members(found, bars, tolerance, curves) if fitted else []
 
 
 def _shafts(proof: Proof, found: Outlines | None, bars: Links, lowest: float) -> Iterator[Member]:

@@ -114,6 +114,10 @@ Z_MAX = 1_000_000  # most slots (and rollers) that are computed
 
 
 def is_array(x: object) -> bool:
-    """Whether it is a NumPy array, of designs; NumPy is not imported for the question."""
+    """Whether it is a NumPy array, of designs; NumPy is not imported for the question.
+
+    Another thread may be importing NumPy now. Before its module has the class, no array exists.
+    """
     numpy = sys.modules.get("numpy")
-    return numpy is not None and isinstance(x, numpy.ndarray)
+    array = vars(numpy).get("ndarray") if numpy else None
+    return array is not None and isinstance(x, array)

@@ -37,7 +37,7 @@ from geneva_cli.output.dxf_file import FLOAT_CODES
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
 # of a metre and a spline's joints (JOINT) come to less than 2e-9 together.
 SAME = 2e-9
-QUICK = settings(max_examples=40, deadline=None, derandomize=True)
+QUICK = settings(max_examples=40)
 
 
 def text(drawing, units="mm"):

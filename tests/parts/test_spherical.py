@@ -363,7 +363,7 @@ def test_bolts_for_a_dial():
         rows = shell_checks(Proof(design.with_(f"size.{key}", value).mechanism).shells)
         (failing,) = (c for c in rows if not c.passes)
         assert failing.name == "dial_wall_mm"
-        assert said in failing.nearest
+        assert said in failing.why
 
 
 def test_a_wheel_without_a_bore_stays_a_ring():

@@ -19,7 +19,7 @@ HEADS = (
     "Must be",
     "Limit",
     "Verdict",
-    "Nearest change that passes, or why not proved",
+    "Nearest change that passes, or why there is none",
 )
 
 
@@ -40,11 +40,11 @@ def verdict(design: Design, left: Left) -> tuple[str, tuple[str, ...]]:
 def checks(design: Design) -> Iterator[Block]:
     """Every check."""
     rows = tuple(
-        (c.name, c.value, c.at_deg, c.must_be, c.limit, WORDS[c.passes], c.nearest)
+        (c.name, c.value, c.at_deg, c.must_be, c.limit, WORDS[c.passes], c.nearest or c.why)
         for c in design.checks
     )
     yield Heading("Checks")
-    told = len(HEADS) if any(c.nearest for c in design.checks) else len(HEADS) - 1
+    told = len(HEADS) if any(c.nearest or c.why for c in design.checks) else len(HEADS) - 1
     yield Grid("Every check with its verdict", HEADS[:told], tuple(r[:told] for r in rows))
 
 

@@ -42,10 +42,17 @@ class Request(NamedTuple):
     @property
     def key(self) -> str:
         """What the rows depend on, as one word: the sweep, and points in files."""
+        return f"{self.sweep.key} {digest(self.inputs[1:])}"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The files that are read: the spec, points that it names, and what a varied word names.
+
+        A word that names no file is among them, and does no harm there.
+        """
         folder = os.path.dirname(self.files[0])
         words = [v for a in self.sweep.plan.axes for v in a.values if isinstance(v, str)]
-        points = digest([*self.files[1:], *(os.path.join(folder, word) for word in words)])
-        return f"{self.sweep.key} {points}"
+        return (*self.files, *(os.path.join(folder, word) for word in words))
 
     def blocks(self, done: int = 0) -> Iterator[list[list[Cell]]]:
         """All rows, some at a time; ``done`` are there already."""

@@ -10,7 +10,7 @@ from geneva_cli.analysis.blows import Blows, entry_blows, reversal_blows
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
-from geneva_cli.analysis.vibration.many import vibrations_of_many
+from geneva_cli.analysis.vibration.vibration import vibrations_of_many
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number

@@ -61,7 +61,7 @@ def report(
         "title": title,
         "passes": passes,
         "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
-        "not_proved": tuple(f"{c.name}: {c.nearest}" for c in rows if c.passes is None),
+        "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
     values |= values_of(REPORT, proof) | {"warnings": warnings}
     return Report(record_table(values, title, words(mechanism)), passes, warnings)
@@ -70,6 +70,8 @@ def report(
 def _said(check: Check) -> str:
     """A failing check in a line."""
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"
-    value, limit = (float("nan") if x is None else x for x in (check.value, check.limit))
-    text = f"{check.name} = {value:.6g}{where}, must be {check.must_be} {limit:.6g}"
-    return f"{text}; nearest change: {check.nearest}"
+    value = "" if check.value is None else f" = {check.value:.6g}{where}"
+    limit = "" if check.limit is None else f", must be {check.must_be} {check.limit:.6g}"
+    change = f"; nearest change: {check.nearest}" if check.nearest else ""
+    why = f"; {check.why}" if check.why else ""
+    return f"{check.name}{value}{limit}{change}{why}"
