@@ -13,9 +13,11 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.quantities.groups import RATES
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geneva_cli.machine.engagement import Motion
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Array, Number
+    from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
@@ -30,19 +32,32 @@ def timing(of: Designs) -> Columns | None:
 def peaks(of: Designs) -> Columns:
     """The greatest velocity, acceleration, jerk and power, and their sizes at the ends."""
     requested = [name for name in QUANTITIES if of.requested(name)]
-    w = omega(of.spec.drive.n_rpm)
-    values: dict[str, Number | None] = {}
+    w = np.ravel(omega(of.spec.drive.n_rpm))
+    out: dict[str, Number | None] = {}
     for name, peak in worst_of_many(of.machine, requested).items():
-        power, unit = RATES[name]
-        rate = np.reshape(w**power, -1)
-        values[f"{name}.max"] = peak.max
-        values[f"{name}.at_deg"] = peak.at_deg
-        values[f"{name}.max_{unit}"] = peak.max * rate
-        if name in ENDS:
-            entry, leaving = _ends(of.machine, ENDS[name])
-            values[f"{name}.entry"], values[f"{name}.exit"] = entry, leaving
-            values[f"{name}.entry_{unit}"] = entry * rate
-    return values
+        ends = _ends(of.machine, ENDS[name]) if name in ENDS else ()
+        out |= peak_values(name, w, tuple(peak), ends)
+    return out
+
+
+def peak_values(name: str, w: N, peak: Sequence[N], ends: Sequence[N]) -> dict[str, N]:
+    """The quantities of a peak, by their whole names.
+
+    ``w`` is the input's speed, ``peak`` the greatest size and its input angle, ``ends`` the sizes
+    just after entry and just before exit, where they are told.
+
+    >>> peak_values("velocity", 2.0, (1.0, 0.0), ())
+    {'velocity.max': 1.0, 'velocity.at_deg': 0.0, 'velocity.max_rad_s': 2.0}
+    """
+    power, unit = RATES[name]
+    scale = w**power
+    most, at_deg = peak
+    out = {f"{name}.max": most, f"{name}.at_deg": at_deg, f"{name}.max_{unit}": most * scale}
+    if ends:
+        out[f"{name}.entry"], out[f"{name}.exit"] = ends
+    if name == "acceleration":
+        out[f"{name}.entry_{unit}"] = ends[0] * scale
+    return out
 
 
 def _ends(machine: Mechanism, order: int) -> list[Array]:

@@ -12,7 +12,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.proof import Proof
 from geneva_cli.table import rows_table
-from geneva_cli.verdict.quantities.groups import RATES
+from geneva_cli.verdict.quantities.motion import peak_values
 from geneva_cli.verdict.report.values import Numbers, Values
 
 SAME = 1e-12  # share of a value by which rounding may make it differ between engagements
@@ -66,20 +66,10 @@ def _timing(mechanism: Mechanism, i: int) -> Numbers:
 
 
 def _peaks(mechanism: Mechanism, found: Peaks) -> Numbers:
-    w = omega(mechanism.spec.drive.n_rpm)
-    values: Numbers = {}
-    each = (found.velocity, found.acceleration, found.jerk, found.power)
-    for (name, (power, unit)), peak in zip(RATES.items(), each, strict=True):
-        scale = w**power
-        values[f"{name}.max"] = peak.max
-        values[f"{name}.at_deg"] = peak.at_deg
-        values[f"{name}.max_{unit}"] = peak.max * scale
-        if name == "acceleration":
-            entry = found.ends.acceleration_entry
-            values[f"{name}.entry"] = entry
-            values[f"{name}.exit"] = found.ends.acceleration_exit
-            values[f"{name}.entry_{unit}"] = entry * scale
-        if name == "jerk":
-            values[f"{name}.entry"] = found.ends.jerk_entry
-            values[f"{name}.exit"] = found.ends.jerk_exit
-    return values
+    w, ends = omega(mechanism.spec.drive.n_rpm), found.ends
+    return {
+        **peak_values("velocity", w, found.velocity, ()),
+        **peak_values("acceleration", w, found.acceleration, ends[:2]),
+        **peak_values("jerk", w, found.jerk, ends[2:]),
+        **peak_values("power", w, found.power, ()),
+    }
