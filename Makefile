@@ -32,13 +32,14 @@ bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
-# Numerical stress against mpmath, then random machines turned; half an hour.
+# Numerical stress against mpmath, random machines turned, then sweeps of every key; an hour.
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev

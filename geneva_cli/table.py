@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
 PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 HTML_ROWS = 60  # that a notebook shows
+NO_BOUND = "no bound"  # an infinity, where a person reads it
 
 
 class Table(NamedTuple):
@@ -79,7 +81,17 @@ class Table(NamedTuple):
 def _shown(value: object) -> str:
     if value is None:
         return ""
-    return f"{value:.7g}" if isinstance(value, float) else str(value)
+    return in_digits(value, 7) if isinstance(value, float) else str(value)
+
+
+def in_digits(value: float, digits: int) -> str:
+    """A number in so many significant digits, without a sign at zero; an infinity in words.
+
+    >>> in_digits(-0.0, 6), in_digits(float("inf"), 6)
+    ('0', 'no bound')
+    """
+    endless = value in (math.inf, -math.inf)
+    return NO_BOUND if endless else f"{value + 0.0:.{digits}g}"
 
 
 def _whole(column: Any) -> Any:

@@ -81,8 +81,8 @@ def run(
     A design that cannot be built is a row that says why. Stopped, a sweep into a file goes on with
     --resume, which begins where there is nothing to go on with. The rows of all shares, one after
     the other, are those of one run: the first alone has the header. With --random and --best a key
-    may vary between LOW:HIGH. Of --best, what --pick and --check ask for is told of the design
-    that is chosen.
+    may vary between LOW:HIGH; the spec's own design is then tried for --best too. Of --best, what
+    --pick and --check ask for is told of the design that is chosen.
     """
     from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.outcome import Outcome

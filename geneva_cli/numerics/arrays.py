@@ -216,6 +216,14 @@ def _are_alike(one: Number, other: Number) -> bool:
     return both and one.shape == other.shape and one.dtype == other.dtype
 
 
+def designs_of(design: int) -> int:
+    """How many designs a batch has, by the numbers of its designs: (m, 1), or one number.
+
+    A batch carries these numbers with it: what happens to vary does not tell how long it is.
+    """
+    return 1 if isinstance(design, int) else len(design)
+
+
 def parameter(x: Number) -> float:
     """A machine's number that comes of a jet: to the type checker a float, as all of them are."""
     return cast(float, x)

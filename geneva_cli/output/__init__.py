@@ -197,6 +197,14 @@ def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
     _put([text], output, inputs)
 
 
+def refuse_existing(output: str) -> None:
+    """Raise GenevaError where ``output`` is a file that exists: what a person wrote stays."""
+    if os.path.isfile(output):
+        raise GenevaError(
+            f"{cut(output, 300)}: this file exists; give another name, or --force to replace it"
+        )
+
+
 def show_markdown(text: str) -> None:
     """Print a text in Markdown, laid out where a person looks and as it is elsewhere."""
     if not sys.stdout.isatty():

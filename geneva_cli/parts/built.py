@@ -101,8 +101,8 @@ def built(
     arm = crank_arm(found) if has_arm(found) else None
     proof = Proof(given, found)
     fixed = groove_plates(found, bars, tolerance, curves, fitted)
-    frame = framed(proof, fixed, bars)
     first = tuple(first_members(given, bars))
+    frame = framed(proof, fixed, bars, first)
     return Built(
         Member(wheel_part(found, contour or found.wheel), turn=float(assembly.wheel(at)[0])),
         Member(

@@ -8,7 +8,6 @@ origin. The bore is that of the crank's shaft, and four holes mount it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 
@@ -77,7 +76,7 @@ def _plates(
         Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
         for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
     ]
-    shaft = _shaft(bars.cut, L)
+    shaft = bars.shaft((L, 0.0), L)
     bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
     edge = Circle("FRAME", (0.0, 0.0), far + rim)
     low, high = follower.low, follower.high
@@ -128,15 +127,3 @@ def _farthest(found: Outlines) -> float:
 def _reach(flank: Contour) -> float:
     """The farthest end of a flank's pieces from the crank's axis: which flank is the outer one."""
     return max(math.hypot(*piece.start) for piece in flank.segments)
-
-
-def _shaft(links: Iterable[Member], L: float) -> float:
-    """The bore of the crank, the link that turns about the plate's centre."""
-    holes = (
-        hole
-        for one in links
-        if isinstance(one.part, Plate) and one.at == (L, 0.0)
-        for hole in one.part.holes
-    )
-    at_axis = (h.radius for h in holes if isinstance(h, Circle) and h.centre == (0.0, 0.0))
-    return next(at_axis, 0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from geneva_cli.table import in_digits
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
@@ -27,8 +28,10 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
             continue
         if c.name == "full_turn":
             refused.append(c.why)
-        elif c.name == "parts" or c.value is None:  # why there is none
+        elif c.name == "parts":  # why there are none
             warned.append(c.why)
+        elif c.not_computed:
+            warned.append(c.not_computed)
         elif c.name in JAMS or (
             c.name not in BELOW
             and c.must_be == "at least"
@@ -75,4 +78,5 @@ def in_words(c: Check, parts: str = "parts") -> str:
             f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
             f"{limit:.4g}"
         )
-    return f"{c.name} is {value:.6g}{where}; it must be {c.must_be} {limit:.6g}"
+    shown = in_digits(value, 6)
+    return f"{c.name} is {shown}{where}; it must be {c.must_be} {limit:.6g}"

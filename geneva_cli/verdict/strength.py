@@ -42,7 +42,7 @@ class Strength:
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, as ``strength.pin.stress_MPa``; None where it is not known."""
         table, _, own = name.rpartition(".")
-        columns = (GROUPS.get(name) or GROUPS[table]).columns(self.design) or {}
+        columns = (GROUPS.get(name) or GROUPS[table]).columns(self.design)
         return only(columns.get(own))
 
     @cached_property

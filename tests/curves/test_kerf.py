@@ -198,8 +198,10 @@ def test_cubics_are_refused():
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--part", "wheel", "--kerf", "0"], "the width of the cut must be above 0 mm"),
-        (["--part", "wheel", "--kerf", "nan"], "the width of the cut must be above 0 mm"),
+        (["--part", "wheel", "--kerf", "0"], "--kerf 0: must be above 0, at most 1000 mm"),
+        (["--part", "wheel", "--kerf", "nan"], "--kerf nan: must be above 0, at most 1000 mm"),
+        (["--part", "arm", "--kerf", "1e300"], "--kerf 1e+300: must be above 0, at most 1000"),
+        (["--part", "arm", "--cutter", "1e300"], "--cutter 1e+300: must be above 0, at most 1000"),
         (["--part", "wheel", "--kerf", "9"], "a kerf up to"),
         (["--part", "assembly", "--kerf", "0.2"], "; not for assembly"),
         (["--part", "wheel", "--kerf", "0.2", "--format", "step"], "no solid"),

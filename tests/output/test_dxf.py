@@ -2,11 +2,13 @@
 
 import hashlib
 import io
+import json
 import math
 import os
 import re
 import subprocess
 import sys
+from importlib import resources
 
 import ezdxf
 import ezdxf.path
@@ -347,6 +349,12 @@ def test_the_same_bytes_everywhere(tmp_path):
         found.add(run.stdout)
     assert len(found) == 1
     assert hashlib.sha256(text(MANY).encode()).hexdigest() in found.pop()
+
+
+def test_the_font_cache_names_no_font_of_any_machine():
+    """The tests above imported ezdxf, which fills a cache that it cannot read."""
+    found = resources.files("geneva_cli.output") / "no_fonts" / "ezdxf" / "font_manager_cache.json"
+    assert json.loads(found.read_text())["font-faces"] == []
 
 
 def test_no_trace_of_the_run():

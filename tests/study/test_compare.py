@@ -1,5 +1,7 @@
 """Designs side by side: the same rows for every machine, and the numbers of their own reports."""
 
+import csv
+import io
 import json
 import os
 
@@ -165,3 +167,37 @@ def test_a_small_number_is_no_noise_beside_another_quantity(capsys):
     show(compare([path("side-crank-z6.toml")], slow, picks=["motion_s", "jerk.max_rad_s3"]))
     jerk = capsys.readouterr().out.splitlines()[-1].split()
     assert jerk[0] == "jerk.max_rad_s3" and 0.0 < float(jerk[1]) < 1e-20
+
+
+HOSTILE = ("a,b", "c\nd", "=cmd", "e\x1b[31mf", "g\u202eh", "[red]i|j")
+SHOWN = ("a,b", "c d", "=cmd", "e [31mf", "g h", "[red]i|j")  # as the table's other texts are
+
+
+def test_file_names_are_escaped_in_headings_as_in_cells(tmp_path, capsys):
+    """A name with a comma is one column, one with = no formula; none reaches the terminal raw."""
+    from geneva_cli.output import show, text
+
+    with open(path("limits.toml"), encoding="utf-8") as file:
+        spec = file.read()
+    paths = [str(tmp_path / f"{name}.toml") for name in HOSTILE]
+    for one in paths:
+        with open(one, "w", encoding="utf-8") as file:
+            file.write(spec)
+    table = compare(paths, picks=["dwell_s"])
+
+    show(table, "-", "csv")
+    head, row = csv.reader(io.StringIO(capsys.readouterr().out))
+    formula = [f"'{name}" if name.startswith("=") else name for name in SHOWN]
+    assert head == ["quantity", *formula, "differs"]
+    assert len(row) == len(head)
+
+    show(table, "-", "json")
+    (found,) = json.loads(capsys.readouterr().out)["rows"]
+    assert list(found) == ["quantity", *HOSTILE, "differs"]
+
+    show(table, "-", "md")
+    said = capsys.readouterr().out
+    assert said.count("\n") == 3 and "\\[red\\]i\\|j" in said
+    for written in (said, "".join(text.chunks(table, False)), "".join(text.chunks(table, True))):
+        assert "\x1b[31mf" not in written and "\u202e" not in written
+    assert "[red]i|j" in "".join(text.chunks(table, True))

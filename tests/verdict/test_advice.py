@@ -202,11 +202,15 @@ def test_an_error_is_no_advice() -> None:
 
 
 def test_a_hub_is_not_proposed_below_its_bore(tmp_path: Path) -> None:
-    """z = 8, L = 250, r = 12: 18.7 mm of room for a shaft of 15 and the hub around it."""
-    rows = judged(read(tmp_path, ALL["bore"]))
-    for c in rows:
-        if "crank_hub_mm = " in c.nearest:
-            assert float(c.nearest.split()[-1]) >= 30.0
+    """z = 8, L = 250, r = 12 leave a hub of 28.5 mm: smaller than a bore of 30, so that is less."""
+    wide = ALL["bore"].replace("crank_bore_mm = 30", "crank_bore_mm = 20\ncrank_hub_mm = 45")
+    for text, key, most in ((ALL["bore"], "crank_bore_mm", 28.5), (wide, "crank_hub_mm", 28.5)):
+        rows = {c.name: c.nearest for c in judged(read(tmp_path, text))}
+        name, value = rows["crank_hub_mm"].split(" = ")
+        assert name == key and 0.0 < float(value) <= most
+        bore = 30.0 if text == ALL["bore"] else 20.0
+        hubs = [float(said.split()[-1]) for said in rows.values() if "crank_hub_mm = " in said]
+        assert all(hub >= bore for hub in hubs)
 
 
 def test_a_linkage_gets_more_slots(tmp_path: Path) -> None:

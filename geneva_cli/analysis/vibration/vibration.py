@@ -38,6 +38,8 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
@@ -73,9 +75,9 @@ class Avoid(NamedTuple):
 
 
 class Index:
-    """One kind of index: of one design, or of each of m."""
+    """One kind of index: of one design, or of each of a batch of m."""
 
-    def __init__(self, engagement: Engagement, m: int, scale: Array) -> None:
+    def __init__(self, engagement: Engagement, scale: Array, m: int, in_batch: bool) -> None:
         motion, law = engagement.motion, engagement.motion.law
         self.motion = motion
         self.scale = scale  # its time over that of the machine's first motion
@@ -85,10 +87,10 @@ class Index:
         # a law without numbers that vary has one shape in all designs
         alike = law is not None and taken(law, slice(0)) is law
         self.is_one = m == 1 or alike
-        if m == 1:
-            self.panels = shape(engagement)
-        else:
+        if in_batch:
             self.panels = law_shape(law) if law and alike else motion_shapes(motion, m)
+        else:
+            self.panels = shape(engagement)
 
     def shapes(self, which: Whole) -> Whole:
         """Return the numbers of oscillators' motions among the panels'."""
@@ -107,11 +109,14 @@ class Loads:
     it, but for the steady state.
     """
 
-    def __init__(self, mechanism: Mechanism, swing: Swing, m: int = 1) -> None:
+    def __init__(self, mechanism: Mechanism, swing: Swing) -> None:
         self.mechanism, self.swing = mechanism, swing
         self.every = np.arange(len(swing.ratio))
         first = mechanism.engagements[0].motion_deg
-        self.indices = [Index(e, m, np.ravel(e.motion_deg / first)) for e in mechanism.engagements]
+        self.indices = [
+            Index(e, np.ravel(e.motion_deg / first), mechanism.designs, is_array(mechanism.design))
+            for e in mechanism.engagements
+        ]
 
     @cached_property
     def ratio(self) -> Array:
@@ -256,16 +261,16 @@ def vibrations_of_many(
     if stiffness is None:
         return None
     with np.errstate(all="ignore"):
-        found = period_ratio_of(mechanism, stiffness, inertia_kgm2(mechanism.spec))
+        # an array: a float's quotient by 0 is an error
+        inertia = parameter(array(inertia_kgm2(mechanism.spec)))
+        periods = period_ratio_of(mechanism, stiffness, inertia)
     damping = mechanism.spec.shaft.damping_ratio
-    motions = [engagement.motion for engagement in mechanism.engagements]
-    own = [motion(motion.entry_deg, 1).c[1] + motion.entry_deg for motion in motions]
-    ratio, zeta = (np.ravel(x) for x in np.broadcast_arrays(found, damping, *own)[:2])
+    ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
     known = np.flatnonzero(np.isfinite(ratio) & RATIO.holds(ratio))
     out = np.full((len(Vibrations._fields), len(ratio)), np.nan)
     for i in range(0, len(known), GROUP):
         part = known[i : i + GROUP]
-        some = Loads(taken(mechanism, part), Swing(ratio[part], zeta[part]), len(part))
+        some = Loads(taken(mechanism, part), Swing(ratio[part], zeta[part]))
         out[:, part] = vibrations(some, asked)
     return Vibrations(*out)
 

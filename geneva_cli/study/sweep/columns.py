@@ -12,7 +12,7 @@ from geneva_cli.verdict.quantities.designs import Designs
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.arrays import Array
+    from geneva_cli.numerics.arrays import Array, Number
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
@@ -21,15 +21,23 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     A value is infinite where a design has none, and NaN where the design must be built alone. None
     where one of the quantities is not known of these designs together.
     """
-    if not in_batch(names):
+    found = known_columns(machine, names)
+    if not found.keys() >= set(names):
         return None
-    designs, out = Designs(machine, names), []
-    for name in names:
+    return [np.broadcast_to(np.reshape(found[name], -1), (count,)) for name in names]
+
+
+def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]:
+    """Those of the quantities that are known of these designs together, (m,) or one number."""
+    designs, out = Designs(machine, names), {}
+    for name in filter(_is_batched, names):
         group = group_of()[name]
-        found = group.columns(designs)
-        if found is None:
-            return None
-        value = found.get(name.removeprefix(f"{group.table}."))
-        value = np.inf if value is None else value
-        out.append(np.broadcast_to(np.reshape(value, -1), (count,)))
+        found, own = group.columns(designs), name.removeprefix(f"{group.table}.")
+        if own in found:
+            value = found[own]
+            out[name] = np.inf if value is None else value
     return out
+
+
+def _is_batched(name: str) -> bool:
+    return in_batch([name])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
@@ -91,6 +92,18 @@ class Sweep(NamedTuple):
 
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()
+
+    @property
+    def given(self) -> list[Value] | None:
+        """The spec's own values of the varied keys; None where one is not among those varied."""
+        with suppress(GenevaError):  # a spec may lack what is varied
+            spec, own = self.text.spec(), list[Value]()
+            for axis in self.plan.axes:
+                table, _, name = axis.key.rpartition(".")
+                own.append(spec.table(table).get(name, ""))
+            if all(value in axis for value, axis in zip(own, self.plan.axes, strict=True)):
+                return own
+        return None
 
     def row(self, some: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys."""

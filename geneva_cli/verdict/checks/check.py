@@ -35,6 +35,11 @@ class Check(NamedTuple):
     at_deg: float | None = None
     nearest: str = ""
 
+    @property
+    def not_computed(self) -> str:
+        """The reason why there is no value, in words; empty where there is one."""
+        return f"{self.name} is not computed: {self.why}" if self.value is None else ""
+
 
 def compared(
     name: str,

@@ -10,7 +10,7 @@ from geneva_cli.analysis.blows import Blows, entry_blows, reversal_blows
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
-from geneva_cli.analysis.vibration.vibration import vibrations_of_many
+from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
@@ -21,7 +21,7 @@ def vibration(of: Designs) -> Columns:
     """The swing of a load on its elastic shaft."""
     found = vibrations_of_many(of.machine, of.requested("vibration"))
     if found is None:
-        return {}
+        return dict.fromkeys(Vibrations._fields)
     # without damping there is no steady state; without a period ratio the design says why
     steady = np.where(np.isnan(found.steady_share), found.period_ratio + np.inf, found.steady_share)
     return found._replace(steady_share=steady)._asdict()
@@ -50,7 +50,7 @@ def tolerances(of: Designs) -> Columns:
     """
     plays = motion_plays(of.machine)
     if plays is None:
-        return {}
+        return dict.fromkeys(("motion_play.worst_deg", "motion_play.rss_deg", "entry_jump.worst"))
     out: dict[str, Number | None] = {f"motion_play.{n}": v for n, v in plays._asdict().items()}
     if "entry_jump.worst" in of.requested("tolerance"):
         jumps = entry_jumps_worst(of.machine, used(of.machine))

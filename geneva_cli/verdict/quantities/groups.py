@@ -54,7 +54,8 @@ class Group(NamedTuple):
 
     ``alone`` computes them for the machine of a Proof and ``batch`` for Designs, each as
     module:function of this room, imported when it is used. Without ``alone`` a single design is a
-    batch of one. Groups may share a function. An ``alone`` may give lists and tables besides.
+    batch of one, and what ``batch`` leaves out no design has. Groups may share a function. An
+    ``alone`` may give lists and tables besides.
     """
 
     table: str  # what the whole names begin with; nothing where several tables are one group
@@ -83,17 +84,18 @@ class Group(NamedTuple):
             return found
         from geneva_cli.verdict.quantities.designs import single
 
-        columns = self.columns(single(proof.mechanism)) or {}
-        return {self._whole(name): only(columns.get(name)) for name in self.own}
+        columns = self.columns(single(proof.mechanism))
+        return {self._whole(name): only(columns[name]) for name in self.own}
 
-    def columns(self, of: Designs) -> Columns | None:
-        """The values of a batch by the names without the table.
+    def columns(self, of: Designs) -> Columns:
+        """The values of a batch by the names without the table; None of what no design has.
 
-        None where these designs have no such values together, and each must be built alone.
+        A name is left out where these designs have no such values together, and each must be built
+        alone.
         """
-        compute: Callable[[Designs], Columns | None]
-        compute = load_named(f"verdict.quantities.{self.batch}")
-        return of.once(compute)
+        compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
+        found = of.once(compute)
+        return found if self.alone else {**dict.fromkeys(self.own), **found}
 
     def _whole(self, name: str) -> str:
         return f"{self.table}.{name}" if self.table else name

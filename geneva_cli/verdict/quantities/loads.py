@@ -47,18 +47,18 @@ def greatest(of: Designs) -> Columns:
     return out
 
 
-def summaries(of: Designs) -> Columns | None:
-    """Least values, means and root mean squares of loads; None where one is not known of all."""
+def summaries(of: Designs) -> Columns:
+    """Least values, means and root mean squares of those loads that all these designs have."""
     cycle = Cycle(of.machine)
     sources = {n: source for n, (source, share, _) in shares(cycle).items() if share is not None}
     known = known_quantities(cycle)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
-        if load and end not in ("max", "at_deg"):
+        if end not in ("max", "at_deg") and sources.get(load, load) in known:
             ends.setdefault(load, []).append(end)
-    if any(sources.get(load, load) not in known for load in ends):
-        return None
+    if not ends:
+        return {}
     out: dict[str, Number | None] = {}
     told = {end for some in ends.values() for end in some}
     sums = summaries_of_many if told - MEANS else means_of_many
@@ -66,8 +66,8 @@ def summaries(of: Designs) -> Columns | None:
         found = one._asdict()
         out |= {f"{load}.{end}": found[end] for end in ends[load]}
     loaded = np.isfinite(of.loaded)
-    whole = {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
-    return whole if len(whole) == len(out) else None  # reactions have no means
+    # reactions have no means
+    return {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
 
 
 def sizing(of: Designs) -> Columns:

@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
-def timing(of: Designs) -> Columns | None:
-    """The timing of machines whose engagements are alike; None of others."""
+def timing(of: Designs) -> Columns:
+    """The timing of machines whose engagements are alike; nothing of others."""
     first, *others = timings(of.machine)
-    return None if others else first._asdict()
+    return {} if others else first._asdict()
 
 
 def peaks(of: Designs) -> Columns:

@@ -132,7 +132,7 @@ def pressure_speed(of: Designs) -> Columns:
 def bending(of: Designs) -> Columns:
     """The stresses of pin and horn."""
     parts = {"pin_stress_MPa": pin, "horn_stress_MPa": horn}
-    return {name: (of.once(part) or {}).get("stress_MPa") for name, part in parts.items()}
+    return {name: of.once(part).get("stress_MPa") for name, part in parts.items()}
 
 
 def wear(of: Designs) -> Columns:

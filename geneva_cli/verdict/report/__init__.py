@@ -12,7 +12,7 @@ from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_inertia import known_wheel_body
-from geneva_cli.table import Table, record_table
+from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.carried_cautions import carried_cautions
 from geneva_cli.verdict.cautions import cautions
@@ -69,9 +69,10 @@ def report(
 
 def _said(check: Check) -> str:
     """A failing check in a line."""
+    if check.value is None or check.limit is None:
+        return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"
-    value = "" if check.value is None else f" = {check.value:.6g}{where}"
-    limit = "" if check.limit is None else f", must be {check.must_be} {check.limit:.6g}"
+    value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
     change = f"; nearest change: {check.nearest}" if check.nearest else ""
     why = f"; {check.why}" if check.why else ""
-    return f"{check.name}{value}{limit}{change}{why}"
+    return f"{check.name} = {value}{where}, must be {check.must_be} {limit}{change}{why}"
