@@ -26,13 +26,11 @@ class Designs:
     A value is infinite where a design has none, and NaN where only the design built alone can tell.
     """
 
-    def __init__(
-        self, machine: Mechanism, names: Collection[str] = (), single: bool = False
-    ) -> None:
+    def __init__(self, machine: Mechanism, names: Collection[str] = ()) -> None:
         self.machine = machine
         self.spec = machine.spec
         self.names = names  # of all quantities that are requested
-        self.single = single  # a machine whose numbers are floats: m = 1
+        self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self._kept: dict[object, object] = {}
 
     def requested(self, table: str) -> set[str]:
@@ -62,4 +60,4 @@ class Designs:
 @lru_cache(maxsize=16)
 def single(mechanism: Mechanism) -> Designs:
     """A machine as a batch of one, kept while it is checked, advised on and reported."""
-    return Designs(mechanism, single=True)
+    return Designs(mechanism)

@@ -71,6 +71,9 @@ def summaries(of: Designs) -> Columns:
 
 
 def sizing(of: Designs) -> Columns:
-    """Motor, flywheel and the makers' form."""
-    found = sizings_of_many(of.machine, of.requested("sizing"))
-    return {name: np.where(np.isnan(row), np.inf, row) * of.loaded for name, row in found.items()}
+    """Motor, flywheel and the makers' form; None of what needs keys that no design has."""
+    requested = of.requested("sizing")
+    out: dict[str, Number | None] = dict.fromkeys(requested)
+    for name, row in sizings_of_many(of.machine, requested).items():
+        out[name] = np.where(np.isnan(row), np.inf, row) * of.loaded
+    return out
