@@ -65,6 +65,14 @@ def refused(name: str, error: GenevaError) -> Check:
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
+def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
+    """The check that a value is at least a limit; it fails where parts cannot be built."""
+    try:
+        return compared(name, value(), "at least", limit)
+    except GenevaError as error:
+        return Check(name, None, "at least", limit, False, str(error))
+
+
 def gap(name: str, least: Callable[[], Beside | None], L: float) -> Check | None:
     """The least gap beside shafts, if there is one; it fails where parts cannot be built."""
     try:

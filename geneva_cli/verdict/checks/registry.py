@@ -80,7 +80,7 @@ STATIC: Checks = {
 # Of the shells of a sphere, without turning them.
 SPHERE: Checks = {
     "wall_between_slots_mm": "sphere:between_slots",
-    "horn_mm": "sphere:horn",
+    "horn_mm": "walls:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
     "dial_wall_mm": "sphere:dial",
