@@ -9,27 +9,32 @@ from the wheel's lower face: the stack; on a sphere from the wheel's outer face 
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import TypeAlias
 
-from geneva_cli.curves.mass import mass_properties
+from geneva_cli.curves.mass import MM, mass_properties
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Member, plates
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, solids
+from geneva_cli.curves.sphere import opposite
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.built import built, link_members
 from geneva_cli.parts.missing import Missing, or_missing
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_part
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sphere.listed import bare_rows, dimensions, shell_rows
+from geneva_cli.parts.sphere.built import built as built_ball
+from geneva_cli.parts.sphere.built import crank_group as ball_crank
+from geneva_cli.parts.sphere.built import wheel_shell
+from geneva_cli.parts.sphere.dimensions import dimensions
+from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.spec.schema import Points, fields
+from geneva_cli.spec.tables import Size
 from geneva_cli.table import Table, rows_table
 
 ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
+ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # in which a shell's size is measured
 # what a row of each kind has
 KINDS = {
     "part": (
@@ -52,7 +57,6 @@ KINDS = {
     "missing": ("name", "why"),
 }
 Row: TypeAlias = dict[str, object]
-Rows: TypeAlias = Callable[[], Iterator[Row]]
 NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in names))
 
 
@@ -73,68 +77,99 @@ def parts_list(proof: Proof) -> Table:
 def _parts(proof: Proof) -> Iterator[Row | Missing]:
     """All parts; where they cannot all be built, wheel and crank alone, and why."""
     spec = proof.mechanism.spec
-    if spec.is_flat:
-        yield from _or_bare(lambda: parts_rows(proof.found), lambda: _bare_rows(proof.found))
-        return
-    if not spec.wheel.FLAT:
-        yield from _or_bare(lambda: shell_rows(proof), lambda: bare_rows(proof))
-    yield from or_missing("links and frame", lambda: link_rows(proof))
+    if spec.is_flat or not spec.wheel.FLAT:
+        rows = list(or_missing("all other parts", lambda: _machine_rows(proof)))
+        if any(isinstance(row, Missing) for row in rows):
+            yield from or_missing("wheel and crank", lambda: _bare_rows(proof))
+        yield from rows
+    if not spec.is_flat:
+        yield from or_missing("links and frame", lambda: link_rows(proof))
 
 
-def _or_bare(every: Rows, bare: Rows) -> Iterator[Row | Missing]:
-    """The rows of all parts; where one cannot be built, wheel and crank alone, and why."""
-    rows = list(or_missing("all other parts", every))
-    if any(isinstance(row, Missing) for row in rows):
-        yield from or_missing("wheel and crank", bare)
-    yield from rows
+def _machine_rows(proof: Proof) -> Iterator[Row]:
+    """A row for each kind of part of a machine. Raises GenevaError where one cannot be built."""
+    if proof.mechanism.spec.wheel.FLAT:
+        yield from _rows(proof, built(proof.found).members)
+    else:
+        yield from _rows(proof, built_ball(proof.shells).members)
 
 
-def parts_rows(found: Outlines) -> Iterator[Row]:
-    """All plates of a flat machine, each kind once with its count, as the solids have them.
-
-    Raises GenevaError where one cannot be built.
-    """
-    yield from plate_rows(found.assembly.given.spec, Group("", built(found).members))
-
-
-def _bare_rows(found: Outlines) -> Iterator[Row]:
-    """The plates of wheel and crank, without the crank's arm."""
-    members = Member(wheel_part(found, found.wheel)), Member(crank_group(found))
-    yield from plate_rows(found.assembly.given.spec, Group("", members))
+def _bare_rows(proof: Proof) -> Iterator[Row]:
+    """Rows for wheel and crank without the crank's arm; on a sphere without hub and bolts too."""
+    wheel: Part
+    if proof.mechanism.spec.wheel.FLAT:
+        wheel, crank = wheel_part(proof.found, proof.found.wheel), crank_group(proof.found)
+    else:
+        wheel, crank = wheel_shell(Size(), proof.shells.ball), ball_crank(proof.shells, None)
+    yield from _rows(proof, (Member(wheel), Member(crank)))
 
 
 def link_rows(proof: Proof) -> Iterator[Row]:
     """Links and gears, their shafts and the frame alone: where the wheel is not drawn."""
-    yield from plate_rows(proof.mechanism.spec, Group("", link_members(proof)))
+    yield from part_rows(proof.mechanism.spec, Group("", link_members(proof)))
 
 
-def plate_rows(spec: Spec, group: Group) -> Iterator[Row]:
-    """A row for each kind of plate in a group, with its count."""
-    for plate, count in Counter(plates(group)).items():
-        name, of = (
+def _rows(proof: Proof, members: tuple[Member, ...]) -> Iterator[Row]:
+    spec = proof.mechanism.spec
+    outside = None if spec.wheel.FLAT else proof.shells.ball.span_mm[1]
+    yield from part_rows(spec, Group("", members), outside)
+
+
+def part_rows(spec: Spec, group: Group, outside: float | None = None) -> Iterator[Row]:
+    """A row for each kind of solid in a group, with its count.
+
+    On a sphere ``outside`` is the radius of the wheel's outer face, from where z counts inwards.
+    """
+    kinds: dict[Plate | tuple[str, str], list[Plate | Shell]] = {}
+    for solid in solids(group):
+        # Shells of one kind lie in different places, and may differ by rounding.
+        kind = solid if isinstance(solid, Plate) else (solid.name, f"{solid.volume:.9g}")
+        kinds.setdefault(kind, []).append(solid)
+    for alike in kinds.values():
+        solid = alike[-1]
+        name, material = (
             ("roller", spec.material_roller)
-            if plate.layer == "ROLLER"
+            if solid.layer == "ROLLER"
             else ("wheel", spec.material_wheel)
         )
-        made, box = mass_properties(plate, of.density_kgm3), bounds(plate.outline)
-        near = ROUNDING * max(box.x1 - box.x0, box.y1 - box.y0)
-        x, y = (at if abs(at) > near else 0.0 for at in made.centroid_mm)
         yield {
             "row": "part",
-            "name": plate.name,
-            "count": count,
+            "name": solid.name,
+            "count": len(alike),
             "material": f"material.{name}",
-            "density_kgm3": of.density_kgm3,
-            "thickness_mm": plate.thickness,
-            "z_low_mm": plate.low,
-            "z_high_mm": plate.high,
-            "mass_kg": made.mass_kg,
-            "inertia_kgm2": made.inertia_kgm2,
-            "centroid_x_mm": x,
-            "centroid_y_mm": y,
-            "size_x_mm": box.x1 - box.x0,
-            "size_y_mm": box.y1 - box.y0,
+            "density_kgm3": material.density_kgm3,
+            **_measures(solid, material.density_kgm3, outside),
         }
+
+
+def _measures(solid: Plate | Shell, density: float, outside: float | None) -> Row:
+    """Heights, mass, inertia and size of a solid, and in a flat machine its centroid."""
+    row: Row = {}
+    if isinstance(solid, Plate):
+        low, high, box = solid.low, solid.high, bounds(solid.outline)
+        wide, deep = box.x1 - box.x0, box.y1 - box.y0
+        made = mass_properties(solid, density)
+        mass, inertia = made.mass_kg, made.inertia_kgm2
+        if outside is None:
+            near = ROUNDING * max(wide, deep)
+            x, y = (at if abs(at) > near else 0.0 for at in made.centroid_mm)
+            row = {"centroid_x_mm": x, "centroid_y_mm": y}
+    else:
+        low, high = solid.inner, solid.outer
+        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in ACROSS)
+        mass, inertia = density * solid.volume * MM**3, density * solid.inertia(POLE) * MM**5
+    thickness = high - low
+    if outside is not None:
+        low, high = outside - high, outside - low
+    return row | {
+        "thickness_mm": thickness,
+        "z_low_mm": low,
+        "z_high_mm": high,
+        "mass_kg": mass,
+        "inertia_kgm2": inertia,
+        "size_x_mm": wide,
+        "size_y_mm": deep,
+    }
 
 
 def _pivots(mechanism: Mechanism) -> Iterator[Row]:

@@ -9,7 +9,7 @@ from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.turn.beside_shafts import beside_shafts
+from geneva_cli.parts.turn.beside_shafts import beside_shafts, ring_gap
 
 STEEL = 7850e-9  # kg/mm³
 HUBS = Size(
@@ -116,6 +116,13 @@ def test_a_crank_shaft_through_an_internal_wheel():
     assert found.gap == pytest.approx(sizes.rim - 100.0 - radius, abs=1e-6)
     assert (found.shaft, found.part) == ("crank's shaft", "wheel")
     assert beside_shafts(Design(Internal(6)).parts) is None
+
+
+def test_a_shaft_in_a_disc_must_move_outside_and_in_a_ring_may_move_inside():
+    assert ring_gap(3.0, 0.0, 10.0, 1.0) == -8.0
+    assert ring_gap(3.0, 2.0, 10.0, 1.0) == -2.0
+    assert ring_gap(3.0, 5.0, 10.0, 1.0) == 1.0
+    assert ring_gap(12.0, 5.0, 10.0, 1.0) == 1.0
 
 
 def test_a_first_wheel_beside_the_seconds_shaft():

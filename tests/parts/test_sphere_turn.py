@@ -17,7 +17,7 @@ from geneva_cli.parts.sphere.shells import shells
 from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import all_pass, checks
-from geneva_cli.verdict.checks.registry import shell_checks
+from geneva_cli.verdict.checks.registry import standing_checks
 
 CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
 
@@ -164,7 +164,7 @@ def test_shafts_and_arm_have_room_or_not():
     design = Design(Spherical(6, axes_deg=75), size=given)
 
     def row(name, of=design):
-        return next(c for c in shell_checks(shells(of.mechanism)) if c.name == name)
+        return next(c for c in standing_checks(shells(of.mechanism)) if c.name == name)
 
     ball = shells(design.mechanism).ball
     # the arm is a shell from 84 mm on, and the wheel's one from 76
@@ -175,7 +175,7 @@ def test_shafts_and_arm_have_room_or_not():
     assert row("beside_shafts_mm", design.with_("size.arm_eye_mm", 110.0)).passes is False
     # without an arm one check says why
     thin = shells(design.with_("size.arm_hub_mm", 3.0).mechanism)
-    failing = [c for c in shell_checks(thin) if not c.passes]
+    failing = [c for c in standing_checks(thin) if not c.passes]
     assert [c.name for c in failing] == ["arm_wall_mm"]
     assert failing[0].why.startswith("arm_hub_mm = 3: the hub must be above")
     # round the pin: the eye is 10/80 wide, its hole 2.5 mm at 84; more than the hub's wall
@@ -215,6 +215,6 @@ def test_by_default_all_has_its_room():
     for z in (3, 12):
         for axes in (10.0, 60.0, 120.0, 165.0):
             design = Design(Spherical(z, axes_deg=axes), size=Size(100.0, 1.0))
-            rows = list(shell_checks(shells(design.mechanism)))
+            rows = list(standing_checks(shells(design.mechanism)))
             assert all(c.passes for c in rows), rows
             assert {"beside_shafts_mm", "arm_wall_mm"} <= {c.name for c in rows}

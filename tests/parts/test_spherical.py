@@ -24,7 +24,7 @@ from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.parts.sphere.wheel import POLE, edge_points, wheel_regions
-from geneva_cli.verdict.checks.registry import shell_checks
+from geneva_cli.verdict.checks.registry import standing_checks
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
 MACHINES = {
@@ -347,7 +347,7 @@ def test_bolts_for_a_dial():
     ways = [math.pi / 6.0 + k * math.tau / 3.0 for k in range(3)]
     wanted = [polar(far, way) for way in ways]
     assert np.array([hole.axis for hole in holes]) == pytest.approx(np.array(wanted), abs=1e-15)
-    (wall,) = (c for c in shell_checks(found) if c.name == "dial_wall_mm")
+    (wall,) = (c for c in standing_checks(found) if c.name == "dial_wall_mm")
     ends = found.ball.bottom - found.ball.half_width
     least = min(far - hub, ends - far) - math.asin(2.0 / 76.0)
     assert wall.value == pytest.approx(76.0 * least, rel=1e-12)
@@ -357,7 +357,7 @@ def test_bolts_for_a_dial():
         ("dial_bolt_circle_mm", 20.0, "they have their place between"),
         ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
     ):
-        rows = shell_checks(Proof(design.with_(f"size.{key}", value).mechanism).shells)
+        rows = standing_checks(Proof(design.with_(f"size.{key}", value).mechanism).shells)
         (failing,) = (c for c in rows if not c.passes)
         assert failing.name == "dial_wall_mm"
         assert said in failing.why

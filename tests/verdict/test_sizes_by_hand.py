@@ -10,7 +10,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.registry import static_checks
+from geneva_cli.verdict.checks.registry import standing_checks
 
 L, r, rk = 100.0, 4.0, 40.0
 HUBS = {"wheel_bore_mm": 20.0, "wheel_hub_mm": 30.0, "crank_bore_mm": 6.0, "crank_hub_mm": 10.0}
@@ -25,7 +25,7 @@ def test_walls_and_shafts_of_a_plain_wheel(z: int) -> None:
     size = Size(L, r, lock_radius_mm=lock, **HUBS)
     found = outlines(build(Spec(Wheel(z), size=size)))
     assert found.relief == "arc"
-    rows = {c.name: c.value for c in static_checks(found)}
+    rows = {c.name: c.value for c in standing_checks(found)}
     end = found.sizes.slot_end  # the theory leaves it to the maker, below L - R - r
     assert end <= L - R - r
     by_hand = {
@@ -52,7 +52,7 @@ def krasniqi(x: np.ndarray) -> np.ndarray:
 def test_branches_of_a_curved_slot() -> None:
     """2 rho sin(theta - psi) at most, of a slot whose way in leads its way out."""
     found = outlines(build(curved("sine-group", 0.5)))
-    rows = {c.name: c for c in static_checks(found)}
+    rows = {c.name: c for c in standing_checks(found)}
     phi = np.linspace(-math.pi / 3.0, 0.0, 400_001)
     psi = (krasniqi(math.pi * (phi / (2.0 * math.pi / 3.0) + 0.5)) - 0.5) * math.pi / 3.0
     x, y = 1.0 - 0.5 * np.cos(phi), 0.5 * np.sin(phi)

@@ -14,7 +14,7 @@ from geneva_cli.parts.first_pair import first_outlines
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.machine_drawing import machine_and_parts
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.parts_list import plate_rows
+from geneva_cli.parts.parts_list import part_rows
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import wheel
 from geneva_cli.parts.sheet.crank import draw_arm, draw_assembly, draw_disc
@@ -56,7 +56,7 @@ def shown_on_sheet(found: Outlines, tolerance: float, curves: str) -> Shown:
     given, cam = found.assembly.given, found.assembly.rollers[0][0].groove is not None
     whole, parts = machine_and_parts(found, tolerance, curves)
     assert isinstance(whole.solid, Group)
-    rows: list[dict[str, Any]] = list(plate_rows(given.spec, whole.solid))
+    rows: list[dict[str, Any]] = list(part_rows(given.spec, whole.solid))
     sizes = [row[f"size_{axis}_mm"] for row in rows for axis in "xy"]
     *_, lowest = flat_plates(parts.standing)
     apart = [bounds(plate.outline) for plate in plates(whole.solid) if plate.layer in APART]

@@ -1,7 +1,7 @@
-"""The room beside hubs and shafts of a sphere for what turns about the other axis.
+"""Gaps between hubs or shafts of a spherical machine and parts that turn about the other axis.
 
-What is round about one axis and what turns about the other may share distances from the centre; on
-a sphere of such a radius they are caps and rings, and the gap is an arc between them.
+Both may share distances from the centre. On a sphere of such a radius they are caps and rings, and
+the gap is an arc between them (``ring_gap``).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.parts.sphere.built import ROLLER, BuiltBall
 from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.turn.beside_shafts import Beside
+from geneva_cli.parts.turn.beside_shafts import ShaftGap, ring_gap
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -30,8 +30,8 @@ LOOKS = 257  # spheres on which a gap is looked at, where it may grow and shrink
 class Swept(NamedTuple):
     """What something sweeps in a whole turn about its axis: between two angles and two spheres.
 
-    ``flat`` is where a round part has a flat end towards the centre: its cap on a sphere is no
-    wider than that lets it be. ``wide`` is its radius, mm, 0 for what is a ring of angles.
+    ``wide`` is the radius of a round part, mm, 0 for what is a ring of angles. A round part begins
+    at the sphere that its flat end touches: its cap on a sphere is no wider than that lets it be.
     """
 
     name: str
@@ -40,24 +40,23 @@ class Swept(NamedTuple):
     high: float
     inner: float
     outer: float
-    flat: float = 0.0
     wide: float = 0.0
 
     def angle(self, sphere: Array) -> Array:
         """How far it is from the axis at most, on spheres (n,), radians."""
         if not self.wide:
             return np.full_like(sphere, self.high)
-        end = np.arccos(np.minimum(1.0, self.flat / sphere))
+        end = np.arccos(np.minimum(1.0, self.inner / sphere))
         out: Array = np.minimum(np.arcsin(np.minimum(1.0, self.wide / sphere)), end)
         return out
 
     @property
     def grows_to(self) -> float:
         """The sphere to which its angle grows; beyond it shrinks."""
-        return math.hypot(self.flat, self.wide) if self.wide else 0.0
+        return math.hypot(self.inner, self.wide) if self.wide else 0.0
 
 
-def beside_shafts(found: Shells, whole: BuiltBall) -> Beside | None:
+def beside_shafts(found: Shells, whole: BuiltBall) -> ShaftGap | None:
     """The least gap between a hub or shaft and what turns about the other axis, mm along a sphere.
 
     None where they share no distance from the centre.
@@ -75,7 +74,7 @@ def beside_shafts(found: Shells, whole: BuiltBall) -> Beside | None:
     near = SAME * ball.radius_mm
     return min(
         (
-            Beside(_gap(one, other, ball.axes), one.name, other.name)
+            ShaftGap(_gap(one, other, ball.axes), one.name, other.name)
             for one, other in pairs
             if min(one.outer, other.outer) - max(one.inner, other.inner) > near
         ),
@@ -90,7 +89,7 @@ def _round(plate: Plate) -> Iterator[Swept]:
     for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
         if high > 0.0:
             flat = max(low, 0.0)
-            yield Swept(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), flat, wide)
+            yield Swept(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
 
 
 def _crank_rings(found: Shells, whole: BuiltBall) -> Iterator[Swept]:
@@ -119,8 +118,5 @@ def _gap(one: Swept, other: Swept, axes: float) -> float:
     sphere = np.linspace(low, high, LOOKS)
     sphere = sphere[sphere > 0.0]  # both may be at the centre
     apart = axes if one.back is other.back else math.pi - axes
-    aside = apart - other.angle(sphere)
-    if other.low:  # through which it may pass
-        aside = np.maximum(aside, other.low - apart)
-    gaps = sphere * (aside - one.angle(sphere))
+    gaps = sphere * ring_gap(apart, other.low, other.angle(sphere), one.angle(sphere))
     return float(gaps.min())

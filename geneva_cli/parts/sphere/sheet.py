@@ -18,6 +18,7 @@ from geneva_cli.curves.plates import Group, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.machine.layout import Dimension
+from geneva_cli.parts.parts_list import part_rows
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bored, radius_of
@@ -29,6 +30,7 @@ from geneva_cli.parts.sheet.view import Block, View, number, times
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.arm_drawing import arm_cone, arm_flat
 from geneva_cli.parts.sphere.built import ROLLER, BuiltBall, built
+from geneva_cli.parts.sphere.dimensions import dimensions
 from geneva_cli.parts.sphere.drawings import (
     PITCH,
     crank_cone,
@@ -38,7 +40,6 @@ from geneva_cli.parts.sphere.drawings import (
     wheel_flat,
 )
 from geneva_cli.parts.sphere.laid_flat import CYLINDER, Cone
-from geneva_cli.parts.sphere.listed import dimensions, shell_rows
 from geneva_cli.parts.sphere.section import degrees, section
 from geneva_cli.parts.sphere.sizes import Ball
 
@@ -84,7 +85,7 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
         views += _axles(proof, whole, scale)
         yield [*(view.block() for view in views), *fixed]
 
-    items = list(shell_rows(proof))
+    items = list(part_rows(proof.mechanism.spec, Group("", whole.members), found.span_mm[1]))
     return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)
 
 

@@ -1,15 +1,15 @@
-"""The room beside hubs and shafts for what turns about another axis, where they share a height.
+"""Gaps between hubs or shafts and parts that turn about another axis, where they share a height.
 
-What goes round in whole turns sweeps a ring about its axis; a plate that stands is no larger than
+A part that makes whole turns sweeps a ring about its axis; a plate that stands is no larger than
 its ring. So the least gap of a whole turn is a distance from ring to shaft. Links, which swing, are
-looked at in their planes (``planes``), and the frame has the shafts in holes of its own.
+checked in their planes (``planes``), and the frame has the shafts in holes of its own.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
+from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.built import Built, built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
@@ -24,10 +25,11 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
+Measure = TypeVar("Measure", float, Array)  # one gap, or one on each of some spheres
 SAME = 1e-9  # of the centre distance: what shares less of a height only touches
 
 
-class Beside(NamedTuple):
+class ShaftGap(NamedTuple):
     """The least gap, mm, between a hub or shaft and a part that passes it."""
 
     gap: float  # negative where they overlap
@@ -46,17 +48,20 @@ class Ring(NamedTuple):
     low: float
     high: float
 
-    def gap(self, at: Point, radius: float) -> float:
-        """Between the ring and something round."""
-        away = math.dist(self.axis, at)
-        if away >= self.outer:
-            return away - self.outer - radius
-        if away <= self.inner:
-            return self.inner - away - radius
-        return -min(self.outer - away, away - self.inner) - radius
+
+def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Measure:
+    """The gap between a ring and something round, where their axes are so far apart.
+
+    Radii are in mm, or on a sphere in radians. Negative where they overlap: by what the round thing
+    must move to be outside of the ring, or in its opening where that is less and there is one.
+    """
+    gap = apart - outer
+    if inner:
+        gap = np.maximum(gap, inner - apart)
+    return gap - radius
 
 
-def beside_shafts(found: Outlines) -> Beside | None:
+def beside_shafts(found: Outlines) -> ShaftGap | None:
     """The least gap of all; None where nothing passes a hub or shaft.
 
     Raises GenevaError for sizes that leave no parts.
@@ -67,7 +72,7 @@ def beside_shafts(found: Outlines) -> Beside | None:
     return _least(found, whole, turning, [*turning, *others])
 
 
-def beside_gears(found: Outlines) -> Beside | None:
+def beside_gears(found: Outlines) -> ShaftGap | None:
     """The least gap between noncircular gears and the hubs and shafts that pass them; else None.
 
     Raises GenevaError for sizes that leave no parts.
@@ -79,16 +84,20 @@ def beside_gears(found: Outlines) -> Beside | None:
     return _least(found, whole, turning, list(_noncircular(found)))
 
 
-def _least(found: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]) -> Beside | None:
+def _least(
+    found: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]
+) -> ShaftGap | None:
     """The least gap of some rings to the shafts, and to the hubs among wheel and crank."""
     near = SAME * found.assembly.L
     axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
     return min(
         (
-            Beside(ring.gap(shaft.axis, shaft.outer), shaft.name, ring.name)
+            ShaftGap(
+                float(ring_gap(apart, ring.inner, ring.outer, shaft.outer)), shaft.name, ring.name
+            )
             for shaft in axes
             for ring in rings
-            if math.dist(ring.axis, shaft.axis) > near
+            if (apart := math.dist(ring.axis, shaft.axis)) > near
             and min(ring.high, shaft.high) - max(ring.low, shaft.low) > near
         ),
         default=None,

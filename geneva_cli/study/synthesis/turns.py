@@ -30,7 +30,7 @@ from geneva_cli.parts.turn.turned import Turned
 from geneva_cli.study.synthesis.wish import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
-from geneva_cli.verdict.checks.registry import shell_checks, static_checks, turn_checks
+from geneva_cli.verdict.checks.registry import standing_checks, turn_checks
 
 GAPS, LOOSE = {"gap_mm", "idle_roller_mm"}, {"hand_over_play_deg"}  # told by a few positions
 # Times the play that lets a roller find its slot: where the wheel is as free as that between lock
@@ -163,8 +163,7 @@ class _Turn:
         parts: Any = self._made
         turned = parts.assembly._replace(given=machine, to_input=machine.spec.drive.input_deg)
         parts = parts._replace(assembly=turned)
-        flat = machine.spec.wheel.FLAT
-        return _failing(static_checks(parts) if flat else shell_checks(parts))
+        return _failing(standing_checks(parts))
 
     def every(self) -> list[Failing]:
         """The checks of the turn that fail."""

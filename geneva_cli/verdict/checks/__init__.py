@@ -17,12 +17,10 @@ from geneva_cli.verdict.checks.check import refused
 from geneva_cli.verdict.checks.registry import (
     LIMITS,
     MOTION,
-    SPHERE,
-    STATIC,
     check_named,
     motion_checks,
-    shell_checks,
-    static_checks,
+    standing,
+    standing_checks,
     turn_checks,
 )
 
@@ -45,7 +43,7 @@ def checks_at_rest(mechanism: Mechanism, proof: Proof | None) -> Iterator[Check]
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
     if proof is not None:
-        yield from _standing(proof)
+        yield from standing_checks(proof.turned)
 
 
 def checks_turning(proof: Proof) -> Iterator[Check]:
@@ -68,25 +66,16 @@ def single_check(mechanism: Mechanism, name: str) -> Check | None:
         found = check_named(among, name, mechanism)
         if found:
             return found
-    if not mechanism.spec.has_parts or name not in {**STATIC, **SPHERE}:
+    among = standing(mechanism)
+    if not mechanism.spec.has_parts or name not in among:
         return None
-    proof = _proof(mechanism)
-    if mechanism.spec.wheel.FLAT:
-        return check_named(STATIC, name, proof.found)
-    return check_named(SPHERE, name, proof.shells)
+    return check_named(among, name, _proof(mechanism).turned)
 
 
 def _proof(mechanism: Mechanism) -> Proof:
     from geneva_cli.parts.proof import Proof
 
     return Proof(mechanism)
-
-
-def _standing(proof: Proof) -> Iterator[Check]:
-    """The checks of parts at rest. Raises GenevaError where wheel or crank cannot be made."""
-    if proof.mechanism.spec.wheel.FLAT:
-        return static_checks(proof.found)
-    return shell_checks(proof.shells)
 
 
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
@@ -102,7 +91,7 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
 
     proof = proof or _proof(mechanism)
     try:
-        rows = list(_standing(proof))
+        rows = list(standing_checks(proof.turned))
     except GenevaError as error:
         yield refused("parts", error)
         return

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm, walls
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.check import Check, at_least
 
 KEYS = (
     "arm_bore_mm",
@@ -37,8 +36,4 @@ def _asked(
     size = found.assembly.mechanism.spec.size
     if not (any(vars(size)[key] for key in KEYS) and has_arm(found)):
         return None
-    try:
-        made = crank_arm(found)
-    except GenevaError as error:
-        return Check(name, None, "at least", limit, False, str(error))
-    return compared(name, value(made), "at least", limit)
+    return at_least(name, lambda: value(crank_arm(found)), limit)

@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.keeps import keeps
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.turn.beside_shafts import Beside
+    from geneva_cli.parts.turn.beside_shafts import ShaftGap
 
 # Why a failing check has no advice.
 NONE = "no change of one value that was tried passes all checks"
@@ -65,7 +65,15 @@ def refused(name: str, error: GenevaError) -> Check:
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
-def gap(name: str, least: Callable[[], Beside | None], L: float) -> Check | None:
+def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
+    """The check that a value is at least a limit; it fails where parts cannot be built."""
+    try:
+        return compared(name, value(), "at least", limit)
+    except GenevaError as error:
+        return Check(name, None, "at least", limit, False, str(error))
+
+
+def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:
     """The least gap beside shafts, if there is one; it fails where parts cannot be built."""
     try:
         found = least()

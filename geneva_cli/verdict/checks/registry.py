@@ -14,8 +14,6 @@ from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.outlines import Outlines
-    from geneva_cli.parts.sphere.shells import Shells
     from geneva_cli.parts.turn.full_turn import FullTurn
     from geneva_cli.parts.turn.turned import Turned
 
@@ -80,7 +78,7 @@ STATIC: Checks = {
 # Of the shells of a sphere, without turning them.
 SPHERE: Checks = {
     "wall_between_slots_mm": "sphere:between_slots",
-    "horn_mm": "sphere:horn",
+    "horn_mm": "walls:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
     "dial_wall_mm": "sphere:dial",
@@ -115,14 +113,14 @@ def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
     yield from _made(among, mechanism)
 
 
-def static_checks(found: Outlines) -> Iterator[Check]:
+def standing(mechanism: Mechanism) -> Checks:
+    """The checks of the parts of a machine at rest."""
+    return STATIC if mechanism.spec.wheel.FLAT else SPHERE
+
+
+def standing_checks(found: Turned) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from _made(STATIC, found)
-
-
-def shell_checks(found: Shells) -> Iterator[Check]:
-    """The checks of a sphere's shells at rest: walls, shafts."""
-    yield from _made(SPHERE, found)
+    yield from _made(standing(found.assembly.given), found)
 
 
 def turn_checks(found: Turned, turn: FullTurn) -> Iterator[Check]:

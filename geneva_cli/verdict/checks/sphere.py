@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sphere.arm import crank_arm, has_arm
 from geneva_cli.parts.sphere.beside import beside_shafts
 from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.wheel import POLE
-from geneva_cli.verdict.checks.check import Check, compared, gap
+from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 
 
 def between_slots(name: str, found: Shells) -> Check:
@@ -26,13 +25,6 @@ def between_slots(name: str, found: Shells) -> Check:
     return _wall(name, wall, found)
 
 
-def horn(name: str, found: Shells) -> Check | None:
-    """Between a slot and the recess that the locking sectors run in."""
-    if not found.crank:
-        return None
-    return compared(name, found.sizes.horn, "at least", found.sizes.wall_min)
-
-
 def wheel_bore(name: str, found: Shells) -> Check:
     """Between the ends of the slots and the round hole about the wheel's axis, where its bore or
     hub is; or where the wheel stays open about it."""
@@ -43,14 +35,10 @@ def wheel_bore(name: str, found: Shells) -> Check:
 
 def dial(name: str, found: Shells) -> Check | None:
     """The least wall round the holes for a dial."""
-    size, least = found.assembly.given.spec.size, found.sizes.wall_min
+    size = found.assembly.given.spec.size
     if not size.dial_bolts:
         return None
-    try:
-        value = dial_wall(size, found.ball)
-    except GenevaError as error:
-        return Check(name, None, "at least", least, False, str(error))
-    return compared(name, value, "at least", least)
+    return at_least(name, lambda: dial_wall(size, found.ball), found.sizes.wall_min)
 
 
 def crank_shaft(name: str, found: Shells) -> Check | None:
@@ -68,11 +56,7 @@ def arm_wall(name: str, found: Shells) -> Check | None:
     """The least wall round the holes of the crank arm, and of bolts in the locking sectors."""
     if not has_arm(found):
         return None
-    try:
-        made = crank_arm(found)
-    except GenevaError as error:
-        return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
-    return compared(name, made.wall, "at least", found.sizes.wall_min)
+    return at_least(name, lambda: crank_arm(found).wall, found.sizes.wall_min)
 
 
 def beside(name: str, found: Shells) -> Check | None:

@@ -1,6 +1,8 @@
-"""Whether every part of a machine can be built: what cannot be drawn, fails."""
+"""The checks that every part of a machine can be built."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.built import built
@@ -12,17 +14,17 @@ from geneva_cli.verdict.checks.check import Check, refused
 
 def plates(name: str, found: Outlines) -> Check | None:
     """The check that fails where a plate of a flat machine cannot be built; else None."""
-    try:
-        built(found, fitted=False)
-    except GenevaError as error:
-        return refused(name, error)
-    return None
+    return _refusal(name, lambda: built(found, fitted=False))
 
 
 def solids(name: str, found: Shells) -> Check | None:
     """The check that fails where a solid of a spherical machine cannot be built; else None."""
+    return _refusal(name, lambda: built_ball(found))
+
+
+def _refusal(name: str, build: Callable[[], object]) -> Check | None:
     try:
-        built_ball(found)
+        build()
     except GenevaError as error:
         return refused(name, error)
     return None

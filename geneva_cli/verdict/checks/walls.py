@@ -10,6 +10,7 @@ from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, close
 from geneva_cli.parts.crank import is_whole, rollers_gap
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.wheel_hub import wheel_hub
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -55,8 +56,8 @@ def rollers_apart(name: str, found: Outlines) -> Check | None:
     return None if gap is None else compared(name, gap, "at least", 0.0)
 
 
-def horn(name: str, found: Outlines) -> Check | None:
-    """Between a slot and the recess that the locking disc runs in."""
+def horn(name: str, found: Outlines | Shells) -> Check | None:
+    """Between a slot and the recess that the locking disc or sectors run in."""
     return _wall(name, found.sizes.horn, found) if found.crank else None
 
 
@@ -91,5 +92,5 @@ def crank_bore(name: str, found: Outlines) -> Check | None:
     return _wall(name, min(wall, size.crank_hub - size.crank_reach) if hub else wall, found)
 
 
-def _wall(name: str, value: float, found: Outlines) -> Check:
+def _wall(name: str, value: float, found: Outlines | Shells) -> Check:
     return compared(name, value, "at least", found.sizes.wall_min)

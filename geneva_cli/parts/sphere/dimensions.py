@@ -1,92 +1,24 @@
-"""A spherical machine's part of the list of parts: its solids, and the angles to make them by."""
+"""The dimensions of a spherical machine: radii of its shells, and the angles to make them by."""
 
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterator
 
-from geneva_cli.curves.mass import MM, mass_properties
-from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Member, Plate, Shell, solids
 from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.curves.sphere import Region, opposite
+from geneva_cli.curves.sphere import Region
 from geneva_cli.machine.layout import Dimension
-from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.missing import Missing, or_missing
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
-from geneva_cli.parts.sphere.built import ROLLER, built, crank_group, wheel_shell
 from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.sphere.wheel import POLE
-from geneva_cli.spec.tables import Size
-
-ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
-
-
-def shell_rows(proof: Proof) -> Iterator[dict[str, object]]:
-    """All solids of a machine, each kind once with its count; inertia about its own axis.
-
-    That is the wheel's or the crank's, or of a roller and its pin its own. Raises GenevaError where
-    one cannot be built.
-    """
-    yield from _rows(proof, built(proof.shells).members)
-
-
-def bare_rows(proof: Proof) -> Iterator[dict[str, object]]:
-    """The solids of wheel and crank without hub, bolts and arm. Raises GenevaError without any."""
-    found = proof.shells
-    members = Member(wheel_shell(Size(), found.ball)), Member(crank_group(found, None))
-    yield from _rows(proof, members)
-
-
-def _rows(proof: Proof, members: tuple[Member, ...]) -> Iterator[dict[str, object]]:
-    counted = Counter(map(_alike, solids(Group("", members))))
-    kinds = {_alike(one): one for one in solids(Group("", members))}
-    for alike, count in counted.items():
-        yield _row(proof.mechanism.spec, proof.shells.ball, kinds[alike], count)
-
-
-def _alike(one: Plate | Shell) -> tuple[str, str]:
-    """What two solids have in common that differ by their place alone."""
-    size = one.thickness if isinstance(one, Plate) else one.volume
-    return one.name, f"{size:.9g}"
-
-
-def _row(spec: Spec, ball: Ball, one: Plate | Shell, count: int) -> dict[str, object]:
-    name, of = (
-        ("roller", spec.material_roller) if one.layer == ROLLER else ("wheel", spec.material_wheel)
-    )
-    density = of.density_kgm3
-    if isinstance(one, Plate):
-        made, box = mass_properties(one, density), bounds(one.outline)
-        inner, outer, mass, inertia = one.low, one.high, made.mass_kg, made.inertia_kgm2
-        wide, deep = box.x1 - box.x0, box.y1 - box.y0
-    else:
-        inner, outer, mass = one.inner, one.outer, density * one.volume * MM**3
-        inertia = density * one.inertia(POLE) * MM**5
-        wide, deep = (one.reach(way) + one.reach(opposite(way)) for way in ACROSS)
-    return {
-        "row": "part",
-        "name": one.name,
-        "count": count,
-        "material": f"material.{name}",
-        "density_kgm3": density,
-        "thickness_mm": outer - inner,
-        "z_low_mm": ball.span_mm[1] - outer,
-        "z_high_mm": ball.span_mm[1] - inner,
-        "mass_kg": mass,
-        "inertia_kgm2": inertia,
-        "size_x_mm": wide,
-        "size_y_mm": deep,
-    }
 
 
 def dimensions(proof: Proof) -> Iterator[Dimension | Missing]:
-    """Yield what all is turned and cut by, and what cannot be built with the reason."""
+    """Dimensions of shells, arm and cones; what cannot be built, with the reason."""
     yield from or_missing("dimensions of the shells", lambda: _dimensions(proof.shells))
 
 
