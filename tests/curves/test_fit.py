@@ -15,7 +15,6 @@ from scipy.special import fresnel
 from words import load
 
 from geneva_cli.curves.fit import arcs, cubics
-from geneva_cli.curves.fit.arcs import _block_tridiagonal
 from geneva_cli.curves.shapes import Arc, Cubic, Line
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.pitch_curve import pitch, pitch_at_retrace, retraces
@@ -364,24 +363,6 @@ def test_no_design_with_a_curved_slot_is_left_out():
             ):
                 curved.append(path.stem)
     assert curved == CURVED
-
-
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 7, 32, 33])
-def test_block_tridiagonal_systems(count):
-    rng = np.random.default_rng(count)
-    full = np.zeros((2 * count, 2 * count))
-    for i in range(count):
-        part = rng.normal(size=(6, 4))
-        keep = slice(2 * i, min(2 * i + 4, 2 * count))
-        full[keep, keep] += (part.T @ part)[: keep.stop - keep.start, : keep.stop - keep.start]
-    right = rng.normal(size=(count, 2))
-    blocks = full.reshape(count, 2, count, 2).transpose(0, 2, 1, 3)
-    diagonal = np.array([blocks[i, i] for i in range(count)])
-    upper = np.array([blocks[i, i + 1] for i in range(count - 1)]).reshape(-1, 2, 2)
-    # To the condition number, which is below 1e4 here
-    assert _block_tridiagonal(diagonal, upper, right) == pytest.approx(
-        np.linalg.solve(full, right.ravel()).reshape(-1, 2), rel=1e-9, abs=1e-9
-    )
 
 
 def test_it_does_not_load_scipy():

@@ -11,16 +11,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.fit.balance import balanced
-from geneva_cli.curves.fit.path import CurvePath, inside, peaks, points_of
+from geneva_cli.curves.fit.path import CurvePath, fewest, points_of
 from geneva_cli.curves.shapes import Cubic
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SAMPLES = 16  # in a piece, while searching
-DENSE = 64  # in a piece, for the verdict
-STEPS = 4  # of least squares
+SAMPLES = 48  # in a piece
+STEPS = 6  # of least squares
 FEET = 6  # steps of Newton's to the places nearest to the samples
 DAMPING = 1e-3  # of the first step in the handles' difference
 STIFF = 1e9  # the damping that leaves their difference as it is
@@ -56,46 +54,31 @@ class FitState(NamedTuple):
 
 def fitted_cubics(path: CurvePath) -> list[Cubic]:
     """Cubics with common tangents along a path, the ends' tangents being the curve's."""
-    known = np.empty((0, 2))  # handles: the last ones are near the next ones
-
-    def errors(places: Array) -> Array:
-        nonlocal known
-        wanted = _wanted(path, places, SAMPLES)
-        known = _handles(wanted, known)
-        return _misses(wanted, known)
-
-    def proof(places: Array) -> list[Cubic] | None:
-        wanted = _wanted(path, places, DENSE)
-        handles = _handles(wanted, known)
-        if not _misses(wanted, handles).max() <= path.tolerance:
-            return None
-        ends, _ = path.at(places)
-        handles = handles * wanted.length[:, None]
-        first = ends[:-1] + handles[:, 0] * wanted.ahead[:, 0]
-        second = ends[1:] - handles[:, 1] * wanted.behind[:, 0]
-        rows = (points_of(z) for z in (ends[:-1], first, second, ends[1:]))
-        return [Cubic(*row) for row in zip(*rows, strict=True)]
-
-    return balanced(path, errors, proof, ORDER, np.ones(len(path.step)))
+    corners = fewest(path, _cubics, ORDER)
+    return [Cubic(*row) for row in zip(*map(points_of, corners), strict=True)]
 
 
-def _wanted(path: CurvePath, places: Array, samples: int) -> FitTargets:
-    z, tangent = path.at(inside(places, samples))
+def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, Array], Array]:
+    """The control points of cubics between places, and how far each strays from the curve, mm."""
+    z, tangent = path.inside(places, SAMPLES)
     length = np.abs(np.diff(z, axis=1)).sum(axis=1)
     points = (z - z[:, :1]) / length[:, None]
-    return FitTargets(length, points, tangent[:, :1], tangent[:, -1:])
+    wanted = FitTargets(length, points, tangent[:, :1], tangent[:, -1:])
+    handles = _handles(wanted)
+    reach = handles * length[:, None]
+    first = z[:, 0] + reach[:, 0] * tangent[:, 0]
+    second = z[:, -1] - reach[:, 1] * tangent[:, -1]
+    return (z[:, 0], first, second, z[:, -1]), _misses(wanted, handles)
 
 
-def _handles(wanted: FitTargets, known: Array) -> Array:
-    """The handles of the nearest cubics, from ``known`` ones if there are as many of them.
+def _handles(wanted: FitTargets) -> Array:
+    """The handles of the nearest cubics.
 
     Least squares in two unknowns a piece (Levenberg and Marquardt's), no root of one variable.
     """
     # At a cusp the place w goes as the cubic's own parameter does, and elsewhere too.
     even = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     state = _seen(wanted, _first_handles(wanted, even), even)
-    if len(known) == len(even):
-        state = _seen(wanted, known, even).better(state)
     damping = np.full(len(even), DAMPING)
     for _ in range(STEPS):
         trial = _seen(wanted, _improved(wanted, state, damping), state.v)
@@ -110,7 +93,7 @@ def _misses(wanted: FitTargets, handles: Array) -> Array:
     v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     for _ in range(FEET):
         v = _projected(wanted, handles, v)
-    miss = peaks(np.abs(wanted.points - _bezier(wanted, handles, v)[0]))
+    miss = np.abs(wanted.points - _bezier(wanted, handles, v)[0]).max(axis=1)
     # Feet that run back and forth are no proof that the whole cubic is near.
     miss[(np.diff(v, axis=1) < 0.0).any(axis=1)] = 1.0
     out: Array = wanted.length * miss

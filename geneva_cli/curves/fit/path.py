@@ -1,12 +1,12 @@
-"""A smooth curve to be fitted: surveyed once, so that pieces and samples are spread as it bends.
+"""A smooth curve to be fitted, and the fewest pieces that stay within its tolerance.
 
-Points and tangents are complex numbers here: rotations are products.
+Points and tangents are complex numbers here: a product turns one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -21,13 +21,23 @@ CELLS = 1024  # of the survey
 LEAP = 4.0  # times its neighbours' length: a cell in which the curve may leap
 HALVINGS = 60  # of such a cell, to the last digits of its ends
 FINEST = 64  # tolerances below that many last digits of the coordinates cannot be shown
-PIECES_MAX = 200_000
-TARGET = 0.995  # of the tolerance: what lies between samples is allowed for
-LEAST_TURN = 0.1  # radians; below, the places on a curve are told by its length alone
+LEAST_TURN = 0.1  # radians; below, the places on a curve follow its length alone
+PIECES_MAX = 100_000
+TARGET = 0.99  # of the tolerance: the rest is for what lies between samples
+ATTEMPTS = 40  # numbers of pieces that are tried
+ROUNDS = 10  # of moving the places of one number of pieces
+HASTE = 0.5  # power of the weights in moving places: an arc's error is its neighbours' too
+HOPELESS = 1.25  # the worst weight over the mean, where there are too few pieces anyway
+FLOOR = (
+    0.05  # of the mean weight, or of 1: an inflection needs pieces too, and rounding is no weight
+)
+SPARE = 0.01  # share of the pieces that is not worth another attempt
+
+Pieces = TypeVar("Pieces")
 
 
 class CurvePath:
-    """A curve between two parameters, told by its place w from 0 to 1.
+    """A curve between two parameters; a place on it is a number w from 0 to 1.
 
     Equal steps of w are equal parts of the length and of the turning alike: the parameter's own
     speed may go to zero at an end, and at a cusp the curvature may go to infinity.
@@ -42,30 +52,27 @@ class CurvePath:
         points, tangents = self._complex(self.t)
         # One by one, as a caller would ask: sums over an array may round otherwise.
         self.ends = [self._complex(np.array([t])) for t in (a, b)]
-        size = float(np.abs(points).max())
-        if not tolerance > FINEST * np.spacing(size):
+        spacing = float(np.spacing(np.abs(points).max()))
+        if not tolerance > FINEST * spacing:
             raise self.too_fine()
-        self.rounding = 4.0 * float(np.spacing(size))
-        self.step = np.abs(np.diff(points))
-        if self._leaps(points):
+        self.rounding = 4.0 * spacing
+        step = np.abs(np.diff(points))
+        if self._leaps(points, step):
             raise GenevaError(
                 f"no smooth curve within {tolerance:g} mm: it leaps, as the walls of a slot or "
                 "groove do where roller and slot overlap"
             )
-        self.turn = np.angle(tangents[1:] / tangents[:-1])
-        self.turning = float(np.abs(self.turn).sum())
-        w = np.cumsum(
-            self.step / self.step.sum() + np.abs(self.turn) / max(self.turning, LEAST_TURN)
-        )
+        turn = np.abs(np.angle(tangents[1:] / tangents[:-1]))
+        w = np.cumsum(step / step.sum() + turn / max(float(turn.sum()), LEAST_TURN))
         self.w = np.concatenate(([0.0], w)) / w[-1]
 
-    def _leaps(self, points: Array) -> bool:
+    def _leaps(self, points: Array, step: Array) -> bool:
         """Whether the ends of a cell stay more than a tolerance apart however often it is halved.
 
-        Looked at where a cell is that much longer than both of its neighbours.
+        Only a cell is halved that is much longer than both of its neighbours.
         """
-        beside = np.pad(self.step, 1)
-        i = np.flatnonzero(self.step > LEAP * np.maximum(beside[:-2], beside[2:]) + self.tolerance)
+        beside = np.pad(step, 1)
+        i = np.flatnonzero(step > LEAP * np.maximum(beside[:-2], beside[2:]) + self.tolerance)
         t0, t1, p0, p1 = self.t[i], self.t[i + 1], points[i], points[i + 1]
         for _ in range(HALVINGS if len(i) else 0):
             t = 0.5 * (t0 + t1)
@@ -82,27 +89,16 @@ class CurvePath:
             "at this size"
         )
 
-    def curvature(self) -> Array:
-        """The mean curvature in each cell of the survey, 1/mm; left is positive."""
-        found: Array = self.turn / np.maximum(self.step, 1e-300)
-        return found
+    def inside(self, places: Array, count: int) -> tuple[Array, Array]:
+        """Points and unit tangents at ``count`` + 1 even places in each interval: (n, count + 1).
 
-    def spread(self, density: Array, count: int, floor: float) -> Array:
-        """Places of ``count`` pieces with equal parts of a density given in each cell.
-
-        ``floor`` is the share of the pieces that is spread evenly.
+        They are exact at the path's ends.
         """
-        area = np.concatenate(([0.0], np.cumsum(density)))
-        area = (1.0 - floor) * area / max(float(area[-1]), 1e-300) + floor * self.w
-        found: Array = np.interp(np.linspace(0.0, area[-1], count + 1), area, self.w)
-        return found
-
-    def at(self, w: Array) -> tuple[Array, Array]:
-        """Points and unit tangents at places, complex, in the shape of ``w``; exact at the ends."""
+        w = places[:-1, None] + np.diff(places)[:, None] * (np.arange(count + 1) / count)
+        w[:, -1] = places[1:]
         points, tangents = self._complex(np.interp(w.ravel(), self.w, self.t))
-        for side, end in enumerate(self.ends):
-            there = w.ravel() == side
-            points[there], tangents[there] = end
+        for i, end in zip((0, -1), self.ends, strict=True):
+            points[i], tangents[i] = (v[0] for v in end)
         return points.reshape(w.shape), tangents.reshape(w.shape)
 
     def _complex(self, t: Array) -> tuple[Array, Array]:
@@ -110,35 +106,49 @@ class CurvePath:
         return points[:, 0] + 1j * points[:, 1], tangents[:, 0] + 1j * tangents[:, 1]
 
 
-def inside(places: Array, count: int) -> Array:
-    """``count`` + 1 even places in each interval, from end to end: (n, count + 1)."""
-    share = np.arange(count + 1) / count
-    out = places[:-1, None] + np.diff(places)[:, None] * share
-    out[:, -1] = places[1:]
+def fewest(
+    path: CurvePath,
+    fit: Callable[[CurvePath, Array], tuple[Pieces, Array]],
+    order: float,
+    unit: int = 1,
+) -> Pieces:
+    """Return the fewest pieces that stay within the path's tolerance, or nearly the fewest.
+
+    ``fit`` returns the pieces between places on the path, and the error of each, mm. Their number
+    is a multiple of ``unit``. An error goes with the length of the piece to the power of ``order``:
+    its root over that of the tolerance is the piece's weight, and the sum of the weights predicts
+    how many pieces there must be. That is a whole number: no root that ``numerics.roots`` has.
+
+    Raises GenevaError where no number of pieces serves.
+    """
+    best, count, too_few, enough = None, unit, 0, PIECES_MAX
+    places, weights = np.array([0.0, 1.0]), np.ones(1)
+    for _ in range(ATTEMPTS):
+        for _ in range(ROUNDS):
+            places = _respread(places, weights, count)
+            pieces, errors = fit(path, places)
+            weights = (errors / (TARGET * path.tolerance)) ** (1.0 / order)
+            worst, mean = weights.max(), weights.mean()
+            if worst <= 1.0 or (mean > 1.0 and worst <= HOPELESS * mean):
+                break
+        if worst <= 1.0:
+            best, enough = pieces, count
+        else:
+            too_few = count
+        step = unit * (1 + int(SPARE * count / unit))
+        if best is not None and enough - too_few <= step:
+            return best
+        need = unit * int(np.ceil(min(weights.sum(), PIECES_MAX) / unit))
+        count = min(max(need, too_few + step), enough - unit)
+    raise path.too_fine()
+
+
+def _respread(places: Array, weights: Array, count: int) -> Array:
+    """Places of ``count`` pieces with equal parts of the weights of the pieces so far."""
+    weights = np.maximum(weights, FLOOR * max(weights.mean(), 1.0)) ** HASTE
+    area = np.concatenate(([0.0], np.cumsum(weights)))
+    out: Array = np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
     return out
-
-
-def respread(places: Array, weight: Array, floor: float) -> Array:
-    """As many places, moved to where the weights of the pieces between them ask for them."""
-    weight = np.maximum(weight, floor * weight.mean())
-    area = np.concatenate(([0.0], np.cumsum(weight)))
-    out = np.interp(np.linspace(0.0, area[-1], len(places)), area, places)
-    out[0], out[-1] = places[0], places[-1]
-    return out
-
-
-def peaks(values: Array) -> Array:
-    """The greatest size in each row, by the parabola through a sample and its neighbours."""
-    sizes = np.abs(values)
-    best = sizes.max(axis=1)
-    row, top = np.arange(len(values)), np.clip(sizes.argmax(axis=1), 1, values.shape[1] - 2)
-    before, here, after = (sizes[row, top + i] for i in (-1, 0, 1))
-    bend = before - 2.0 * here + after
-    rise = np.where(bend < 0.0, -((after - before) ** 2) / (8.0 * np.minimum(bend, -1e-300)), 0.0)
-    # A parabola whose top lies beyond the neighbours is no witness.
-    near = np.abs(after - before) <= np.abs(2.0 * bend)
-    found: Array = np.maximum(best, np.where(near, here + rise, 0.0))
-    return found
 
 
 def points_of(z: Array) -> list[tuple[float, float]]:
