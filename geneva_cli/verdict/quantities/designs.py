@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import Setting, setting
-
 if TYPE_CHECKING:
+    from geneva_cli.analysis.loads.forces import Setting
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
@@ -48,6 +47,8 @@ class Designs:
     @cached_property
     def given(self) -> Setting:
         """What the loads depend on besides the motion."""
+        from geneva_cli.analysis.loads.forces import setting  # a wish without loads needs none
+
         return setting(self.machine)
 
     @cached_property
