@@ -25,12 +25,12 @@ from geneva_cli.analysis.loads.groups_many import is_analytic, of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
-from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of
+from geneva_cli.analysis.loads.stretches_many import spans_of
 from geneva_cli.analysis.loads.summary import ends_told
 from geneva_cli.analysis.peaks_many import PeakOfMany, greater
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import TIE
-from geneva_cli.numerics.signed_many import search
+from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -94,8 +94,9 @@ def summaries_of_many(
     best: dict[str, SummaryOfMany] = {}
     whole: Array | None = None
     for found, at_deg, total in _over_all(mechanism, sources, sized=False, told=told):
+        (most, low), (most_at, low_at) = np.split(found, 2), np.split(at_deg, 2)
         for i, name in enumerate(sources):
-            here = SummaryOfMany(found[2 * i], at_deg[2 * i], -found[2 * i + 1], at_deg[2 * i + 1])
+            here = SummaryOfMany(most[i], most_at[i], -low[i], low_at[i])
             best[name] = _outer(best[name], here) if name in best else here
         if total is not None:
             whole = total if whole is None else whole + total
@@ -147,11 +148,11 @@ def _group(
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
     known = load.at_mid_motion(n)
-    found = search(load, spans, n, sized, known, load.spread, cuts=bool(told))
+    found = search(load, spans, n, sized, known, load.spread)
     if not told:
         return found.most, found.x, found.most
-    pieces = stretches_of(load, spans, found.cuts)
-    bounded = np.asarray(np.isfinite(found.most).reshape(-1, 2, n).all(axis=1))
+    pieces = found.stretches
+    bounded = np.asarray(np.isfinite(found.most).reshape(2, -1, n).all(axis=0))
     return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told, analytic)
 
 

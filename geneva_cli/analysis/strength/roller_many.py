@@ -27,13 +27,13 @@ from geneva_cli.analysis.loads.loaded_many import (
     Machine,
     machine,
 )
-from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
+from geneva_cli.analysis.loads.stretches_many import spans_of, to_mid_motion
 from geneva_cli.analysis.strength.roller import Passage, halves, passing, turns_back
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.quadrature_many import integrals_many
-from geneva_cli.numerics.signed_many import search
+from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
@@ -67,7 +67,7 @@ def _group(every: Machine, n: int, half: float) -> Array:
     load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
     spans = spans_of(engagement, n)
     found = search(load, spans, n, True, load.at_mid_motion(n))
-    whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
+    whole = to_mid_motion(engagement, found.stretches, n)
     design, _, (a, b), positive = whole
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
