@@ -3,7 +3,7 @@ PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 pytho
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
 
-.PHONY: demo test lint stress jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint stress jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -13,9 +13,13 @@ demo: .venv/demo
 	$(BIN)/geneva profile designs/modified-sine-matched.toml --part assembly -o build/machine.svg
 	@echo "written to build/: modified-sine-slot.csv, wheel.dxf, machine.svg"
 
+# Types are checked beside the tests: neither waits for the other.
+test: .venv/dev
+	$(MAKE) --jobs=2 lint pytest
+
 # Tests start the program some hundred times: even where Python is told to keep nothing compiled,
 # it is compiled once.
-test: .venv/dev lint
+pytest: .venv/dev
 	PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
 
 lint: .venv/dev
@@ -28,13 +32,14 @@ bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
-# Numerical stress against mpmath, then random machines turned; half an hour.
+# Numerical stress against mpmath, random machines turned, then sweeps of every key; an hour.
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev

@@ -300,13 +300,10 @@ class Design:
         """
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
-            return None
-        from geneva_cli.parts.wheel_inertia import wheel_body
+            return None  # before what draws parts is imported
+        from geneva_cli.parts.wheel_inertia import known_wheel_body
 
-        try:
-            return wheel_body(self.mechanism)
-        except GenevaError:
-            return None
+        return known_wheel_body(self.mechanism)
 
     @answer
     def life(self) -> Life:
@@ -465,7 +462,7 @@ class Design:
         return self.proof.found
 
     def drawn(self, tolerance_mm: float, part: str = "wheel") -> Proof:
-        """The parts as they are written for a tolerance in mm above 0, and their full turn.
+        """The parts as they are written for a tolerance in mm, and their full turn.
 
         Raises GenevaError for another tolerance, or where there are no flat parts, unless ``part``
         is one that is drawn without.
@@ -473,13 +470,12 @@ class Design:
         >>> Design(External(6)).drawn(0.01).found.relief
         'arc'
         """
-        from geneva_cli.parts.catalogue import is_alone, machine_of
+        from geneva_cli.parts.catalogue import is_alone, machine_of, require_tolerance
         from geneva_cli.parts.outlines import outlines
         from geneva_cli.parts.proof import Proof
 
-        if not tolerance_mm > 0.0:
-            raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
         mechanism = self._located(lambda: machine_of(self.mechanism, part))
+        require_tolerance(mechanism, tolerance_mm)
         if not mechanism.spec.is_flat and is_alone(mechanism, part):
             return Proof(mechanism)
         made = self._located(lambda: outlines(mechanism, tolerance_mm))

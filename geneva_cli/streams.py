@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import os
 import sys
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TextIO
 
 from geneva_cli.errors import cut
 
@@ -19,26 +19,37 @@ LINE_MAX = 4000  # characters of a line on standard error
 
 
 def open_streams() -> None:
-    """Put streams as described here in the place of the interpreter's.
-
-    Those that were closed before the start, as a daemon's may be, get stand-ins first. Opened in
-    this order they take the descriptors 0, 1 and 2, which no file then gets.
-    """
-    sys.stdin = sys.stdin or open(os.devnull)
-    sys.stdout = sys.stdout or open(os.devnull, "w")
-    sys.stderr = sys.stderr or open(os.devnull, "w")
+    """Replace the interpreter's standard streams by those of this file."""
+    _fill_closed()
+    sys.stdin = sys.stdin or open(0, closefd=False)
     sys.stderr = _Messages(
         io.BufferedWriter(_Letting(2, "w", closefd=False)),
-        encoding=sys.stderr.encoding,
+        encoding=_encoding(sys.stderr),
         errors="backslashreplace",
         line_buffering=True,
     )
     sys.stdout = io.TextIOWrapper(
         io.BufferedWriter(_Ending(1, "w", closefd=False)),
-        encoding=sys.stdout.encoding,
+        encoding=_encoding(sys.stdout),
         errors="backslashreplace",  # a title in a script that the terminal has not
-        line_buffering=sys.stdout.isatty(),
+        line_buffering=os.isatty(1),
     )
+
+
+def _fill_closed() -> None:
+    """Open the null device for each stream that is closed, as a daemon's may be, and keep it open.
+
+    An open takes the lowest free descriptor. An output file that took 2 would get the messages.
+    """
+    for number in (0, 1, 2):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+
+
+def _encoding(stream: TextIO | None) -> str:
+    return stream.encoding if stream else "utf-8"
 
 
 def leave(status: int) -> NoReturn:

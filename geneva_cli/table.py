@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
 PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 HTML_ROWS = 60  # that a notebook shows
+NO_BOUND = "no bound"  # an infinity, where a person reads it
 
 
 class Table(NamedTuple):
@@ -79,7 +81,17 @@ class Table(NamedTuple):
 def _shown(value: object) -> str:
     if value is None:
         return ""
-    return f"{value:.7g}" if isinstance(value, float) else str(value)
+    return in_digits(value, 7) if isinstance(value, float) else str(value)
+
+
+def in_digits(value: float, digits: int) -> str:
+    """A number in so many significant digits, without a sign at zero; an infinity in words.
+
+    >>> in_digits(-0.0, 6), in_digits(float("inf"), 6)
+    ('0', 'no bound')
+    """
+    endless = value in (math.inf, -math.inf)
+    return NO_BOUND if endless else f"{value + 0.0:.{digits}g}"
 
 
 def _whole(column: Any) -> Any:
@@ -97,15 +109,19 @@ class _Pieces:
 
     def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
         self.length, self.make = length, make
-        self.start = -1
-        self.columns: Sequence[Any] = ()
+        # its start and its columns, replaced together: another thread may ask for another piece
+        self.last: tuple[int, Sequence[Any]] = (-1, ())
 
     def at(self, start: int) -> Sequence[Any]:
-        """The columns of the piece that begins there."""
-        if start != self.start:
-            self.columns = self.make(start, min(start + PIECE, self.length))
-            self.start = start
-        return self.columns
+        """The columns of the piece that begins there; arrays are read-only, since they are kept."""
+        known, columns = self.last
+        if start != known:
+            columns = self.make(start, min(start + PIECE, self.length))
+            for column in columns:
+                if not isinstance(column, (list, tuple)):
+                    column.flags.writeable = False
+            self.last = start, columns
+        return columns
 
 
 class Column:

@@ -2,6 +2,8 @@
 
 import inspect
 import math
+import subprocess
+import sys
 from functools import cached_property
 
 import numpy as np
@@ -235,14 +237,16 @@ def test_another_object_is_refused_where_it_is_given(make):
         (lambda d: d.drawing("whel"), '--part whel: .*did you mean "wheel"'),
         (lambda d: d.drawing("gears"), "--part gears: .*crank.* has none"),
         (lambda d: d.drawing("wheel", curves="spine"), "--curves spine: it must be arcs or spline"),
-        (lambda d: d.drawing("wheel", math.nan), "--tolerance nan: must be above 0 mm"),
+        (lambda d: d.drawing("wheel", math.nan), "--tolerance nan: must be above 0, at most 5 mm"),
         (lambda d: d.part_table("whel"), '--part whel: .*did you mean "wheel"'),
         (lambda d: d.part_table("crank"), "--part crank is drawn"),
-        (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0 mm"),
+        (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0, at most 5 mm"),
+        (lambda d: d.drawing("wheel", math.inf), "inf: must be .* at most 5 mm, the roller's radi"),
+        (lambda d: d.slot(5.1), "--tolerance 5.1: must be above 0, at most 5 mm"),
         (lambda d: d.slot(samples=1), "--samples 1: must be at least 2"),
         (lambda d: d.motion(1), "--samples 1: must be at least 2"),
     ],
-    ids=range(9),
+    ids=range(11),
 )
 def test_a_wrong_question_is_refused(ask, said):
     with pytest.raises(GenevaError, match=said):
@@ -371,6 +375,28 @@ def test_the_machine_is_built_once(monkeypatch):
     one = Design(External(6), load=Load(torque_Nm=5))
     _ = one.timings, one.peaks, one.loads, one.motion(), one.warnings, one.slot(), one.parts
     assert calls == [one.spec]
+
+
+# From several threads
+
+THREADS = """
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from geneva_cli import load
+
+with ThreadPoolExecutor(len(sys.argv) - 1) as pool:
+    for peak in pool.map(lambda path: load(path).peaks.velocity.max, sys.argv[1:]):
+        print(repr(peak))
+"""
+
+
+def test_the_first_use_may_be_from_threads():
+    """One thread imported NumPy, and the others asked for what its module had not yet."""
+    files = sorted(map(str, repo.DESIGNS.glob("*.toml")))[:6]
+    command = [sys.executable, "-c", THREADS, *files]
+    found = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert found.returncode == 0, found.stderr
+    assert [*map(float, found.stdout.split())] == [load(f).peaks.velocity.max for f in files]
 
 
 # What a program may use

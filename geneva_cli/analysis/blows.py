@@ -140,19 +140,14 @@ def reversal_blows(mechanism: Mechanism) -> Blows:
 
 def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     """Of one engagement: shown input angles and jumps, (2, m)."""
-    motion, clearance = engagement.motion, clearance_mm(mechanism)
-    L, drag, known = np.broadcast_arrays(
-        np.atleast_2d(mechanism.center_distance_mm),
-        drag_over(mechanism),
-        motion(motion.entry_deg, 1).c[1] + motion.entry_deg,
-    )[:3]
+    numbers = mechanism.center_distance_mm, drag_over(mechanism), clearance_mm(mechanism)
+    L, drag, clearance = (np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers)
     at = changes(engagement, drag)
-    out = np.full((2, len(known)), np.nan)
+    out = np.full((2, mechanism.designs), np.nan)
     if not len(at.x):
         return out
     lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
-    clear = np.broadcast_to(clearance, L.shape)[at.which, 0]
-    share = clear / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
+    share = clearance[at.which, 0] / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
     play = np.where(lever > NO_LEVER, 2.0 * np.arcsin(np.minimum(share, 1.0)), 0.0)
     found = impacts_of(engagement, at, play, drag)
     # the hardest of each design, of equal ones the first

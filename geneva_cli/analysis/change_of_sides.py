@@ -17,7 +17,7 @@ import numpy as np
 from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.peaks_many import landmarks
 from geneva_cli.machine.engagement import Engagement, Motion
-from geneva_cli.machine.many import taken
+from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import choose, larger
@@ -165,7 +165,7 @@ def lasting_drag_Nm(mechanism: Mechanism) -> float:
 def braking(engagement: Engagement) -> float:
     """The greatest -psi2 of a motion; of m designs (m, 1)."""
     motion = engagement.motion
-    m = np.size(motion(motion.entry_deg, 1).c[1] + motion.entry_deg)
+    m = designs_in(motion)
     which, _, value = landmarks(motion, "acceleration", m)
     most = np.full(m, -np.inf)
     np.maximum.at(most, which, -value)

@@ -125,6 +125,7 @@ class Corner(NamedTuple):
         far = -out / speed - span * SHARES[::-1]
         with np.errstate(all="ignore"):
             value = self.room(far)[0]
+            far = np.broadcast_to(far, value.shape)
             meets = value <= -ROUNDING
         there, first = np.flatnonzero(meets.any(axis=1)), np.argmax(meets, axis=1)
         there = there[first[there] > 0]

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.engagement import Motion
-from geneva_cli.machine.many import taken
+from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import parameter
@@ -150,7 +150,7 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
 def _sought(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
     # mid-motion, where wheels have their narrowest peaks, is among them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
-    m = np.size(motion(motion.entry_deg, 1).c[1] + motion.entry_deg)
+    m = designs_in(motion)
     places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
     parts = [_part(motion, places, slice(i, i + GROUP), quantities) for i in range(0, m, GROUP)]
     return {

@@ -49,6 +49,20 @@ class Subject(NamedTuple):
     absent: Sequence[str] = ()  # libraries with methods of their own that are not installed
 
 
+def missing(*distributions: str) -> tuple[str, ...]:
+    """Those libraries, by the names that pip has, that are not installed."""
+    from importlib import metadata
+
+    def is_here(name: str) -> bool:
+        try:
+            metadata.version(name)
+        except metadata.PackageNotFoundError:
+            return False
+        return True
+
+    return tuple(name for name in distributions if not is_here(name))
+
+
 class Row(NamedTuple):
     """A line of the table."""
 

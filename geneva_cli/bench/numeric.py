@@ -79,6 +79,14 @@ def colleague(d: Proportions, degree: int) -> float:
     return max(size_at(d, float(x)) for x in places)
 
 
+def by_chebpy(d: Proportions) -> float:
+    """Chebpy: the acceleration as a Chebyshev series, and the roots of its derivative."""
+    from chebpy import chebfun
+
+    series = chebfun(lambda x: acceleration(np, d, x), [0.0, d.half])
+    return max(size_at(d, float(x)) for x in (*series.diff().roots(), d.half))
+
+
 def closed(d: Proportions) -> tuple[float, float]:
     """A = 0 outside, as the textbook has it: cos a* = sqrt(q² + 2) - q, q = (1 + l²)/(4 l).
 

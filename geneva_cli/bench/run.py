@@ -42,7 +42,7 @@ def names(asked: str) -> tuple[str, ...]:
     if asked not in SUBJECTS:
         known = ", ".join((*SUBJECTS, "all"))
         raise GenevaError(
-            f"{cut(asked)}: no such subject{nearest(asked, SUBJECTS)}; one of {known}"
+            f'SUBJECT "{cut(asked)}": unknown{nearest(asked, SUBJECTS)}; it must be one of {known}'
         )
     return (asked,)
 

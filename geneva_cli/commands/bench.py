@@ -45,16 +45,15 @@ def run(
         if not os.path.isdir(plots):
             raise GenevaError(f"--plots {cut(plots, 300)}: no such folder")
     people = (format or format_of(output)) in ("table", "md")
-    rows = []
+    rows, absent = [], {}
     for name in names(subject):
         about, found = measure(name, quick)
         rows += found
-        if about.absent:
-            print(
-                f"{name}: not measured, for want of {', '.join(about.absent)}; "
-                "pip install 'geneva-cli[bench]'",
-                file=sys.stderr,
-            )
+        absent[name] = ", ".join(about.absent)
         if plots:
             write(os.path.join(plots, f"{name}.svg"), [svg(about, found)])
     show(bench_table(rows, people), output, format)
+    for name, libraries in absent.items():
+        if libraries:
+            said = f"{name}: {libraries} not measured, as not installed"
+            print(f"{said}; pip install 'geneva-cli[bench]'", file=sys.stderr)

@@ -92,9 +92,9 @@ def explained() -> Iterable[str]:
 
 def fields() -> Iterable[str]:
     """The quantities of a design."""
-    from geneva_cli.study.names import usual_fields
+    from geneva_cli.study.quantity_names import section_of
 
-    return usual_fields()
+    return section_of()
 
 
 def quantities() -> Iterable[str]:

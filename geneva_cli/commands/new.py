@@ -36,11 +36,16 @@ def run(
     list_: Annotated[
         bool, typer.Option("--list", help="All kinds and designs, and what they are.")
     ] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
     output: Output = "-",
 ) -> None:
-    """Write a commented spec to start from."""
-    from geneva_cli.output import show, show_text
-    from geneva_cli.specfile.template import KINDS, example, template
+    """Write a commented spec to start from; a file that exists stays, unless --force is given.
+
+    Beside geneva.schema.json, which `geneva schema -o` writes, its first line names that: with it
+    editors complete and check the keys.
+    """
+    from geneva_cli.output import show
+    from geneva_cli.specfile.template import KINDS, example
     from geneva_cli.table import rows_table
 
     if bool(kind) + bool(from_design) + list_ != 1:
@@ -52,14 +57,26 @@ def run(
         designs = [(name, "new --from-design", title) for name, title in titles().items()]
         show(rows_table(("name", "command", "about"), kinds + designs), output)
     elif kind:
-        show_text(template(kind), output)
+        _new(kind, output, force)
     else:
-        _copy(from_design, output)
+        _copy(from_design, output, force)
 
 
-def _copy(name: str, output: str) -> None:
-    """A design's spec, and beside it the files that it names."""
-    from geneva_cli.output import show_text
+def _new(kind: str, output: str, force: bool) -> None:
+    """Write a kind's spec, which names the JSON Schema only where that stands beside it."""
+    from geneva_cli.output import refuse_existing, show_text
+    from geneva_cli.specfile.json_schema import FILE
+    from geneva_cli.specfile.template import template
+
+    if not force:
+        refuse_existing(output)
+    is_beside = output != "-" and os.path.isfile(os.path.join(os.path.dirname(output), FILE))
+    show_text(template(kind, is_beside), output)
+
+
+def _copy(name: str, output: str, force: bool) -> None:
+    """Write a design's spec, and beside it the files that it names."""
+    from geneva_cli.output import refuse_existing, show_text
     from geneva_cli.specfile.designs import design
 
     text, files = design(name)
@@ -67,14 +84,20 @@ def _copy(name: str, output: str) -> None:
         raise GenevaError(
             f"--from-design {name}: it needs {', '.join(files)} beside it; give -o FILE"
         )
-    for file, content in files.items():
-        place = os.path.join(os.path.dirname(output), file)
-        if os.path.exists(place) and not _holds(place, content):
-            raise GenevaError(f"{place}: another file is there; choose another folder")
+    beside = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
+    if not force:
+        refuse_existing(output)
+        for place, content in beside.items():
+            if not _holds(place, content):
+                refuse_existing(place)
+    for place, content in beside.items():
         show_text(content, place)
     show_text(text, output)
 
 
 def _holds(place: str, content: str) -> bool:
-    with open(place, encoding="utf-8", errors="replace") as file:
-        return file.read() == content
+    try:
+        with open(place, encoding="utf-8", errors="replace") as file:
+            return file.read() == content
+    except FileNotFoundError:
+        return False

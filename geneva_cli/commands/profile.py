@@ -118,7 +118,7 @@ def run(
     from geneva_cli.design import load
 
     curves = curves or usual_curves(output, format)
-    _require(curves, tolerance, units)
+    _require(curves, units)
     if dog_bones and cutter is None:
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
     sheet = is_sheet(part)
@@ -160,15 +160,13 @@ def run(
     warn(design)
 
 
-def _require(curves: str, tolerance: float, units: str) -> None:
+def _require(curves: str, units: str) -> None:
     """Raise GenevaError for what no drawing can be written with."""
     from geneva_cli.curves.pieces import UNITS
     from geneva_cli.design import CURVES
 
     if curves not in CURVES:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-    if not tolerance > 0.0:
-        raise GenevaError(f"--tolerance {tolerance:g}: must be above 0 mm")
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
 

@@ -81,8 +81,8 @@ def run(
     A design that cannot be built is a row that says why. Stopped, a sweep into a file goes on with
     --resume, which begins where there is nothing to go on with. The rows of all shares, one after
     the other, are those of one run: the first alone has the header. With --random and --best a key
-    may vary between LOW:HIGH. Of --best, what --pick and --check ask for is told of the design
-    that is chosen.
+    may vary between LOW:HIGH; the spec's own design is then tried for --best too. Of --best, what
+    --pick and --check ask for is told of the design that is chosen.
     """
     from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.outcome import Outcome
@@ -127,7 +127,7 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
 
     found = asked.sweep
     first = found.shard.number == 1
-    with Growth(found.names, asked.key, first, output, resume, asked.files, TEXTS) as rows:
+    with Growth(found.names, asked.key, first, output, resume, asked.inputs, TEXTS) as rows:
         if rows.found:
             print(rows.found, file=sys.stderr)
         if rows.is_whole:
@@ -143,7 +143,7 @@ def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -
     from geneva_cli.table import rows_table
 
     rows = [row for block in outcome.rows(_shown(asked, 0)) for row in block]
-    show(rows_table(asked.sweep.names, rows), output, format, asked.files)
+    show(rows_table(asked.sweep.names, rows), output, format, asked.inputs)
 
 
 def _refuse_beside_best(output: str, format: str, resume: bool) -> None:
@@ -161,7 +161,7 @@ def _write_best(asked: "Request", spec: str, output: str) -> None:
     from geneva_cli.study.sweep.outcome import Outcome
 
     outcome = Outcome(asked)
-    show_text("\n".join(asked.best(outcome.counted(_shown(asked, 0)))) + "\n", output)
+    show_text("\n".join(asked.best(outcome.counted(_shown(asked, 0)))) + "\n", output, asked.inputs)
     for note in outcome.refused():
         print(f"{spec}: {note}", file=sys.stderr)
 

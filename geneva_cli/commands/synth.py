@@ -94,6 +94,8 @@ def run(
 ) -> None:
     """From wishes to machines that grant them all, the lowest peak acceleration first.
 
+    Where seconds are asked for, or --from gives a speed, peaks are compared in rad/s2.
+
     Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
     0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak, or with
     the least of --sort; with bounds, no wish for a motion and no --sort, the one that keeps them
@@ -121,7 +123,7 @@ def run(
     they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
     the parts of its row. Where one of the first twenty says no without being turned, the best of
     its range that is found to pass is a row too; --buildable shows rows that pass, and for any
-    that fails in its turn the best of its range that is found to.
+    that fails in its turn the best of its range that is found to, under its number.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 
@@ -164,6 +166,11 @@ def _frame(path: str, given: Sequence[str]) -> "Spec":
     return load(path, given).spec
 
 
+def _inputs(wish: "Wish") -> Sequence[str]:
+    """The files that the wish was read from."""
+    return wish.frame.files if wish.frame else ()
+
+
 def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import show
     from geneva_cli.output.formats import format_of
@@ -174,7 +181,7 @@ def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str)
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
     name = format or format_of(output)
     table = synthesis_table(wish, checked, buildable)
-    show(for_people(table) if name in ("table", "md") else table, output, format)
+    show(for_people(table) if name in ("table", "md") else table, output, format, _inputs(wish))
 
 
 def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str) -> None:
@@ -188,7 +195,7 @@ def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str)
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
     found, text = chosen(search(wish), number, buildable)
-    show_text(text, output)
+    show_text(text, output, _inputs(wish))
     path = "<stdout>" if output == "-" else output
     if found.trouble:
         said = f"{path}: warning: its parts cannot be built: {found.trouble}"

@@ -11,7 +11,6 @@ def run(spec: SpecPath, given: Given = None) -> None:
     Where there is none, or no desktop, it says where the page is.
     """
     import os
-    import tempfile
     import webbrowser
 
     from geneva_cli.design import load
@@ -20,9 +19,25 @@ def run(spec: SpecPath, given: Given = None) -> None:
 
     design = load(spec, given or ())
     made = scene(design)
-    place = os.path.join(tempfile.mkdtemp(prefix="geneva-"), "machine.html")
+    place = os.path.join(_folder(), "machine.html")
     animate(made, place)
     warn(design)
     seen = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
     opened = (seen or os.uname().sysname == "Darwin") and webbrowser.open(f"file://{place}")
     print(place if opened else f"{place}\nno browser was opened: open this page in one")
+
+
+def _folder() -> str:
+    """The user's own folder for the page: the next run replaces it, so that none pile up."""
+    import os
+    import stat
+    import tempfile
+    from contextlib import suppress
+
+    folder = os.path.join(tempfile.gettempdir(), f"geneva-{os.getuid()}")
+    with suppress(FileExistsError):
+        os.mkdir(folder, 0o700)
+    status = os.lstat(folder)
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid():
+        return folder
+    return tempfile.mkdtemp(prefix="geneva-")  # somebody else took the name in a shared folder

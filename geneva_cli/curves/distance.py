@@ -15,7 +15,6 @@ import numpy as np
 
 from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -117,7 +116,6 @@ class Polyarc:
         return np.concatenate(blocks) if blocks else np.empty(0)
 
     def _signed(self, points: Array) -> Array:
-        check_time()
         x, y = points.T
         if len(self) < MANY:
             seen = self._upright._seen(x, y)

@@ -19,6 +19,7 @@ from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.spec.rules import TOOL_MM, require_mm
 
 NEAR = 1e-5  # mm: a path that comes nearer to the part by less leaves it whole
 SAMPLES = 4  # of the path, along the offset
@@ -38,7 +39,7 @@ class Closed(GenevaError):
 def paths(drawing: Drawing, kerf: float) -> Drawing:
     """A drawing of which what is solid are paths for a cut of a width in mm, and no solid any more.
 
-    Raises GenevaError for a width that is not above 0, for cubics, and where no path leaves the
+    Raises GenevaError for a width outside of TOOL_MM, for cubics, and where no path leaves the
     part as it is, with a kerf that does.
 
     >>> from geneva_cli.curves.plates import Plate
@@ -48,8 +49,7 @@ def paths(drawing: Drawing, kerf: float) -> Drawing:
     >>> [circle.radius for circle in found.shapes]
     [9.1, 4.9]
     """
-    if not 0.0 < kerf < math.inf:
-        raise GenevaError(f"--kerf {kerf:g}: the width of the cut must be above 0 mm")
+    require_mm("--kerf", kerf, TOOL_MM)
     cut = plates(drawing.solid) if drawing.solid else []
     outside = {hole: False for plate in cut for hole in plate.holes}
     outside |= {plate.outline: True for plate in cut}

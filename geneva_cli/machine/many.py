@@ -85,7 +85,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     given = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
         try:
-            machine = build(changed(spec, given)) if n else None
+            machine = build(changed(spec, given))._replace(design=_numbers(n)) if n else None
         except GenevaError:  # what holds for all of them
             machine = None
     refused = np.full(n, machine is None)
@@ -94,6 +94,11 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     if machine is None or refused.all():
         return Many(None, np.full(n, True))
     return Many(taken(machine, ~refused) if refused.any() else machine, refused)
+
+
+def _numbers(n: int) -> int:
+    """The numbers of n designs, (n, 1): how many there are, whatever varies in them."""
+    return cast("int", np.arange(n)[:, None])
 
 
 def may_vary(spec: Spec, key: str) -> bool:
@@ -105,7 +110,8 @@ def may_vary(spec: Spec, key: str) -> bool:
     if table not in TABLES:
         return False
     numeric = bool({int, float} & set(_field(spec, key).types))
-    return numeric and name not in ONE_BY_ONE and spec.drive.may_vary(table, name)
+    of_law = spec.motion is None or spec.motion.law.may_vary(table, name)
+    return numeric and name not in ONE_BY_ONE and of_law and spec.drive.may_vary(table, name)
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:

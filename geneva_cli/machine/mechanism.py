@@ -12,7 +12,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
-from geneva_cli.numerics.arrays import choose, larger, library
+from geneva_cli.numerics.arrays import choose, designs_of, larger, library
 
 ROUNDING_DEG = 1e-9  # input angles nearer to each other are one
 
@@ -30,11 +30,17 @@ class Mechanism(NamedTuple):
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float  # L, as given or as solved for
+    design: int = 0  # the design's number in its batch: (m, 1) of a batch of m designs
+
+    @property
+    def designs(self) -> int:
+        """How many designs it is a batch of; 1 of a single design."""
+        return designs_of(self.design)
 
     @property
     def plan(self) -> Plan:
         """What its drive made of the spec."""
-        return Plan(*self[1:])
+        return Plan(*self[1:-1])
 
     @property
     def law(self) -> Law | None:

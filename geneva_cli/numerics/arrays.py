@@ -31,6 +31,7 @@ Truth: TypeAlias = "bool | Mask"
 N = TypeVar("N", float, "Array", "Number")
 Either = TypeVar("Either", "Array", "Whole")
 Real = TypeVar("Real", float, "Array", "Number", "Decimal")
+T = TypeVar("T")
 Record = TypeVar("Record", bound=tuple[object, ...])
 
 _PLAIN = (float, int)
@@ -215,6 +216,14 @@ def _are_alike(one: Number, other: Number) -> bool:
     return both and one.shape == other.shape and one.dtype == other.dtype
 
 
+def designs_of(design: int) -> int:
+    """How many designs a batch has, by the numbers of its designs: (m, 1), or one number.
+
+    A batch carries these numbers with it: what happens to vary does not tell how long it is.
+    """
+    return 1 if isinstance(design, int) else len(design)
+
+
 def parameter(x: Number) -> float:
     """A machine's number that comes of a jet: to the type checker a float, as all of them are."""
     return cast(float, x)
@@ -230,6 +239,26 @@ def array(x: Number) -> Array:
     import numpy
 
     return numpy.asarray(x)
+
+
+def read_only(x: T) -> T:
+    """Return a value of a cache: of arrays, in records too, views that cannot be written through.
+
+    >>> import numpy as np
+    >>> once, _ = read_only((np.zeros(2), "zeros"))
+    >>> once += 1.0
+    Traceback (most recent call last):
+    ValueError: output array is read-only
+    """
+    if isinstance(x, tuple):
+        return cast("T", record_of(x, [read_only(member) for member in x]))
+    import numpy
+
+    if not isinstance(x, numpy.ndarray):
+        return x
+    view = x.view()
+    view.flags.writeable = False
+    return cast("T", view)
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, TIE
 from geneva_cli.numerics.roots_many import nearer, newton_many
 
@@ -218,7 +217,6 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
     """Pairs with a turn, halved until a cubic predicts; low and high grow as it comes to light."""
     settled = []
     for _ in range(DEEPEST):
-        check_time()
         which, left, right = open_
         x = 0.5 * (left[0] + right[0])
         value, slope = (v[:, 0] for v in f(x[:, None], which, 1))

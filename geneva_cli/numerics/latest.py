@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from geneva_cli.numerics.arrays import read_only
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ class Latest:
 
     A call is served from the cache where it has the same array object with the same values, and no
     higher order: a jet of lower order is the beginning of the kept one. The cache is not pickled.
+    Arrays that the cache holds are read-only: what a caller writes would change the next answer.
     """
 
     def __init__(self) -> None:
@@ -40,5 +42,9 @@ class Latest:
         if kept and kept[0] is x and kept[2] >= order and bool((kept[1] == x).all()):
             return tuple(Jet(jet.c[: order + 1]) for jet in kept[3])
         found = of(x, order)
-        self._kept = (x, x.copy(), order, found) if x.size <= MOST else None
+        if x.size > MOST:
+            self._kept = None
+            return found
+        found = tuple(Jet([read_only(c) for c in jet.c]) for jet in found)
+        self._kept = x, x.copy(), order, found
         return found

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import rows_of
-from geneva_cli.numerics.budget import check_time
+from geneva_cli.numerics.arrays import read_only, rows_of
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -47,7 +46,7 @@ def rule(nodes: int) -> tuple[Array, Array]:
             before, here = here, ((2 * k - 1) * x * here - (k - 1) * before) / k
         slope = nodes * (before - x * here) / ((1.0 - x) * (1.0 + x))
         x = x - here / slope
-    return x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)
+    return read_only((x, 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope)))
 
 
 def integrals(functions: Integrands, spans: Sequence[tuple[float, float]]) -> list[float]:
@@ -103,7 +102,6 @@ def _settled(functions: Integrands, spans: Sequence[tuple[float, float]]) -> tup
     before = np.full(whole.shape, np.inf)
     sure = np.ones(len(whole), dtype=bool)
     for _ in range(DEEPEST):
-        check_time()
         middle = 0.5 * (low + high)
         ends = np.concatenate((low, middle)), np.concatenate((middle, high))
         halves = parts(*ends, np.concatenate((span, span)))[0]

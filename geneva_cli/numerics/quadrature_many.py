@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.numerics.budget import check_time
+from geneva_cli.numerics.arrays import read_only
 from geneva_cli.numerics.quadrature import DEEPEST, rule
 
 if TYPE_CHECKING:
@@ -66,7 +66,6 @@ def integrals_many(
     low, high = np.zeros(len(a)), np.ones(len(a))
     counts = [(nodes, int(which.sum())) for nodes, which in groups]
     for _ in range(DEEPEST):
-        check_time()
         found, start = [], 0
         for nodes, count in counts:
             for i in range(start, start + count, BLOCK):
@@ -134,4 +133,4 @@ def _rule(nodes: int) -> tuple[Array, Array]:
     series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)
     midway = range(nodes // 2 - TERMS, nodes // 2)
     kept = [series[:, i] for i in (*midway, *range(nodes - TERMS, nodes))]
-    return node, weight[:, None] * np.column_stack([np.ones(nodes), *kept])
+    return read_only((node, weight[:, None] * np.column_stack([np.ones(nodes), *kept])))

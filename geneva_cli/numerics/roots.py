@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from geneva_cli.numerics.arrays import all_true, choose
-from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -178,7 +177,6 @@ def extrema(f: Curve, a: float, b: float) -> list[float]:
     open_ = list(zip(samples, samples[1:], strict=False))
     settled: list[tuple[_Sample, _Sample]] = []
     for _ in range(DEEPEST):
-        check_time()
         halves = []
         for left, right in open_:
             x = 0.5 * (left[0] + right[0])

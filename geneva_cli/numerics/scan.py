@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.budget import check_time
+from geneva_cli.numerics.arrays import read_only
 from geneva_cli.numerics.cubics import touches
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED, SCAN
 
@@ -84,7 +84,7 @@ def _unit() -> Array:
     unit = np.sort(np.concatenate((np.arange(SCAN + 1) / SCAN, near, 1.0 - near)))
     # each once; np.unique would import numpy.ma, a sixth of a short run
     once: Array = unit[np.diff(unit, prepend=-1.0) > 0.0]
-    return once
+    return read_only(once)
 
 
 def scan(
@@ -116,7 +116,6 @@ def _refined(functions: Functions, x: Array, span: Whole, signed: slice) -> Scan
     low, high = _range(value)
     left_over = MOST + 16 * len(x)
     for _ in range(DEEPEST):
-        check_time()
         x = 0.5 * (left[0] + right[0])
         open_: Mask = (x > left[0]) & (x < right[0])
         if not open_.any():
@@ -142,7 +141,7 @@ def _refined(functions: Functions, x: Array, span: Whole, signed: slice) -> Scan
         )
     whole = [np.concatenate(parts, axis=-1) for parts in zip(*every, strict=True)]
     order = np.lexsort((whole[0], whole[1]))
-    return Scan(*(part[..., order] for part in whole))
+    return read_only(Scan(*(part[..., order] for part in whole)))
 
 
 _Part: TypeAlias = "tuple[Array, Whole, Array, Array]"

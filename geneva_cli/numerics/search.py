@@ -15,7 +15,6 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import Greatest
 from geneva_cli.numerics.pieces import (
@@ -127,7 +126,6 @@ class _Search:
             np.add.at(self.cutter.width, rows.design, rows.u[1] - rows.u[0])
         blocks = self._first_blocks(first)
         for _ in range(DEEPEST):
-            check_time()
             every = [self.cutter.sampled(*block) for block in blocks]
             for found in every:
                 self.greatest.add_samples(found.pieces, found.x)

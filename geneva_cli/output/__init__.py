@@ -128,6 +128,11 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
         _put(plot_svg.chunks(figure), output, inputs)
         return
+    if name == "pdf":
+        from geneva_cli.output import plot_pdf
+
+        _put(plot_pdf.chunks(figure), output, inputs)
+        return
     if name == "table":
         from geneva_cli.output import plot_text
 
@@ -137,9 +142,9 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
     if output == "-":
         raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
-    from geneva_cli.output.plot_matplotlib import written
+    from geneva_cli.output.plot_png import written
 
-    write_bytes(output, [written(figure, name)], inputs)
+    write_bytes(output, [written(figure)], inputs)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -187,9 +192,17 @@ def _terminal(output: str) -> tuple[int, bool]:
     return shutil.get_terminal_size().columns, "utf" in (sys.stdout.encoding or "").lower()
 
 
-def show_text(text: str, output: str = "-") -> None:
-    """Print a text as it is, or write it to a file."""
-    _put([text], output, ())
+def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
+    """Print a text as it is, or write it to the file ``output``; ``inputs`` are not overwritten."""
+    _put([text], output, inputs)
+
+
+def refuse_existing(output: str) -> None:
+    """Raise GenevaError where ``output`` is a file that exists: what a person wrote stays."""
+    if os.path.isfile(output):
+        raise GenevaError(
+            f"{cut(output, 300)}: this file exists; give another name, or --force to replace it"
+        )
 
 
 def show_markdown(text: str) -> None:

@@ -15,7 +15,7 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
     """The header, then blocks of rows."""
     if table.record:
         table = flat(table)
-    yield ",".join(table.names) + "\n"
+    yield one_line(table.names)
     if table.columns and all(is_floats(c) for c in table.columns):
         yield from _numbers(table)
         return

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
 
@@ -34,13 +35,18 @@ def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
 
 def write_bytes(path: str, chunks: Iterable[bytes], inputs: Iterable[str] = ()) -> None:
     """The same for bytes."""
+    with replacing(path, inputs) as file:
+        file.writelines(chunks)
+
+
+@contextmanager
+def replacing(path: str, inputs: Iterable[str] = ()) -> Iterator[BinaryIO]:
+    """Open a file that takes the place of ``path`` where the block ends without an error."""
     with write_errors(path):
         real, old = place(path, inputs)
-        if old is None or stat.S_ISREG(old.st_mode):
-            _replace(real, chunks, old)
-            return
-        with open(real, "wb") as device:
-            device.writelines(chunks)
+        is_file = old is None or stat.S_ISREG(old.st_mode)
+        with _temporary_for(real, old) if is_file else open(real, "wb") as file:
+            yield file
 
 
 @contextmanager
@@ -68,7 +74,7 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
     old = _status(real)
     if old is None:
         return real, None
-    _refuse_input(path, old, inputs)
+    refuse_input(path, old, inputs)
     if stat.S_ISDIR(old.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
     if not old.st_mode & stat.S_IWUSR or not os.access(real, os.W_OK):
@@ -86,7 +92,8 @@ def _status(path: str) -> os.stat_result | None:
         return None
 
 
-def _replace(path: str, chunks: Iterable[bytes], old: os.stat_result | None) -> None:
+@contextmanager
+def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
     folder, name = os.path.split(path)
     name = name.encode(errors="surrogateescape")[:NAME_MAX].decode(errors="replace")
     _remove_stale(folder, name)
@@ -98,8 +105,8 @@ def _replace(path: str, chunks: Iterable[bytes], old: os.stat_result | None) -> 
             with open(temporary, "xb") as file:
                 _lock(file.fileno())
                 if old is not None:
-                    take_after(file.fileno(), old)
-                file.writelines(chunks)
+                    _take_after(file.fileno(), old)
+                yield file
                 file.flush()
                 os.fsync(file.fileno())
                 os.replace(temporary, path)
@@ -128,7 +135,7 @@ def _stopping_cleanly() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def take_after(descriptor: int, old: os.stat_result) -> None:
+def _take_after(descriptor: int, old: os.stat_result) -> None:
     """Owner and permissions of the old file; who may not give a file away keeps it."""
     new = os.fstat(descriptor)
     if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
@@ -185,7 +192,7 @@ def _lock(descriptor: int) -> None:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-def _refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
+def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
     """Refuse to replace a regular file that the run has read; reading a terminal or a device is no
     reason not to write to it.
     """
@@ -194,7 +201,7 @@ def _refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None
     for given in inputs:
         try:
             read = os.fstat(0) if given == STDIN else os.stat(given)
-        except OSError:
+        except (OSError, ValueError):  # ValueError: a word with a NUL, which is no file
             continue
         if os.path.samestat(read, old):
             name = f"{path} (standard input)" if given == STDIN else given

@@ -21,11 +21,11 @@ def chunks(table: Table, terminal: bool) -> Iterator[str]:
         yield "| quantity | value |\n| --- | ---: |\n"
         table = flat(table)
         for name, value in zip(table.names, next(table.rows()), strict=True):
-            yield f"| {name} | {_escaped(value)} |\n"
+            yield f"| {_escaped(name)} | {_escaped(value)} |\n"
         return
     if not table.names:  # nothing is left of it but what it says
         return
-    yield "| " + " | ".join(table.names) + " |\n"
+    yield "| " + " | ".join(map(_escaped, table.names)) + " |\n"
     yield "| " + " | ".join(["---:"] * len(table.names)) + " |\n"
     for row in table.rows():
         yield "| " + " | ".join(_escaped(v) for v in row) + " |\n"

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Collection
+import os
+from collections.abc import Collection, Iterable
 from importlib.util import find_spec
+from tempfile import TemporaryFile
+from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError
 
@@ -19,43 +22,48 @@ def refuse_without() -> None:
         )
 
 
-def convert(source: str, target: str, texts: Collection[str] = ()) -> None:
-    """Write the rows of a csv file as parquet, block by block: numbers, truth values or texts.
+def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = ()) -> None:
+    """Write the lines of a csv file as parquet, block by block: numbers, truth values or texts.
 
     Columns named in ``texts`` are texts even where all their rows are empty, so that files of
-    several shares have one schema.
+    several shards have one schema.
     """
     import pyarrow as pa
     from pyarrow import csv as arrow
     from pyarrow import parquet
 
     types = {"number": pa.float64(), "truth": pa.bool_(), "text": pa.string()}
-    options = arrow.ConvertOptions(
-        column_types={
-            name: types["text" if name in texts else kind] for name, kind in _kinds(source).items()
-        },
-        strings_can_be_null=True,
-        quoted_strings_can_be_null=False,
-    )
-    read = arrow.ReadOptions(block_size=BLOCK)
-    with (
-        arrow.open_csv(source, read_options=read, convert_options=options) as rows,
-        parquet.ParquetWriter(target, rows.schema) as out,
-    ):
-        for batch in rows:
-            out.write_batch(batch)
+    # The lines are read twice, so they go to a file without a name, where the result has room too.
+    with TemporaryFile(dir=os.path.dirname(target.name)) as source:
+        source.writelines(lines)
+        kinds = _kinds(source)
+        options = arrow.ConvertOptions(
+            column_types={
+                name: types["text" if name in texts else kind] for name, kind in kinds.items()
+            },
+            strings_can_be_null=True,
+            quoted_strings_can_be_null=False,
+        )
+        source.seek(0)
+        read = arrow.ReadOptions(block_size=BLOCK)
+        with (
+            arrow.open_csv(source, read_options=read, convert_options=options) as rows,
+            parquet.ParquetWriter(target, rows.schema) as out,
+        ):
+            for batch in rows:
+                out.write_batch(batch)
 
 
-def _kinds(source: str) -> dict[str, str]:
+def _kinds(source: BinaryIO) -> dict[str, str]:
     """What every column holds, of all its rows: one word among numbers makes them texts."""
-    with open(source, encoding="utf-8", newline="") as file:
-        lines = csv.reader(file)
-        names = next(lines)
-        kinds: list[set[str]] = [set() for _ in names]
-        for fields in lines:
-            for kind, text in zip(kinds, fields, strict=True):
-                if text:
-                    kind.add(_kind(text))
+    source.seek(0)
+    lines = csv.reader(line.decode() for line in source)
+    names = next(lines)
+    kinds: list[set[str]] = [set() for _ in names]
+    for fields in lines:
+        for kind, text in zip(kinds, fields, strict=True):
+            if text:
+                kind.add(_kind(text))
     return {name: _one(kind) for name, kind in zip(names, kinds, strict=True)}
 
 

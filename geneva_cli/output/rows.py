@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Collection, Iterable, Sequence
+from functools import partial
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
@@ -65,14 +66,12 @@ class Growth(Closing):
         """Nothing more comes: the file takes its name."""
         if not self.file:
             return
-        if self.parquet:
-            from geneva_cli.output.parquet import convert
-
-            made = f"{self.file.partial}.parquet"
-            convert(self.file.partial, made, self.texts)
-            self.file.finish(made)
+        if not self.parquet:
+            self.file.finish()
             return
-        self.file.finish()
+        from geneva_cli.output.parquet import convert
+
+        self.file.finish(partial(convert, texts=self.texts))
 
     def close(self) -> None:
         """A file that is not finished can be gone on from."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table, flat
+from geneva_cli.table import Table, flat, in_digits
 
 WIDTH = 90
 HELD = 10_000  # rows that a terminal gets with frames: they are laid out as a whole
@@ -35,7 +35,7 @@ def cell(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value + 0.0:.{DIGITS}g}"  # + 0.0 turns -0.0 into 0
+        return in_digits(value, DIGITS)
     return clean(str(value))
 
 
@@ -49,7 +49,7 @@ def paragraphs(text: str) -> list[str]:
 
 def _headings(names: tuple[str, ...]) -> list[list[str]]:
     """Column names broken at underscores, so that sixteen columns stay readable."""
-    parts = [name.split("_") for name in names]
+    parts = [clean(name).split("_") for name in names]
     height = max(len(p) for p in parts)
     return [[""] * (height - len(p)) + p for p in parts]
 
@@ -150,7 +150,7 @@ def _rich(table: Table) -> Iterator[str]:
     rows = list(table.rows())
     for i, head in enumerate(_headings(table.names)):
         is_text = bool(rows) and isinstance(rows[0][i], str)
-        out.add_column("\n".join(head), justify="left" if is_text else "right", no_wrap=True)
+        out.add_column(Text("\n".join(head)), justify="left" if is_text else "right", no_wrap=True)
     for row in rows:
         out.add_row(*[Text(cell(v)) for v in row])
     console = Console(file=io.StringIO(), force_terminal=True)

@@ -85,21 +85,24 @@ def built(
     tolerance: float = TOLERANCE,
     curves: str = "arcs",
     pitch: bool = True,
+    fitted: bool = True,
 ) -> Built:
     """All parts of a flat machine; ``contour`` is the wheel's, if it is drawn finer or coarser.
 
-    Without ``pitch`` noncircular gears are left out: their curves take long to fit.
+    Without ``pitch`` noncircular gears are left out, without ``fitted`` a cam's groove plates too:
+    their curves take long to fit.
 
-    Raises GenevaError, naming the key, for sizes that leave no arm, no links or no shafts.
+    Raises GenevaError, naming the key, for sizes that leave no arm, no links, no shafts or no
+    groove plate.
     """
     assembly = found.assembly
     given, at = assembly.given, np.zeros(1)
     bars = drawn_links(given, found)
     arm = crank_arm(found) if has_arm(found) else None
     proof = Proof(given, found)
-    fixed = groove_plates(found, bars, tolerance, curves)
-    frame = framed(proof, fixed, bars)
+    fixed = groove_plates(found, bars, tolerance, curves, fitted)
     first = tuple(first_members(given, bars))
+    frame = framed(proof, fixed, bars, first)
     return Built(
         Member(wheel_part(found, contour or found.wheel), turn=float(assembly.wheel(at)[0])),
         Member(
@@ -109,7 +112,7 @@ def built(
         ),
         arm,
         bars,
-        (*([] if first else link_gears(bars)), *(gear_members(proof) if pitch else ())),
+        (*([] if first else link_gears(bars)), *(gear_members(proof) if pitch and fitted else ())),
         first,
         frame.shafts,
         (*fixed, Member(frame.plate)),

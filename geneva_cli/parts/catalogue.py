@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.spec.load_named import load_named
+from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -88,8 +89,18 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
     if part in SHEETS or not is_table(mechanism, part, drawn=False):
         raise GenevaError(f"--part {part} is drawn; write it as .dxf or .svg")
+    require_tolerance(mechanism, tolerance_mm)
     made: Table = _made(_table(mechanism, part))(mechanism, tolerance_mm, samples)
     return made
+
+
+def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
+    """Raise GenevaError for a tolerance that is not above 0, or wider than half a slot.
+
+    A slot that may miss its curve by its own half width is none.
+    """
+    allowed = Range(0.0, mechanism.roller_radius_mm, "(]")
+    require_mm("--tolerance", tolerance_mm, allowed, "the roller's radius")
 
 
 def is_alone(mechanism: Mechanism, part: str) -> bool:

@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.crank import Crank
@@ -42,8 +41,8 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         )
     if bars is None:
         bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
-    shafts = [hole.radius for hole in _bores(bars.plates)]
-    on_shaft = bars.sizes.crank_shaft if bars.sizes else None
+    second, own = (L, 0.0), (L + first.distance_mm, 0.0)
+    bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
     given = spec.size
     size = Size(
         center_distance_mm=first.distance_mm,
@@ -55,8 +54,8 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         pin_mm=given.pin_mm,
         wall_min_mm=wall_min(given, L),
         wheel_thickness_mm=thicknesses(given, L).link,
-        crank_bore_mm=2.0 * shafts[0] if shafts else None,
-        wheel_bore_mm=2.0 * on_shaft if on_shaft else None,
+        crank_bore_mm=2.0 * bore,
+        wheel_bore_mm=2.0 * bars.shaft(second, L),
     )
     title = f"{titled(mechanism)}, first pair"
     drive = Crank(n_rpm=spec.drive.n_rpm)
@@ -91,11 +90,3 @@ def first_members(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
     yield placed(wheel_plate(made, made.wheel), L, 0.0)
     far = L + made.assembly.L
     yield from (placed(plate, far, math.pi) for plate in disc[: len(made.crank)])
-
-
-def _bores(plates: list[Plate]) -> Iterator[Circle]:
-    """Bores for shafts: the holes at the links' own origins."""
-    for plate in plates:
-        for hole in plate.holes:
-            if isinstance(hole, Circle) and math.hypot(*hole.centre) == 0.0:
-                yield hole

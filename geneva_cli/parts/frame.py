@@ -18,11 +18,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.centre_marks import centre_marks
-from geneva_cli.parts.gear_drawings import driver_shaft, gear_span
-from geneva_cli.parts.groove_plate import TOLERANCE, groove_members
+from geneva_cli.parts.gear_drawings import gear_shafts, gear_span
+from geneva_cli.parts.groove_plate import TOLERANCE, groove_members, require_groove_plate
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_positions import same
-from geneva_cli.parts.link_shafts import axes, link_shafts
+from geneva_cli.parts.link_shafts import Ends, link_shafts, outside_links
 from geneva_cli.parts.links import Links, drawn_links, placed_holes
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
@@ -50,12 +50,16 @@ def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
 
 
 def framed(
-    proof: Proof, fixed: Sequence[Member] | None = None, bars: Links | None = None
+    proof: Proof,
+    fixed: Sequence[Member] | None = None,
+    bars: Links | None = None,
+    first: Sequence[Member] = (),
 ) -> Framed:
     """The frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
 
-    Both are worked out where they are not known. Raises GenevaError where wheel and crank stand in
-    no one plane, and, naming the key, for a shaft that ends above its upper end.
+    Both are worked out where they are not known. ``first`` are the first wheel and its locking disc
+    of two in series. Raises GenevaError where wheel and crank stand in no one plane, and as
+    ``shaft`` does.
     """
     mechanism = proof.mechanism
     if not mechanism.spec.wheel.FLAT:
@@ -73,7 +77,7 @@ def framed(
         lows.append(gear_span(proof)[0])
     top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
     bottom = top - thicknesses(size, L).arm
-    every, places = tuple(_shafts(proof, found, bars, bottom)), list(standing(mechanism))
+    every, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
     holes = [*_drilled(mechanism, every, places, top), *_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
@@ -86,54 +90,60 @@ def framed(
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
-    return Framed(Plate(NAME, LAYER, outline, tuple(holes), bottom, top), every)
+    return Framed(
+        Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(every, bars, L))
+    )
 
 
 def groove_plates(
-    found: Outlines, bars: Links, tolerance: float = TOLERANCE, curves: str = "arcs"
+    found: Outlines,
+    bars: Links,
+    tolerance: float = TOLERANCE,
+    curves: str = "arcs",
+    fitted: bool = True,
 ) -> list[Member]:
-    """A cam's groove plate where it is; none where there is no room for one."""
-    try:
-        return groove_members(found, bars, tolerance, curves)
-    except GenevaError:  # --part groove-plate says why
-        return []
+    """Return a cam's groove plates at their place; none without ``fitted``.
+
+    Raises GenevaError where there is no room for them, even if they are left out.
+    """
+    require_groove_plate(found)
+    return groove_members(found, bars, tolerance, curves) if fitted else []
 
 
-def _shafts(proof: Proof, found: Outlines | None, bars: Links, lowest: float) -> Iterator[Member]:
+def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -> Iterator[Member]:
     """All shafts at their places; ``lowest`` is the frame's lower face."""
     stop, own = None, (False, False)
-    if found:
+    if proof.mechanism.spec.is_flat:
+        found = proof.found
         stop = crank_stop(found, bars)
         own = crank_shaft_radius(found) > 0.0, wheel_shaft_radius(found) > 0.0
         yield from shafts(found, lowest, stop)
-    yield from link_shafts(proof.mechanism, bars, lowest, stop, *own)
-    yield from driver_shaft(proof, lowest)
+    ends = Ends(lowest, stop, *own)
+    yield from link_shafts(proof.mechanism, bars, ends, first)
+    yield from gear_shafts(proof, ends)
 
 
 def _drilled(
     mechanism: Mechanism, shafts_: Sequence[Member], places: Sequence[Point], top: float
 ) -> Iterator[Circle]:
-    """The holes of the shafts that reach below the frame's upper face.
+    """The holes of the shafts that reach below the frame's upper face, as wide as those.
 
-    What stands without a shaft is one piece with it, of a size that nobody gives.
+    A wheel or a crank without a bore is one piece with its shaft, which is as [shaft] has it.
     """
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
     given = {0.0: shaft.wheel_diameter_mm, L: shaft.crank_diameter_mm}
     for at in places:
         here = [one.part for one in shafts_ if same(one.at, at, L)]
-        radii = [
-            one.outline.radius
-            for one in here
-            if isinstance(one, Plate) and isinstance(one.outline, Circle) and one.low < top
-        ]
-        if here and not radii:
-            continue
-        diameter = given.get(at[0]) if at[1] == 0.0 else None
-        radii += [] if diameter is None else [0.5 * diameter]
-        yield Circle(HOLES, at, max(radii, default=even(L / 20.0)))
+        for one in here:
+            assert isinstance(one, Plate) and isinstance(one.outline, Circle)
+            if one.low < top:
+                yield Circle(HOLES, at, one.outline.radius)
+        if not here:
+            diameter = given[at[0]]
+            yield Circle(HOLES, at, even(L / 20.0) if diameter is None else 0.5 * diameter)
 
 
-def standing(mechanism: Mechanism) -> Iterator[Point]:
+def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     """Where shafts stand, each once: the wheel's, the crank's, what drives it.
 
     An internal wheel is open in the middle, where its crank turns below it: it is held from above.
@@ -143,7 +153,7 @@ def standing(mechanism: Mechanism) -> Iterator[Point]:
     if mechanism.spec.drive.gears:
         seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
     yield from seen
-    for axis in axes(mechanism):
+    for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):
             seen.append(axis.at)
             yield axis.at

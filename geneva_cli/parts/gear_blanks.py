@@ -65,6 +65,7 @@ def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, 
     Raises GenevaError, naming the key, where its bore or its bolts leave none of it.
     """
     radius, teeth = link.radius_mm, link.teeth
+    shaft = _bored_by(at, L)
     low, high = sizes.span(link.plane)
     hole = 0.0 if teeth.inside else bore
     holes: list[Circle] = []
@@ -77,13 +78,13 @@ def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, 
         holes += [Circle(HOLES, AXIS, bore)] if bore else []
         hub = sizes.hub(bore)
         if teeth.sectors * teeth.each_deg < 360.0:
-            _refuse(link.name, radius - hub, "hub")
+            _refuse(link.name, radius - hub, "hub", shaft)
             outline = sectors(radius, hub, teeth)
-    _refuse(link.name, outer - inner, "bore")
+    _refuse(link.name, outer - inner, "bore", shaft)
     if teeth.fixed:
         holes += _bolts(size, inner, outer, L)
     plate = Plate(link.name, PITCH, outline, tuple(holes), low, high)
-    _refuse(link.name, gear_wall(plate), "bolts" if teeth.fixed else "bore")
+    _refuse(link.name, gear_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
     return Gear(at, radius, hole, teeth, plate)
 
 
@@ -120,18 +121,26 @@ def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]
         yield Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
 
 
-def _refuse(name: str, wall: float, what: str) -> None:
-    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear."""
+def _bored_by(at: Point, L: float) -> str:
+    """The key that sets the bore of a gear, by the shaft that it is on."""
+    return {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
+
+
+def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
+    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear.
+
+    ``shaft`` is the key that sets its bore.
+    """
     if wall > 0.0:
         return
     if what == "bolts":
         key, reach = "gear_bolt_circle_mm", "bolts reach"
         helps = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
     else:
-        key, reach = "link_bore_mm", f"{what} reaches"
-        helps = (
-            "a smaller link_bore_mm, or crank_diameter_mm where it is on the crank's shaft, leaves"
-        )
+        key, reach = shaft, f"{what} reaches"
+        # the crank's shaft is as wide as its arm's bore, which is the locking disc's by default
+        arm = " or arm_bore_mm" if shaft == "crank_bore_mm" else ""
+        helps = f"a smaller {shaft}{arm} leaves"
     raise GenevaError(
         f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {helps} some",
         ("size", key),

@@ -23,10 +23,12 @@ from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_curves import SAMPLES, ratio_and_turn, required_gears
 from geneva_cli.parts.link_drawings import once, shapes, titled
-from geneva_cli.parts.link_sizes import link_sizes
+from geneva_cli.parts.link_shafts import Ends
+from geneva_cli.parts.link_sizes import LinkSizes, link_sizes
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.shafts import SHAFT
+from geneva_cli.parts.shafts import shaft, shaft_ends
+from geneva_cli.parts.sizes import even
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -101,9 +103,7 @@ def gear_shapes(proof: Proof, tolerance: float, curves: str) -> list[Shape]:
 
 def gear_span(proof: Proof) -> tuple[float, float]:
     """The lower and upper end of the gears along the axis: the plane below the arm is theirs."""
-    return link_sizes(
-        proof.mechanism, [], proof.found if proof.mechanism.spec.is_flat else None
-    ).span(2)
+    return _sizes(proof).span(2)
 
 
 def gear_members(proof: Proof) -> tuple[Member, ...]:
@@ -147,14 +147,47 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
     )
 
 
-def driver_shaft(proof: Proof, lowest: float) -> Iterator[Member]:
-    """The driver's shaft, from the frame's lower face up; none without such gears."""
-    if proof.mechanism.spec.drive.gears is None:
+def gear_shafts(proof: Proof, ends: Ends) -> Iterator[Member]:
+    """The shafts that carry gears alone, from the frame's lower face up; none without such gears.
+
+    The driver's goes through it, or ends below one that has no room for a bore. The crank's is one
+    where neither arm nor locking disc has it.
+    """
+    mechanism = proof.mechanism
+    if mechanism.spec.drive.gears is None:
         return
-    _, (at, radius) = gear_bores(proof)
-    if radius:
-        outline, (_, high) = Circle(SHAFT, (0.0, 0.0), radius), gear_span(proof)
-        yield Member(Plate("driver gear's shaft", SHAFT, outline, (), lowest, high), at)
+    (on_crank, wide), (at, radius) = _shafts(proof)
+    low, high = gear_span(proof)
+    if not ends.crank_has_one:
+        reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, high)
+        yield Member(shaft("crank", wide, reach), on_crank)
+    top = high if _driver_bore(proof) else low
+    yield Member(shaft("driver gear", radius, (ends.lowest, top)), at)
+
+
+def _shafts(proof: Proof) -> list[tuple[Point, float]]:
+    """Place in the machine and radius of the shafts of driven gear and driver.
+
+    The first is the crank's. Raises GenevaError as ``gears`` does.
+    """
+    mechanism = proof.mechanism
+    pair, L = required_gears(mechanism), mechanism.center_distance_mm
+    sizes, ((driven, _), _) = _sizes(proof), pitch_radii(pair)
+    usual = even(L / 20.0)
+    on_crank = sizes.crank_shaft or sizes.bore(driven, L) or usual
+    ends = (L, 0.0), (L + pair.distance_mm, 0.0)
+    return list(zip(ends, (on_crank, _driver_bore(proof) or usual), strict=True))
+
+
+def _driver_bore(proof: Proof) -> float:
+    """The radius of the driver's bore; 0 where driver and shaft are one piece."""
+    pair = required_gears(proof.mechanism)
+    return _sizes(proof).bore(pitch_radii(pair)[1][0], proof.mechanism.center_distance_mm)
+
+
+def _sizes(proof: Proof) -> LinkSizes:
+    mechanism = proof.mechanism
+    return link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
 
 
 def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
@@ -162,20 +195,20 @@ def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
 
     Raises GenevaError as ``gears`` does, and, naming the key, for a bore larger than its gear.
     """
-    mechanism = proof.mechanism
-    pair, L = required_gears(mechanism), mechanism.center_distance_mm
-    sizes = link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
-    C, ((driven, _), (driver, _)) = pair.distance_mm, pitch_radii(pair)
-    bores = sizes.bore(driven, L, on_crank=True), sizes.bore(driver, L, on_crank=False)
-    for name, bore, least in zip(NAMES, bores, (driven, driver), strict=True):
+    (driven, _), (driver, _) = pitch_radii(required_gears(proof.mechanism))
+    (axis, on_crank), (other, _) = _shafts(proof)
+    bores = on_crank, _driver_bore(proof)
+    for name, bore, least, key in zip(
+        NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
+    ):
         if bore >= least:
             raise GenevaError(
-                f"no blank of the {name} is left: its bore must be below {2.0 * least:.6g}, where "
-                "its pitch curve is nearest to its axis; a smaller link_bore_mm, or "
-                "crank_diameter_mm where it is on the crank's shaft, leaves some",
-                ("size", "link_bore_mm"),
+                f"no blank of the {name} is left: its bore, of {2.0 * bore:.6g} as its shaft, must "
+                f"be below {2.0 * least:.6g}, where its pitch curve is nearest to its axis; a "
+                f"smaller {key} leaves some",
+                ("size", key),
             )
-    return [((L, 0.0), bores[0]), ((L + C, 0.0), bores[1])]
+    return [(axis, bores[0]), (other, bores[1])]
 
 
 def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, Array]]:

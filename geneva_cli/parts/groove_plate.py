@@ -8,7 +8,6 @@ origin. The bore is that of the crank's shaft, and four holes mount it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 
@@ -66,27 +65,18 @@ def _plates(
     found: Outlines, one: Contour, other: Contour, bars: Links
 ) -> tuple[Plate, Plate, Plate]:
     """Base, ring and island of the two flanks."""
-    L, sizes = found.assembly.L, found.sizes
+    L = found.assembly.L
     inner, outer = sorted((one, other), key=_reach)
     follower = next(
         m.part for m in bars.joined if isinstance(m.part, Plate) and m.part.name.endswith("groove")
     )
-    far, wall = _farthest(found), sizes.wall_min
-    room = L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
-    rim = min(max(RIM * sizes.roller, 4.0 * wall), room)
-    if rim < 4.0 * wall:
-        raise GenevaError(
-            f"--part groove-plate: the groove reaches {far:.4g} mm from the crank's axis, and "
-            f"{room:.4g} mm are left beside the wheel's hub, less than four times wall_min_mm; a "
-            "smaller roller, wheel_hub_mm or wheel_bore_mm leaves more",
-            ("size", "wheel_hub_mm"),
-        )
+    far, rim = _reaches(found)
     mount, at = even(0.25 * rim), far + 0.5 * rim
     mounts = [
         Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
         for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
     ]
-    shaft = _shaft(bars.cut, L)
+    shaft = bars.shaft((L, 0.0), L)
     bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
     edge = Circle("FRAME", (0.0, 0.0), far + rim)
     low, high = follower.low, follower.high
@@ -96,6 +86,31 @@ def _plates(
         Plate("groove plate's ring", "FRAME", edge, (outer, *mounts), low, high),
         Plate("groove plate's island", "FRAME", inner, tuple(bore), low, high),
     )
+
+
+def require_groove_plate(found: Outlines) -> None:
+    """Raise GenevaError, naming the key, where a groove leaves no room for its plate."""
+    if found.assembly.rollers[0][0].groove is not None:
+        _reaches(found)
+
+
+def _reaches(found: Outlines) -> tuple[float, float]:
+    """How far the groove reaches from the crank's axis, and the width of the rim round it, mm.
+
+    Raises GenevaError, naming the key, where the wheel's hub leaves no room for the rim.
+    """
+    sizes, far = found.sizes, _farthest(found)
+    wall = sizes.wall_min
+    room = found.assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
+    rim = min(max(RIM * sizes.roller, 4.0 * wall), room)
+    if rim < 4.0 * wall:
+        raise GenevaError(
+            f"--part groove-plate: the groove reaches {far:.4g} mm from the crank's axis, and "
+            f"{room:.4g} mm are left beside the wheel's hub, less than four times wall_min_mm; a "
+            "smaller roller, wheel_hub_mm or wheel_bore_mm leaves more",
+            ("size", "wheel_hub_mm"),
+        )
+    return far, rim
 
 
 def _farthest(found: Outlines) -> float:
@@ -112,15 +127,3 @@ def _farthest(found: Outlines) -> float:
 def _reach(flank: Contour) -> float:
     """The farthest end of a flank's pieces from the crank's axis: which flank is the outer one."""
     return max(math.hypot(*piece.start) for piece in flank.segments)
-
-
-def _shaft(links: Iterable[Member], L: float) -> float:
-    """The bore of the crank, the link that turns about the plate's centre."""
-    holes = (
-        hole
-        for one in links
-        if isinstance(one.part, Plate) and one.at == (L, 0.0)
-        for hole in one.part.holes
-    )
-    at_axis = (h.radius for h in holes if isinstance(h, Circle) and h.centre == (0.0, 0.0))
-    return next(at_axis, 0.0)

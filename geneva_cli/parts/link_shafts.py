@@ -2,118 +2,86 @@
 
 Those that stand end in the frame's lower face, as the wheel's and the crank's do. A link on one
 that is not the crank's lies in the lowest plane, so that nothing passes below it. A planet's shaft
-moves, and joins what is on it. Each is as wide as the bore of the links on it; a link without a
-bore is one piece with its shaft.
+moves, and joins what is on it. Each is as wide as the bores on its axis (``link_axes``). A link
+without a bore is one piece with its shaft, which ends at its faces.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.link_positions import SAME, links_at, same
-from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.link_axes import Axis
+from geneva_cli.parts.link_positions import SAME, same
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.shafts import SHAFT
+from geneva_cli.parts.shafts import shaft, shaft_ends
 from geneva_cli.parts.sizes import thicknesses
 
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
-ON_SHAFTS = (Joint.SHAFT, Joint.PIN)
-ANGLES = 720  # input angles at which it is seen which axes stand
+class Ends(NamedTuple):
+    """What the shafts of wheel and crank are besides those of links."""
 
-
-class Axis(NamedTuple):
-    """An axis that links turn about: their names, where it is at input angle 0, if it stands."""
-
-    names: tuple[str, ...]
-    kinds: tuple[Joint, ...]
-    at: Point
-    stands: bool
+    lowest: float  # the frame's lower face
+    stop: float | None = None  # where the crank's shaft ends above it
+    crank_has_one: bool = False  # it carries more than links, and is not one of these
+    wheel_has_one: bool = False
 
 
 def link_shafts(
-    mechanism: Mechanism,
-    bars: Links,
-    lowest: float,
-    stop: float | None = None,
-    crank_has_one: bool = False,
-    wheel_has_one: bool = False,
+    mechanism: Mechanism, bars: Links, ends: Ends, others: Iterable[Member] = ()
 ) -> Iterator[Member]:
-    """The shafts at their places at input angle 0.
+    """Yield the shafts at their places at input angle 0.
 
-    ``lowest`` is the frame's lower face, ``stop`` where the crank's shaft ends above it;
-    ``crank_has_one`` where that carries more than links, and is not one of these, as the wheel's.
+    ``others`` are plates that turn with a link: the locking disc on a first crank. Raises
+    GenevaError as ``shaft`` does.
     """
-    L = mechanism.center_distance_mm
-    for axis in axes(mechanism):
+    size, L, carried = mechanism.spec.size, mechanism.center_distance_mm, list(others)
+    for axis in bars.axes:
         on_crank = same(axis.at, (L, 0.0), L)
         on_wheel = same(axis.at, (0.0, 0.0), L)
-        if (on_crank and crank_has_one) or (on_wheel and wheel_has_one):
+        if (on_crank and ends.crank_has_one) or (on_wheel and ends.wheel_has_one):
             continue
+        heights = list(_heights(bars, axis, carried, L))
+        low, high = min(low for low, _ in heights), max(high for _, high in heights)
         if axis.stands:
             what = "shaft" if Joint.SHAFT in axis.kinds else "pivot"
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
-            low = stop if on_crank and stop is not None else lowest
-            high = thicknesses(mechanism.spec.size, L).wheel if on_wheel else None
-            yield from _through(bars, f"{whose}'s {what}", axis, L, low, high)
+            low = ends.stop if on_crank and ends.stop is not None else ends.lowest
+            high = thicknesses(size, L).wheel if on_wheel else high
+            low, high = shaft_ends(size, whose, low, high)
+            yield Member(shaft(whose, axis.radius, (low, high), what), axis.at)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those have their pin
-            yield from _through(bars, f"shaft of {', '.join(axis.names)}", axis, L)
+            plate = shaft(axis.names[0], axis.radius, (low, high))
+            yield Member(plate._replace(name=f"shaft of {', '.join(axis.names)}"), axis.at)
 
 
-def axes(mechanism: Mechanism) -> Iterator[Axis]:
-    """The axes of a machine's links, each once."""
-    turns, near = mechanism.spec.drive.turns, SAME * mechanism.center_distance_mm
-    turn = np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)
-    left: list[tuple[str, Joint, Array]] = [
-        (link.name, kind, at)
-        for link in links_at(mechanism, turn)
-        for at, kind in zip(places(link), link.kinds, strict=True)
-        if kind in ON_SHAFTS
-    ]
-    while left:
-        way = left[0][2]
-        here = [one for one in left if bool(np.abs(one[2] - way).max() < near)]
-        left = [one for one in left if not bool(np.abs(one[2] - way).max() < near)]
-        z = complex(way[len(way) // 2])
-        names, kinds, _ = zip(*here, strict=True)
-        yield Axis(names, kinds, (z.real, z.imag), bool(np.abs(way - z).max() < near))
-
-
-def _through(
-    bars: Links,
-    name: str,
-    axis: Axis,
-    L: float,
-    low: float | None = None,
-    high: float | None = None,
-) -> Iterator[Member]:
-    """The shaft through the bores of the links on an axis, from ``low``, or the lowest of them, up
-    to ``high``, or the highest.
-
-    There is none where none has a bore.
-    """
-    radii, heights = [], []
+def _heights(
+    bars: Links, axis: Axis, others: Iterable[Member], L: float
+) -> Iterator[tuple[float, float]]:
+    """The spans along the axis of what is on it, with or without a bore."""
     for member in bars.cut:
-        plate = member.part
-        if not isinstance(plate, Plate) or plate.name not in axis.names:
-            continue
-        bored = [h.radius for h in placed_holes(member) if same(h.centre, axis.at, L)]
-        radii += bored
-        heights += [plate.low, plate.high if bored else plate.low]
+        if isinstance(member.part, Plate) and member.part.name in axis.names:
+            yield member.part.low, member.part.high
     for gear in bars.gears:
-        if gear.name in axis.names and gear.bore:
-            radii.append(gear.bore)
-            heights += [gear.plate.low, gear.plate.high]
-    if radii:
-        bottom = min(heights) if low is None else low
-        outline = Circle(SHAFT, (0.0, 0.0), radii[0])
-        top = max(heights) if high is None else high
-        yield Member(Plate(name, SHAFT, outline, (), bottom, top), axis.at)
+        if gear.name in axis.names and not gear.teeth.inside:
+            yield gear.plate.low, gear.plate.high
+    for member in others:
+        if any(same(hole.centre, axis.at, L) for hole in placed_holes(member)):
+            assert isinstance(member.part, Plate)
+            yield member.part.low, member.part.high
+
+
+def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:
+    """Yield the shafts without what lies in links that are one piece with them."""
+    for member in shafts:
+        assert isinstance(member.part, Plate)
+        spans = [(member.part.low, member.part.high)]
+        for plate in bars.one_piece(member.at, L):
+            below = [(low, min(high, plate.low)) for low, high in spans]
+            above = [(max(low, plate.high), high) for low, high in spans]
+            spans = [(low, high) for low, high in below + above if high - low > SAME * L]
+        for low, high in spans:
+            yield member._replace(part=member.part._replace(low=low, high=high))

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 NEAR = 0.2  # of the way to the next joint: how large a pin is at most
 BORED = 0.35  # of the room beside other holes: how large a bore is at most
-THIN = 0.01  # of the centre distance: with a thinner one, link and shaft are one piece
+THIN = 0.01  # of the centre distance: no shaft is thinner by default
 BLOCK = 1.6  # of its pin's hole: how wide a sliding block is
 LONG = 0.5  # of a block's width: how much longer it is
 SPARE = 0.25  # of a pin: from a block to the end of its slot
@@ -38,9 +38,8 @@ class LinkSizes(NamedTuple):
     roller_pin: float  # its hole; 0 where the spec has no pin
     eye: float  # round a pin
     roller_eye: float
-    shaft: float | None  # as it is given
+    shaft: float | None  # as it is given, of shafts that carry links alone
     crank_shaft: float | None  # as it is given, or of the arm on it
-    crank_given: bool
     thickness: float
     arm: float  # of what is in the first plane
     gap: float  # from the wheel to that
@@ -61,19 +60,16 @@ class LinkSizes(NamedTuple):
         half = max(BLOCK * hole, hole + self.wall)
         return half, LONG * half
 
-    def bore(self, room: float, L: float, on_crank: bool) -> float:
-        """The bore of a shaft with ``room`` mm to the nearest hole; 0 for a shaft in one piece."""
+    def bore(self, room: float, L: float) -> float:
+        """The radius of a shaft with ``room`` mm to the nearest hole; 0 where it is too thin."""
         if self.shaft is not None:
             return self.shaft
-        crank = self.crank_shaft if on_crank else None
-        if crank is not None and (self.crank_given or crank + self.wall <= room):
-            return crank
         found = even(min(L / 20.0, BORED * room))
         return found if found >= THIN * L else 0.0
 
     def hub(self, bore: float) -> float:
-        """The radius of a link's plate round a bore."""
-        return max(even(HUB * bore), bore + self.wall) if bore else self.eye
+        """The radius of a link's plate round a bore, or on a shaft's end."""
+        return max(even(HUB * bore), bore + self.wall)
 
     def span(self, plane: int) -> tuple[float, float]:
         """The lower and upper end, along the axis, of the links in a plane below the wheel's."""
@@ -120,7 +116,6 @@ def link_sizes(
         roller_eye=max(min(EYE * roller, room), roller + wall) if roller else eye,
         shaft=None if size.link_bore_mm is None else 0.5 * size.link_bore_mm,
         crank_shaft=_crank_shaft(mechanism, found),
-        crank_given=spec.shaft.crank_diameter_mm is not None,
         thickness=thick.link,
         arm=arm,
         gap=size.pin_gap_mm,

@@ -23,9 +23,8 @@ from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_lines, wheel_sh
 from geneva_cli.parts.frame import LAYER as STANDING
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
-from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_positions import SAME, links_at
 from geneva_cli.parts.link_sizes import places
-from geneva_cli.parts.links import SAME
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 

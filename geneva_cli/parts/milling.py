@@ -12,12 +12,12 @@ from geneva_cli.curves.cutter import faults, freed
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Part, Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.locking_rings import LAYER as CRANK
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.parts.wheel import LAYER as WHEEL
+from geneva_cli.spec.rules import TOOL_MM, require_mm
 
 SAME = 1e-9  # of the centre distance: radii nearer to each other are one
 
@@ -25,10 +25,9 @@ SAME = 1e-9  # of the centre distance: radii nearer to each other are one
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
     """Where a cutter of a diameter does not enter, empty where it does, and what else it leaves.
 
-    Raises GenevaError for a cutter that is not above 0 mm, and for outlines with cubics.
+    Raises GenevaError for a diameter outside of TOOL_MM, and for outlines with cubics.
     """
-    if not 0.0 < cutter_mm < math.inf:
-        raise GenevaError(f"--cutter {cutter_mm:g}: its diameter must be above 0 mm")
+    require_mm("--cutter", cutter_mm, TOOL_MM)
     cut = dict.fromkeys(plates(drawing.solid)) if drawing.solid else {}
     found = [fault for plate in cut for fault in faults(plate, 0.5 * cutter_mm)]
     stops = [fault.text for fault in found if fault.stops]

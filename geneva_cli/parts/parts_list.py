@@ -1,31 +1,31 @@
 """The list of parts: what is cut and turned, and every pivot and dimension to rebuild it from.
 
 Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
-axis) and dimensions. Mass and moment of inertia are of one, in closed form, about the axis that it
-turns on: the wheel's, the crank's, a roller's own, a link's first joint, from where the centroid is
-given too, in the part's own frame. z is along the axis, from
-the wheel's lower face: the stack; on a sphere from the wheel's outer face inwards.
+axis), dimensions, and what cannot be built, with the reason. Mass and moment of inertia are of one,
+in closed form, about the axis that it turns on: the wheel's, the crank's, a roller's own, a link's
+first joint, from where the centroid is given too, in the part's own frame. z is along the axis,
+from the wheel's lower face: the stack; on a sphere from the wheel's outer face inwards.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
 
 from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Member, plates
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.built import built, link_members
+from geneva_cli.parts.missing import Missing, or_missing
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.plates import crank_group, wheel_part
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.sphere.listed import dimensions, shell_rows
+from geneva_cli.parts.sphere.listed import bare_rows, dimensions, shell_rows
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Table, rows_table
 
@@ -49,48 +49,66 @@ KINDS = {
     ),
     "pivot": ("name", "x_mm", "y_mm"),
     "dimension": ("name", "value", "unit"),
+    "missing": ("name", "why"),
 }
+Row: TypeAlias = dict[str, object]
+Rows: TypeAlias = Callable[[], Iterator[Row]]
 NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in names))
 
 
 def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """One row a part, a pivot, or a dimension."""
+    """One row a part, a pivot, a dimension, or what cannot be built."""
     return parts_list(Proof(mechanism))
 
 
 def parts_list(proof: Proof) -> Table:
-    """The same, of a machine whose outlines may be known; no parts where its sizes leave none."""
+    """The list of parts of a machine whose outlines may be known."""
     mechanism = proof.mechanism
-    found: list[dict[str, object]] = []
-    with suppress(GenevaError):  # the check of the parts says why there are none
-        if mechanism.spec.is_flat:
-            found += parts_rows(proof.found)
-        else:
-            found += [] if mechanism.spec.wheel.FLAT else shell_rows(proof)
-            found += link_rows(proof)
-    found += [*_pivots(mechanism), *_dimensions(proof)]
+    every = [*_parts(proof), *_pivots(mechanism), *_dimensions(proof)]
+    found = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in every]
     rows = [[row.get(name) for name in NAMES] for row in found]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
 
 
-def parts_rows(found: Outlines) -> Iterator[dict[str, object]]:
+def _parts(proof: Proof) -> Iterator[Row | Missing]:
+    """All parts; where they cannot all be built, wheel and crank alone, and why."""
+    spec = proof.mechanism.spec
+    if spec.is_flat:
+        yield from _or_bare(lambda: parts_rows(proof.found), lambda: _bare_rows(proof.found))
+        return
+    if not spec.wheel.FLAT:
+        yield from _or_bare(lambda: shell_rows(proof), lambda: bare_rows(proof))
+    yield from or_missing("links and frame", lambda: link_rows(proof))
+
+
+def _or_bare(every: Rows, bare: Rows) -> Iterator[Row | Missing]:
+    """The rows of all parts; where one cannot be built, wheel and crank alone, and why."""
+    rows = list(or_missing("all other parts", every))
+    if any(isinstance(row, Missing) for row in rows):
+        yield from or_missing("wheel and crank", bare)
+    yield from rows
+
+
+def parts_rows(found: Outlines) -> Iterator[Row]:
     """All plates of a flat machine, each kind once with its count, as the solids have them.
 
-    They are wheel and crank alone where sizes leave no arm or links; a check says why.
+    Raises GenevaError where one cannot be built.
     """
-    try:
-        members = built(found).members
-    except GenevaError:
-        members = Member(wheel_part(found, found.wheel)), Member(crank_group(found))
+    yield from plate_rows(found.assembly.given.spec, Group("", built(found).members))
+
+
+def _bare_rows(found: Outlines) -> Iterator[Row]:
+    """The plates of wheel and crank, without the crank's arm."""
+    members = Member(wheel_part(found, found.wheel)), Member(crank_group(found))
     yield from plate_rows(found.assembly.given.spec, Group("", members))
 
 
-def link_rows(proof: Proof) -> Iterator[dict[str, object]]:
+def link_rows(proof: Proof) -> Iterator[Row]:
     """Links and gears, their shafts and the frame alone: where the wheel is not drawn."""
     yield from plate_rows(proof.mechanism.spec, Group("", link_members(proof)))
 
 
-def plate_rows(spec: Spec, group: Group) -> Iterator[dict[str, object]]:
+def plate_rows(spec: Spec, group: Group) -> Iterator[Row]:
     """A row for each kind of plate in a group, with its count."""
     for plate, count in Counter(plates(group)).items():
         name, of = (
@@ -119,7 +137,7 @@ def plate_rows(spec: Spec, group: Group) -> Iterator[dict[str, object]]:
         }
 
 
-def _pivots(mechanism: Mechanism) -> Iterator[dict[str, object]]:
+def _pivots(mechanism: Mechanism) -> Iterator[Row]:
     L = mechanism.center_distance_mm
     own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
     found = [p for p in own if isinstance(p, Pivot)]
@@ -129,11 +147,11 @@ def _pivots(mechanism: Mechanism) -> Iterator[dict[str, object]]:
         yield {"row": "pivot", **one._asdict()}
 
 
-def _dimensions(proof: Proof) -> Iterator[dict[str, object]]:
+def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
     mechanism = proof.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
-    found = [
+    found: list[Dimension | Missing] = [
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),
         Dimension("slots", spec.wheel.z),
@@ -143,8 +161,7 @@ def _dimensions(proof: Proof) -> Iterator[dict[str, object]]:
     ]
     found += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        with suppress(GenevaError):
-            found += dimensions(proof)
+        found += dimensions(proof)
     if mechanism.law is None and spec.drive.CRANKED:
         found += _straight(mechanism)
     elif spec.drive.CRANKED:
@@ -156,7 +173,7 @@ def _dimensions(proof: Proof) -> Iterator[dict[str, object]]:
     own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
     found += [d for d in own if isinstance(d, Dimension)]
     for one in found:
-        yield {"row": "dimension", **one._asdict()}
+        yield one if isinstance(one, Missing) else {"row": "dimension", **one._asdict()}
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

@@ -21,6 +21,7 @@ from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
+from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"
 SAME = 1e-9  # of the centre distance: what is nearer to an axis is on it
@@ -58,19 +59,15 @@ def shafts(found: Outlines, lowest: float, stop: float | None = None) -> Iterato
     """The shafts of wheel and crank at their places.
 
     ``lowest`` is the frame's lower face; the crank's ends at ``stop`` where links are in the way of
-    it (``turn.planes``). Raises GenevaError, naming the key, where a shaft's lower end is not below
-    its upper one.
+    it (``turn.planes``). Raises GenevaError as ``shaft`` does.
     """
     radius = wheel_shaft_radius(found)
     if radius:
-        low, high = wheel_shaft_ends(found, lowest)
-        _refuse("wheel", low, high)
-        yield Member(_shaft("wheel", radius, low, high))
+        yield Member(shaft("wheel", radius, wheel_shaft_ends(found, lowest)))
     radius = crank_shaft_radius(found)
     if radius:
-        low, high = crank_shaft_ends(found, lowest if stop is None else stop)
-        _refuse("crank", low, high)
-        yield Member(_shaft("crank", radius, low, high), (found.assembly.L, 0.0))
+        ends = crank_shaft_ends(found, lowest if stop is None else stop)
+        yield Member(shaft("crank", radius, ends), (found.assembly.L, 0.0))
 
 
 def wheel_shaft_radius(found: Outlines) -> float:
@@ -80,12 +77,9 @@ def wheel_shaft_radius(found: Outlines) -> float:
 
 def wheel_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
     """Where the wheel's shaft ends along the axis."""
-    given, sizes = found.assembly.mechanism.spec.size, found.sizes
-    low = given.wheel_shaft_low_mm
-    if low is None:
-        low = lowest if sizes.wheel_hub or _has_gear(found) else 0.0
-    high = given.wheel_shaft_high_mm
-    return low, sizes.wheel_thickness if high is None else high
+    sizes = found.sizes
+    low = lowest if sizes.wheel_hub or _has_gear(found) else 0.0
+    return shaft_ends(found.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 
 
 def _has_gear(found: Outlines) -> bool:
@@ -106,21 +100,26 @@ def crank_shaft_radius(found: Outlines) -> float:
 def crank_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
     """Where that shaft ends: above, in the arm, or through the locking disc where that is bored."""
     given, sizes = found.assembly.mechanism.spec.size, found.sizes
-    low = lowest if given.crank_shaft_low_mm is None else given.crank_shaft_low_mm
-    high = given.crank_shaft_high_mm
-    if high is None:
+    high = 0.0 - given.pin_gap_mm
+    if sizes.crank_bore:
         hub = crank_hub(found)
-        high = 0.0 - given.pin_gap_mm
-        if sizes.crank_bore:
-            high = hub.high if hub else high + sizes.lock_thickness
-    return low, high
+        high = hub.high if hub else high + sizes.lock_thickness
+    return shaft_ends(given, "crank", lowest, high)
 
 
-def _shaft(part: str, radius: float, low: float, high: float) -> Plate:
-    return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)
+def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
+    """Where the shaft of a part ends: as the spec says of wheel or crank, or at these heights."""
+    given = vars(size)
+    ends = given.get(f"{part}_shaft_low_mm"), given.get(f"{part}_shaft_high_mm")
+    return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
 
 
-def _refuse(part: str, low: float, high: float) -> None:
+def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaft") -> Plate:
+    """The shaft of a part about the origin; ``what`` is its last word.
+
+    Raises GenevaError, naming the key, where its lower end is not below its upper one.
+    """
+    low, high = ends
     if not low < high:
         raise GenevaError(
             f"{part}_shaft_low_mm: the {part}'s shaft would reach from {low:g} up to {high:g} mm "
@@ -128,3 +127,4 @@ def _refuse(part: str, low: float, high: float) -> None:
             "above",
             ("size", f"{part}_shaft_low_mm"),
         )
+    return Plate(f"{part}'s {what}", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)

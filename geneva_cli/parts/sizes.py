@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.keyways import reach
 from geneva_cli.parts.reliefs import arc_room, has_arcs
@@ -19,6 +20,8 @@ from geneva_cli.spec.tables import Size
 
 PLAIN = 0.4  # of a hub's diameter: the radius of a bore in it
 KEYED = 0.5 / 1.6  # the same of a bore with a keyway, which is up to 0.39 of the radius deep
+BESIDE_HUB = 0.6  # of the room: the widest bore whose default hub, of 1.5 bores, has room
+SAME = 1e-9  # of the centre distance: radii that differ by less are equal
 
 # what stands on the axis of a wheel, and has nothing to stand on where that is a ring
 ON_AXIS = (
@@ -98,7 +101,11 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if any(s.apart for s in kinds):  # gears widen the relief
         room = min(room, arc_room(assembly, lock)) if has_arcs(assembly, lock) else math.inf
-    bore = 0.0 if not spec.drive.LOCKS else _crank_bore(given, min(room, depth - relief), L)
+    bore = (
+        0.0
+        if not spec.drive.LOCKS
+        else _crank_bore(assembly.given.spec, min(room, depth - relief), L)
+    )
     wall = wall_min(given, L)
     wheel_bore = _or(_half(given.wheel_bore_mm), _bore(given, end, wall, L))
     wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
@@ -175,10 +182,19 @@ def _bore(given: Size, end: float, wall: float, L: float) -> float:
     return even(min(L / 12.0, 0.4 * end, end - wall, room))
 
 
-def _crank_bore(given: Size, room: float, L: float) -> float:
-    """The crank's bore: by default half the room inside the relief, none where that is too thin."""
+def _crank_bore(spec: Spec, room: float, L: float) -> float:
+    """The crank's bore: the arm's, which has the same shaft, or by default half the room.
+
+    It is 0 where the room inside the relief is too small; then the shaft ends in the arm.
+    """
+    given = spec.size
     if given.crank_bore_mm is not None:
         return 0.5 * given.crank_bore_mm
+    own = given.arm_bore_mm if spec.drive.ONE_ARM else None
+    if own is None:
+        own = spec.shaft.crank_diameter_mm
+    if own is not None:
+        return 0.5 * own if 0.5 * own <= BESIDE_HUB * room else 0.0
     within = _within(given.crank_hub_mm, given.crank_keyway)
     return even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
 
@@ -277,6 +293,20 @@ def _refuse(assembly: Assembly, found: Sizes) -> None:
             f"wheel_bore_mm = {2.0 * found.wheel_bore:g}: the slots reach down to "
             f"{found.slot_end:.6g} mm; it must be below {2.0 * found.slot_end:.6g}",
             ("size", "wheel_bore_mm"),
+        )
+    own = assembly.mechanism.spec.size.arm_bore_mm
+    one_arm = assembly.given.spec.drive.ONE_ARM
+    if (
+        one_arm
+        and own
+        and found.crank_bore
+        and abs(0.5 * own - found.crank_bore) > SAME * assembly.L
+    ):
+        raise GenevaError(
+            f"arm_bore_mm = {own:g}: the same shaft goes through the locking disc, whose "
+            f"crank_bore_mm is {2.0 * found.crank_bore:g}; they must be equal, or crank_bore_mm 0, "
+            "where the shaft ends in the arm",
+            ("size", "arm_bore_mm"),
         )
     if found.lock and found.crank_bore >= found.lock:
         raise GenevaError(

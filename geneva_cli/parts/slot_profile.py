@@ -105,13 +105,12 @@ def way_at(engagement: Engagement, input_deg: Array, back: bool) -> Way:
 def _with_limit(
     of: Callable[[Engagement, Number], T], engagement: Engagement, input_deg: Array, back: bool
 ) -> T:
-    middle = np.flatnonzero(np.abs(input_deg) < MIDDLE_DEG) if back else ()
-    if not len(middle):
+    middle = np.abs(input_deg) < MIDDLE_DEG
+    if not back or not middle.any():
         return of(engagement, input_deg)
-    safe = input_deg.copy()
-    safe[middle] = 0.5 * engagement.entry_deg  # any regular place; overwritten below
-    at = of(engagement, safe)
+    # any regular place stands in for mid-motion
+    at = of(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
     limit = pitch_at_retrace(engagement)  # which begins as a way does
-    for column, value in zip(at, limit, strict=False):
-        array(column)[middle] = value
-    return at
+    columns = zip(at, limit, strict=False)
+    made: Callable[..., T] = type(at)
+    return made(*(np.where(middle, value, array(column)) for column, value in columns))

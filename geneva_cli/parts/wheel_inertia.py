@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from geneva_cli.curves.mass import MassProperties, added, face_properties, mass_properties
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.shapes import Contour, Line, about
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.assembly import Assembly, assembly
@@ -41,6 +44,15 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     wheel = face_properties(face.less(bores), size.wheel_thickness, density)
     hub = wheel_hub(where, size)
     return added(wheel, mass_properties(hub, density)) if hub else wheel
+
+
+@lru_cache(maxsize=16)
+def known_wheel_body(mechanism: Mechanism) -> MassProperties | None:
+    """The same, kept while the machine is asked about; None too where there are no parts."""
+    try:
+        return wheel_body(mechanism)
+    except GenevaError:
+        return None
 
 
 def _contour(where: Assembly, size: Sizes) -> Moments:

@@ -108,12 +108,30 @@ POSITIVE = Range(1e-12, 1e12)
 NOT_NEGATIVE = Range(0.0, 1e12)
 SPEED = Range(1e-9, 1e9)
 LENGTH = Range(-1e12, 1e12)
+TOOL_MM = Range(0.0, 1000.0, "(]")  # kerfs and cutters: no beam, no milling cutter is wider
 FINITE = Range(-math.inf, math.inf, "()")
 
 Z_MAX = 1_000_000  # most slots (and rollers) that are computed
 
 
+def require_mm(option: str, value: float, allowed: Range, of: str = "") -> None:
+    """Raise GenevaError, naming the option, for millimetres outside of their range.
+
+    ``of`` says what the range's upper end is.
+
+    >>> require_mm("--kerf", math.inf, TOOL_MM)
+    Traceback (most recent call last):
+    geneva_cli.errors.GenevaError: --kerf inf: must be above 0, at most 1000 mm
+    """
+    if value not in allowed:
+        raise GenevaError(f"{option} {value:g}: must be {allowed} mm{of and f', {of}'}")
+
+
 def is_array(x: object) -> bool:
-    """Whether it is a NumPy array, of designs; NumPy is not imported for the question."""
+    """Whether it is a NumPy array, of designs; NumPy is not imported for the question.
+
+    Another thread may be importing NumPy now. Before its module has the class, no array exists.
+    """
     numpy = sys.modules.get("numpy")
-    return numpy is not None and isinstance(x, numpy.ndarray)
+    array = vars(numpy).get("ndarray") if numpy else None
+    return array is not None and isinstance(x, array)

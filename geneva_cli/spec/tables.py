@@ -87,7 +87,7 @@ class Size(SpecTable):
     crank_bore_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
-        "diameter of the crank's bore; 0: no shaft through the wheel's plane",
+        "diameter of the crank's bore; arm_bore_mm if that is given; 0: the shaft ends below",
     ] = None
     crank_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
@@ -163,7 +163,9 @@ class Size(SpecTable):
         float | None, POSITIVE, "diameter of the pins on which links turn; L/20 where there is room"
     ] = None
     link_bore_mm: Annotated[
-        float | None, POSITIVE, "diameter of the links' bores for shafts; L/10 where there is room"
+        float | None,
+        POSITIVE,
+        "diameter of shafts of links alone; L/10 where there is room",
     ] = None
     link_width_mm: Annotated[
         float | None, POSITIVE, "width of the links round those pins; 2 pins"

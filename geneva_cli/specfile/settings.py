@@ -37,15 +37,21 @@ def setting(text: str, option: str = "--set") -> Setting:
     if not all(parts) or (len(parts) == 1 and parts != ["title"]):
         raise GenevaError(f"{said}: a key is written with its table, as in {option} drive.n_rpm=90")
     path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
-    return Setting(said, path, read_value(value))
+    return Setting(said, path, read_value(value, said))
 
 
-def read_value(text: str) -> Any:
-    """A value as TOML has it; anything else is a word."""
+def read_value(text: str, said: str) -> Any:
+    """Return the value as TOML has it; anything else is a word.
+
+    Raises GenevaError, which begins with ``said``, where other keys follow the value.
+    """
     try:
-        return tomli.loads(f"x = {text.strip()}")["x"]
+        tree = tomli.loads(f"x = {text.strip()}")
     except (tomli.TOMLDecodeError, RecursionError, ValueError):
         return _number(text.strip())
+    if len(tree) > 1:
+        raise GenevaError(f"{said}: one value, and a line with another key; give each its own")
+    return tree["x"]
 
 
 def _number(text: str) -> float | str:

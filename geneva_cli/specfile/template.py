@@ -40,11 +40,11 @@ EXAMPLES = {
         "steps of two sizes, a roller for each",
         {"wheel": {"z": 6, "steps_deg": [72, 48]}},
     ),
-    "side-crank-internal": Example(
-        "an internal wheel behind a side-crank",
+    "elliptical-internal": Example(
+        "an internal wheel behind elliptical gears: a shorter motion",
         {
             "wheel": {"z": 6, "gearing": "internal"},
-            "drive": {"kind": "side-crank", "A": -0.3},
+            "drive": {"kind": "elliptical-gears", "eccentricity": 0.25, "phase": "quick"},
         },
     ),
     "turret": Example(
@@ -64,9 +64,10 @@ DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
 KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
 
 
-def template(kind: str) -> str:
+def template(kind: str, schema: bool = True) -> str:
     """The text of a valid spec; every key that it can have is there, its default and its meaning.
 
+    With ``schema`` its first line names the JSON Schema in the same folder, for editors.
     Raises GenevaError for a kind that is not known.
     """
     if kind not in KINDS:
@@ -77,7 +78,7 @@ def template(kind: str) -> str:
     about, given = example(kind)
     drive = registry.drive(str(given.get("drive", {}).get("kind", Crank.NAME)))
     lines = [
-        f"#:schema ./{FILE}",  # for editors: `geneva schema -o` writes it
+        *([f"#:schema ./{FILE}"] if schema else []),
         f"# A Geneva mechanism: {about}.",
         "# Keys behind a # have the default shown, or none; remove the # to set them.",
         f"title = {quoted(about[0].upper() + about[1:])}",

@@ -12,7 +12,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
-NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest")
+NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why")
 
 
 class Verdict(NamedTuple):
@@ -52,7 +52,7 @@ def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
 def checks_table(found: list[Verdict]) -> Table:
     """A row for each check, spec after spec."""
     rows = [
-        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest)
+        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why)
         for v in found
         for c in v.checks
     ]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.numerics.keeps import ROUNDING
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
@@ -25,6 +27,8 @@ def compare(
 ) -> Table:
     """Columns ``quantity``, one for each design, and ``differs``; ``ratio``: over the first design.
 
+    Numbers differ where they do by more than rounding.
+
     One design is varied through values of keys (``vary``, ``KEY=VALUES``), or several are set side
     by side. ``picks`` are the quantities to show, without them all for which no parts are made;
     ``alike`` shows those that do not differ too. Raises GenevaError for a design that cannot be
@@ -32,7 +36,7 @@ def compare(
     """
     names, machines = _columns(paths, given, vary)
     if picks:
-        wanted = pick(picks, machines[0])
+        wanted = pick(picks)
         each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
     else:
         each = [values(Proof(m)) for m in machines]
@@ -41,10 +45,17 @@ def compare(
         if quantity.startswith(LEFT_OUT) and not picks:
             continue
         cells = [found.get(quantity) for found in each]
-        differs = any(c != cells[0] for c in cells[1:])
+        differs = not all(_same(c, cells[0]) for c in cells[1:])
         if any(c is not None for c in cells) and (differs or alike):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
     return rows_table(("quantity", *names, "differs"), rows, mixed=True)
+
+
+def _same(cell: Cell, first: Cell) -> bool:
+    """Whether two cells are equal, numbers but for rounding."""
+    if isinstance(cell, float) and isinstance(first, float):
+        return math.isclose(cell, first, rel_tol=ROUNDING)
+    return cell == first
 
 
 def _ratios(cells: Sequence[Cell]) -> list[Cell]:

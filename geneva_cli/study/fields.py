@@ -12,9 +12,9 @@ from typing import NamedTuple, TypeAlias
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.sizing import WHEEL, sizing
 from geneva_cli.analysis.loads.summary import summaries
-from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
+from geneva_cli.study.quantity_names import section_of, whole_name
 from geneva_cli.table import Table
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import every_check
@@ -91,7 +91,6 @@ class Pick(NamedTuple):
     sections: tuple[Section, ...]
     # the whole names in the order of the request, in which one may stand twice
     asked: tuple[str, ...] = ()
-    words: frozenset[str] = frozenset()  # names of those that are no numbers
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The quantities' values for a machine; None where one does not apply."""
@@ -100,63 +99,15 @@ class Pick(NamedTuple):
 
 
 def pick(
-    asked: Sequence[str],
-    mechanism: Mechanism,
-    option: str = "--pick",
-    options: Mapping[str, str] | None = None,
+    asked: Sequence[str], option: str = "--pick", options: Mapping[str, str] | None = None
 ) -> Pick:
-    """The quantities of these names, which may be shortened: ``dwell_s`` is timing.dwell_s.
+    """The quantities of these names, as ``whole_name`` resolves them.
 
-    ``mechanism`` is one that has them; ``options`` says which option asked for a name, where it was
-    not ``option``. Raises GenevaError, with the nearest name, for a name that is none, or is not
-    one alone.
+    ``options`` says which option asked for a name, where it was not ``option``. Raises GenevaError,
+    naming the option, for a name that is no quantity, or may be several.
     """
     by = dict.fromkeys(asked, option) | dict(options or {})
-    proof = Proof(mechanism)
-    known: dict[str, Section] = {}
-    names: dict[str, str] = {}
-    words: set[str] = set()
-    for section in ALL:
-        found_here = values(proof, (section,))
-        known |= dict.fromkeys(found_here, section)
-        words |= {name for name, value in found_here.items() if isinstance(value, str)}
-        names |= {a: found for a in asked if a not in names and (found := _named(a, known, by[a]))}
-        if len(names) == len(set(asked)):
-            break
-    for a in asked:
-        if a not in names:
-            raise GenevaError(
-                f"{by[a]} {cut(a)}: no quantity of a design{_nearest(a, known)}; `geneva compare` "
-                "shows all that are quick, and check names stand behind checks."
-            )
-    sections = tuple(dict.fromkeys(known[names[a]] for a in asked))
-    whole = tuple(names[a] for a in asked)
-    return Pick(tuple(dict.fromkeys(whole)), sections, whole, frozenset(words))
-
-
-def _nearest(asked: str, known: Iterable[str]) -> str:
-    """`` (did you mean "..."?)``: by a whole name, or by the end of one, as dwell for dwell_s.
-
-    A whole name behind a word too many, as velocity.max in peaks.velocity.max, comes first.
-    """
-    known = list(known)
-    behind = [name for name in known if asked.endswith(f".{name}")]
-    if behind:
-        return nearest(max(behind, key=len), behind)
-    ends: dict[str, str] = {}
-    for name in known:
-        parts = name.split(".")
-        for i in range(len(parts)):
-            ends.setdefault(".".join(parts[i:]), name)
-    return nearest(asked, ends)
-
-
-def _named(asked: str, known: Iterable[str], option: str) -> str | None:
-    """The whole name of a quantity among those known; None if it is not among them."""
-    among = list(known)
-    if asked in among:
-        return asked
-    found = [name for name in among if name.endswith(f".{asked}")]
-    if len(found) > 1:
-        raise GenevaError(f"{option} {cut(asked)}: it may be {' or '.join(found)}; say which")
-    return found[0] if found else None
+    names = {a: whole_name(a, by[a]) for a in asked}
+    sections = {section.by: section for section in ALL}
+    of = dict.fromkeys(sections[section_of()[name]] for name in names.values())
+    return Pick(tuple(dict.fromkeys(names.values())), tuple(of), tuple(names[a] for a in asked))

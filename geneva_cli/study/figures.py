@@ -13,6 +13,7 @@ from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.beside import beside
+from geneva_cli.study.quantity_names import whole_name
 
 QUANTITIES = tuple(OF_NAME)  # what may be drawn of a design
 FAMILY = 12  # curves of a panel that can be told apart by eye
@@ -58,7 +59,7 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
             f"{cut(path, 300)}: --x COLUMN and --y COLUMN,... say what to plot; it has "
             f"{', '.join(table.names)}"
         )
-    x, ys = table.named(x, "--x"), [table.named(y, "--y") for y in dict.fromkeys(ys)]
+    x, ys = _column(table, x, "--x"), [_column(table, y, "--y") for y in dict.fromkeys(ys)]
     at = table.numbers(x, "--x")
     families = _families(table, x)
     by_key = x in _keys(table) and RANDOM not in families
@@ -79,6 +80,22 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     room = 0.0 if lines and high > low else ROOM * (high - low) or 0.5 * abs(low) or 0.5
     title = f"{', '.join(ys)} by {x}"
     return Figure(title, Axis(x, x), tuple(panels), (low - room, high + room))
+
+
+def _column(table: Columns, asked: str, option: str) -> str:
+    """A column's whole name: of a quantity by any of its names, of others as ``named`` has it."""
+    if asked in table.names or not (quantity := _quantity(asked)):
+        return table.named(asked, option)
+    same = [name for name in table.names if _quantity(name) == quantity]
+    return same[0] if len(same) == 1 else table.named(asked, option)
+
+
+def _quantity(name: str) -> str | None:
+    """The whole name of a quantity; None for what is none, as a key or a column of other tables."""
+    try:
+        return whole_name(name)
+    except GenevaError:
+        return None
 
 
 def _keys(table: Columns) -> list[str]:

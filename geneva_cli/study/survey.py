@@ -81,7 +81,7 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
         *timing(motion, 360.0 / rollers - motion, index, n_rpm),
         velocity,
         acceleration,
-        at_deg,
+        -at_deg,  # the earlier of the two
         entry,
         3.0 * entry * entry,
         classic.rollers_max(motion),
@@ -113,7 +113,7 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
         *times,
         velocity,
         acceleration.max,
-        abs(acceleration.at_deg),
+        acceleration.at_deg,
         jumps.acceleration_entry,
         jumps.jerk_entry,
         mechanism.rollers_max,

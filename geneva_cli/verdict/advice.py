@@ -1,34 +1,34 @@
-"""The adviser: one change of the given spec by which a failing check would pass.
+"""The adviser: one change of the given spec with which all checks pass.
 
 It changes one value, builds the machine again and makes the checks. What it advises has been tried
-with the digits shown, and no check that passed fails by it. It spends at most one second of the
-processor's time on a check; where it has found nothing by then, or no single change helps, it says
-so.
+with the digits shown. It is the nearest value of its key, to ``NEARLY`` of the change. Trials are
+counted, not timed, so that the same spec gets the same advice on every machine; where their number
+is spent, or no single change helps, it says so.
 """
 
 from __future__ import annotations
 
 import math
-import time
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.budget import OutOfTime, time_limit
 from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.changes import Change, Value, value_now
-from geneva_cli.verdict.checks import checks, checks_quick_first, single_check
-from geneva_cli.verdict.checks.check import NONE, Check
+from geneva_cli.verdict.checks import checks, checks_at_rest, checks_turning, single_check
+from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 from geneva_cli.verdict.failures import JAMS
 from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
 
-SECONDS = 1.0  # of processor time, for one check
-LOOKS = 14  # trials between a value that fails and one that passes
-NEARLY = 0.02  # share of a change by which the value found may exceed the least one
+WHOLE = 40  # trials of all checks, for one piece of advice: about a second
+GLANCES = 400  # trials of the failing checks alone
+LOOKS = 20  # trials between a value that fails and one that passes
+NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 
 # Keys that change no outline: the parts need not be turned again.
 APART = (
@@ -39,168 +39,231 @@ APART = (
     ("size", "arm_thickness_mm"),
     ("size", "pin_held"),
     ("size", "lock_edge_mm"),
-    ("wheel", "held_by"),
     ("shaft", "wheel_diameter_mm"),
     ("shaft", "wheel_overhang_mm"),
     ("shaft", "crank_diameter_mm"),
     ("shaft", "crank_overhang_mm"),
     ("material.roller", "dynamic_capacity_N"),
 )
-GAPS = ("gap_mm", "idle_roller_mm")
+GAPS, LOOSE = ("gap_mm", "idle_roller_mm"), "hand_over_play_deg"  # told by a few positions
 # Checks that only a whole turn can answer.
-TURNED = (*JAMS, "dwell_hold", "dwell_play_deg", "motion_play_deg")
+TURNED = (*JAMS, *GAPS, "dwell_hold", "dwell_play_deg", "motion_play_deg", "full_turn")
+
+
+class OutOfTrials(Exception):
+    """The adviser has made all its trials: not a fault of the spec, so not a GenevaError."""
 
 
 def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
-    """Every check of a design, those that fail with the nearest change that would pass."""
-    start = time.process_time()
+    """Every check of a design, those that fail with one change with which all pass.
+
+    Where there is none, they say why, and which change each of them would pass with.
+    """
     rows = checks(mechanism, proof, parts)
-    adviser = Adviser(mechanism, rows, time.process_time() - start, parts)
-    return [
-        c if c.nearest or c.passes is not False else c._replace(nearest=adviser.advice(c) or NONE)
-        for c in rows
-    ]
+    failing = [c for c in rows if c.passes is False]
+    if not failing:
+        return rows
+    adviser = Adviser(mechanism, failing, parts)
+    found, why = adviser.advice(failing)
+    return [adviser.advised(c, found, why) if c.passes is False else c for c in rows]
 
 
 class Adviser:
-    """Looks for one change of the spec by which a failing check passes.
+    """Looks for one change of the spec with which failing checks pass.
 
-    ``rows`` are all the design's checks; ``taken`` is how many seconds they took, and so how many
-    a trial of all of them takes.
+    ``failing`` are all the design's checks that fail; without ``parts`` those of its motion and its
+    limits.
     """
 
-    def __init__(
-        self, mechanism: Mechanism, rows: list[Check], taken: float, parts: bool = True
-    ) -> None:
+    def __init__(self, mechanism: Mechanism, failing: list[Check], parts: bool = True) -> None:
         self.mechanism = mechanism
-        self.spec = mechanism.spec
-        self.passed = {c.name for c in rows if c.passes is not False}
-        self.taken = taken
+        self.failing = failing
         self.parts = parts
-        self.deadline = 0.0
-        self.longest = 0.0  # seconds that the dearest look took
 
-    def advice(self, failing: Check) -> str:
-        """The change as a line of the spec; nothing where none was found in time."""
-        self.deadline, self.longest = time.process_time() + SECONDS, 0.0
+    def advised(self, check: Check, found: str, why: str) -> Check:
+        """A failing check with the change with which all checks pass, or why there is none.
+
+        Where there is none, but one with which this check passes, that is said too.
+        """
+        if found:
+            return check._replace(nearest=found)
+        partly, _ = self.advice([check]) if self.failing[1:] else ("", "")
+        says = (check.why, why, partly and f"{partly} passes this one")
+        return check._replace(why="; ".join(text for text in says if text))
+
+    def advice(self, wanted: list[Check]) -> tuple[str, str]:
+        """The change, a line of the spec, with which some failing checks pass and no other fails.
+
+        Without one: an empty text, and why.
+        """
+        search = _Search(self, wanted)
         try:
-            with time_limit(self.deadline):
-                for change in remedies(failing.name, self.mechanism):
-                    found = self._least(change, failing)
-                    if found:
-                        return found
-        except OutOfTime:
-            pass
-        return ""
+            for change in self._changes(wanted):
+                found = search.least(change)
+                if found:
+                    return found, ""
+        except OutOfTrials:
+            return "", STOPPED
+        return "", NONE
 
-    def _least(self, change: Change, failing: Check) -> str:
-        """The least of one key's changes by which the check passes and no other fails."""
+    def _changes(self, wanted: list[Check]) -> Iterator[Change]:
+        """What may help any of some checks, each change once."""
+        seen = set()
+        for check in wanted:
+            for change in remedies(check.name, self.mechanism):
+                now = value_now(self.mechanism, change.table, change.key)
+                if now is None:
+                    continue
+                own = change.table, change.key, *change.values(now)
+                if own not in seen:
+                    seen.add(own)
+                    yield change
+
+
+class _Search:
+    """The search for the least change with which some failing checks pass, and its trials."""
+
+    def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
+        self.mechanism, self.parts = adviser.mechanism, adviser.parts
+        self.wanted = wanted
+        self.turned = any(c.name in TURNED for c in wanted)
+        self.may_fail = {c.name for c in adviser.failing} - {c.name for c in wanted}
+        self.whole, self.glances = WHOLE, GLANCES
+        self.units = [1.0 for _ in wanted]
+        self.units = [max(abs(x), 1e-300) for x in self._left(self.mechanism.spec)]
+
+    def least(self, change: Change) -> str:
+        """The least of one key's changes that will do, as a line of the spec; else nothing."""
         now = value_now(self.mechanism, change.table, change.key)
-        if now is None:
-            return ""
-        bad: Value = now
-        short = _spare(failing)
-        for good in change.values(now):
-            left = self._left(change, good, failing)
+        bad, short = now, self._glance(change, now)
+        for good in map(_as_written, change.values(now)):
+            left = self._glance(change, good)
             if good == now or left < 0.0:
                 bad, short = good, left
                 continue
-            numbers = isinstance(good, float) and isinstance(bad, float)
-            if numbers and failing.name not in TURNED:
-                near = self._nearest(change, (good, left), (bad, short), failing)
-                near = rounded(near, cast(float, good), cast(float, bad))
-                if near != good and self._holds(change, near, failing):
-                    return line(change.key, near)
-            if self._holds(change, good, failing):
-                return line(change.key, good)
-            bad, short = good, -1.0
+            if not (isinstance(now, float) and isinstance(bad, float) and isinstance(good, float)):
+                if self._holds(change, good):
+                    return line(change.key, good)
+                bad, short = good, left
+                continue
+            if short < 0.0:
+                edge = self._edge(change, now, Falsi(good, left, bad, short))
+                bad = rounded(edge, good, now)
+                if self._holds(change, bad):
+                    return line(change.key, bad)
+            if bad != good and self._holds(change, good):
+                return line(change.key, self._halved(change, now, good, bad))
+            bad, short = good, left
         return ""
 
-    def _nearest(
-        self, change: Change, good: tuple[Any, float], bad: tuple[Any, float], failing: Check
-    ) -> float:
-        """The value nearest to one that fails, as nearly as there is time for.
-
-        The steps are those of ``numerics.roots.Falsi``, taken here because time may run out. A
-        value that makes no machine leaves minus infinity of the limit: the search then halves.
-        """
-        start, short = bad
-        found, enough = Falsi(*good, *bad), NEARLY * abs(short) if math.isfinite(short) else 0.0
+    def _edge(self, change: Change, now: float, found: Falsi) -> float:
+        """The value nearest to the present one with which the failing checks pass at a glance."""
         for _ in range(LOOKS):
-            x = found.good
-            if found.left <= enough or abs(x - found.bad) <= NEARLY * abs(x - start):
+            if abs(found.good - found.bad) <= NEARLY * abs(found.good - now):
                 break
-            # Keep the time for a trial of the value found; for gaps also of the one known before,
-            # should the first fail.
-            spare = (2.0 if failing.name in GAPS else 1.0) * self._whole(change)
-            if time.process_time() + self.longest + spare > self.deadline:
+            middle = found.middle(NEARLY)
+            found.add(middle, self._glance(change, middle))
+        return found.good
+
+    def _halved(self, change: Change, now: float, good: float, bad: float) -> float:
+        """The value nearest to the present one with which all checks pass, beyond a bad one."""
+        end = good
+        while abs(good - bad) > NEARLY * abs(good - now):
+            middle = float(_as_written(0.5 * (good + bad)) or 0.0)
+            if middle in (good, bad):
                 break
-            middle = found.middle(0.02)
-            found.add(middle, self._left(change, middle, failing))
-        return float(found.good)
+            if self._holds(change, middle):
+                good = middle
+            else:
+                bad = middle
+        near = rounded(good, end, now)
+        return near if near != good and self._holds(change, near) else good
 
-    def _whole(self, change: Change) -> float:
-        """Seconds that a trial of all checks takes."""
-        return 0.0 if (change.table, change.key) in APART else self.taken
+    def _glance(self, change: Change, value: Value) -> float:
+        """How far inside their limits the wanted checks are, the worst of them; negative outside.
 
-    def _left(self, change: Change, value: Value, failing: Check) -> float:
-        """How far inside the failing check's limit a value is, negative outside.
-
-        Only what is quick is worked out: this one check, or the gap where parts overlap now.
+        Times what each was outside. Only what is quick is made. It is minus infinity for a value
+        that makes no machine.
         """
-        spec = changed(self.spec, change.table, change.key, value)
+        self.glances -= 1
+        if self.glances < 0:
+            raise OutOfTrials
+        spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return -math.inf
-        if failing.name in TURNED:
-            return math.inf  # only a whole turn can tell, and it is made once, with all the rest
-        start = time.process_time()
-        if start + self.longest > self.deadline:
-            raise OutOfTime
-        try:
-            if failing.name in GAPS:
-                return _clears(build(spec), failing.at_deg or 0.0)
-            row = single_check(build(spec), failing.name)
-            return _spare(row) if row else math.inf
-        except GenevaError:
-            return -math.inf
-        finally:
-            self.longest = max(self.longest, time.process_time() - start)
+        lefts = self._left(spec)
+        return min(left / unit for left, unit in zip(lefts, self.units, strict=True))
 
-    def _holds(self, change: Change, value: Value, failing: Check) -> bool:
-        """Whether the check passes with a value, and everything that passed before still does."""
-        spec = changed(self.spec, change.table, change.key, value)
+    def _left(self, spec: Spec) -> list[float]:
+        try:
+            machine = build(spec)
+        except GenevaError:
+            return [-math.inf for _ in self.wanted]
+        return [_left(machine, check) for check in self.wanted]
+
+    def _holds(self, change: Change, value: Value) -> bool:
+        """Whether, with a value, the wanted checks pass and no other fails that passed before."""
+        spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return False
-        # A machine that jams takes up to twice as long to turn as one that does not.
-        if time.process_time() + 0.5 * self._whole(change) > self.deadline:
-            raise OutOfTime
-        apart = (change.table, change.key) in APART
-        must = self.passed | {failing.name, "parts"}
+        from geneva_cli.parts.proof import Proof
+        from geneva_cli.parts.turn.gaps import NotProved
+
+        turn = self.turned or (change.table, change.key) not in APART
         try:
-            rows = checks_quick_first(
-                build(spec), self.parts and (not apart or failing.name == "dwell_hold")
-            )
-            return all(c.passes is not False for c in rows if c.name in must)
+            machine = build(spec)
+            proof = Proof(machine, advice=False) if self.parts and spec.has_parts else None
+            if not self._pass(checks_at_rest(machine, proof)):
+                return False
+            if proof is None or not turn:
+                return True
+            self.whole -= 1
+            if self.whole < 0:
+                raise OutOfTrials
+            return self._pass(checks_turning(proof))
+        except NotProved:
+            raise OutOfTrials from None  # a trial of some seconds: no more of them
         except GenevaError:
             return False
 
+    def _pass(self, rows: Iterable[Check]) -> bool:
+        return all(c.passes is not False or c.name in self.may_fail for c in rows)
 
-def _clears(mechanism: Mechanism, at_deg: float) -> float:
-    """Plus infinity where no parts overlap about one input angle, minus infinity where they do."""
-    from geneva_cli.parts.proof import Proof
-    from geneva_cli.parts.turn.glance import gap_about
 
-    found = Proof(mechanism).turned
-    return math.inf if gap_about(found, at_deg) >= -found.contact else -math.inf
+def _left(machine: Mechanism, check: Check) -> float:
+    """How far a machine is inside the limit of a check that fails now, negative outside.
+
+    A check of the turn is made about the input angle where it fails; where only a whole turn can
+    tell, it is infinity. It is minus infinity where there are no parts to check.
+    """
+    try:
+        if check.at_deg is not None and check.name in (*GAPS, LOOSE):
+            from geneva_cli.parts.proof import Proof
+            from geneva_cli.parts.turn.glance import gap_about, loose_about
+            from geneva_cli.verdict.checks.play import finds_slot
+
+            parts = Proof(machine, advice=False).turned
+            if check.name in GAPS:
+                return gap_about(parts, check.at_deg) + parts.contact
+            return finds_slot(parts) - loose_about(parts, check.at_deg)
+        row = None if check.name in TURNED else single_check(machine, check.name)
+        return _spare(row) if row else math.inf
+    except GenevaError:
+        return -math.inf
 
 
 def _spare(check: Check) -> float:
     """What is left of a check's limit, negative where it fails."""
     if check.value is None or check.limit is None:
-        return -math.inf
+        return -math.inf if check.passes is False else math.inf
     left = check.limit - check.value
     left = left if check.must_be == "at most" else -left
-    return max(left, 0.0) if check.passes else min(left, -5e-324)
+    return min(left, -5e-324) if check.passes is False else max(left, 0.0)
+
+
+def _as_written(value: Value) -> Value:
+    """A value with the digits that are shown of it."""
+    return float(f"{value:.12g}") if isinstance(value, float) else value
 
 
 def rounded(good: float, far: float, bad: float) -> float:

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 # Keys that are not given by default, and take a word.
 WORDS = ("ratio", "held_by")
-STEPS = (
-    24  # from the present value to the last one tried: beyond one that passes may be one that fails
-)
+# From the present value to the last one tried: beyond one that passes may be one that fails.
+STEPS = 24
+COARSE = 12  # of a size, whose trials take a whole turn
 
 # The value of a key of [size], from the sizes that the machine's parts get.
 _SIZES: dict[str, Callable[[Sizes], float]] = {
@@ -74,9 +74,23 @@ def size_now(mechanism: Mechanism, key: str) -> float | None:
         return None
 
 
-def scaled(table: str, key: str, *factors: float) -> Change:
-    """The present value times some factors."""
-    return Change(table, key, lambda now: [factor * now for factor in factors])
+def scaled(table: str, key: str, factor: float) -> Change:
+    """Steps from the present value to a multiple of it: of one ratio, or even ones to 0."""
+    if factor > 0.0:
+        factors = [factor ** (i / COARSE) for i in range(1, COARSE + 1)]
+    else:
+        factors = [1.0 - i / COARSE for i in range(1, COARSE + 1)]
+    return Change(table, key, lambda now: [f * now for f in factors] if now else [])
+
+
+def sized(table: str, key: str) -> tuple[Change, ...]:
+    """A given value made smaller, made larger, and left out."""
+    return scaled(table, key, 0.3), scaled(table, key, 3.0), left_out(table, key)
+
+
+def fewer(table: str, key: str, least: int) -> Change:
+    """Fewer of what is counted, down to the least number."""
+    return Change(table, key, lambda now: list(range(now - 1, least - 1, -1)))
 
 
 def replaced(table: str, key: str, *values: Value) -> Change:
@@ -94,13 +108,13 @@ def left_out(table: str, key: str) -> Change:
     return set_to(table, key, None)
 
 
-def towards(table: str, key: str, end: float) -> Change:
+def towards(table: str, key: str, end: float, steps: int = STEPS) -> Change:
     """Even steps from a present number to an end."""
 
     def values(now: Any) -> list[Value]:
         if not isinstance(now, float):
             return []
-        return [now + (end - now) * i / STEPS for i in range(1, STEPS + 1)]
+        return [*(now + (end - now) * i / steps for i in range(1, steps)), end]
 
     return Change(table, key, values)
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geneva_cli.verdict.checks.check import NONE, Check
+from geneva_cli.table import in_digits
+from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
@@ -25,11 +26,12 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
     for c in rows:
         if c.passes is not False:
             continue
-        nearest = c.nearest if c.nearest != NONE else ""
         if c.name == "full_turn":
-            refused.append(c.nearest)
+            refused.append(c.why)
         elif c.name == "parts":  # why there are none
-            warned.append(c.nearest)
+            warned.append(c.why)
+        elif c.not_computed:
+            warned.append(c.not_computed)
         elif c.name in JAMS or (
             c.name not in BELOW
             and c.must_be == "at least"
@@ -38,10 +40,13 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
         ):
             turn = turn or proof.turn
             refused.append(in_words(c, turn.smallest.parts))
-            advice = advice or nearest
+            advice = advice or c.nearest
         else:
-            warned.append(in_words(c) + (f"; {nearest} would pass" if nearest else ""))
-    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), warned
+            more = f"{c.nearest} would pass" if c.nearest else c.why
+            warned.append("; ".join(text for text in (in_words(c), more) if text))
+    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), [
+        *dict.fromkeys(warned)
+    ]
 
 
 def in_words(c: Check, parts: str = "parts") -> str:
@@ -73,4 +78,5 @@ def in_words(c: Check, parts: str = "parts") -> str:
             f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
             f"{limit:.4g}"
         )
-    return f"{c.name} is {value:.6g}{where}; it must be {c.must_be} {limit:.6g}"
+    shown = in_digits(value, 6)
+    return f"{c.name} is {shown}{where}; it must be {c.must_be} {limit:.6g}"

@@ -42,7 +42,7 @@ def lock_sizes_of_many(mechanism: Mechanism) -> LockSizes | None:
     m = designs_in(spec)
     rows = np.full((1 + len(Lock._fields), m, 1), np.nan)
     for i in range(m):
-        one = build(alone(spec, i) if m > 1 else spec)
+        one = build(alone(spec, i))
         found = sized(one)
         if found is not None and found[1].lock:
             rows[:, i, 0] = found[1].half_width, *lock_of(*found)

@@ -11,16 +11,20 @@ from collections.abc import Iterator
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Z_USUAL, Size
 from geneva_cli.verdict.changes import (
+    COARSE,
     Change,
     Value,
+    fewer,
     increased,
     left_out,
     replaced,
     scaled,
     set_to,
     size_now,
+    sized,
     towards,
 )
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
 # Sizes that, put back to their defaults, free a machine that jams.
 FREE = (
@@ -30,10 +34,11 @@ FREE = (
     "relief_clearance_mm",
     "slot_bottom_clearance_mm",
     "wheel_outer_radius_mm",
-    "lock_clearance_mm",
-    "slot_clearance_mm",
     "roller_radius_mm",
 )
+# What the machine is made for: how large it is, how it is made, how thick its walls must be. No
+# advice asks for less.
+REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
 
 
 def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
@@ -48,16 +53,34 @@ def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
             yield set_to("drive", "gear_ratio", "shockless")
         yield from _defaults(mechanism)
         yield from (
-            scaled("size", "roller_radius_mm", 0.7, 0.4),
-            replaced("wheel", "offset_mm", 0.0),
+            scaled("size", "lock_clearance_mm", 0.0),
+            scaled("size", "slot_clearance_mm", 0.0),
+            scaled("size", "roller_radius_mm", 0.4),
+            towards("wheel", "offset_mm", 0.0, COARSE),
         )
+    if check not in MOTION and check not in LIMITS:
+        yield from _given(mechanism)
 
 
 def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
     """A hub as thin as its bore, where it is thicker."""
     bore, hub = (size_now(mechanism, f"{part}_{what}_mm") for what in ("bore", "hub"))
     if bore is not None and hub is not None and hub > bore:
-        yield set_to("size", f"{part}_hub_mm", bore)
+        yield towards("size", f"{part}_hub_mm", bore, COARSE)
+
+
+def _given(mechanism: Mechanism) -> Iterator[Change]:
+    """Each given size made smaller, larger, and left out; fewer of what is counted."""
+    usual = Size().as_dict()
+    for key, value in mechanism.spec.size.as_dict().items():
+        if value == usual[key] or key in REQUIRED:
+            continue
+        if isinstance(value, int):
+            yield fewer("size", key, 0)
+        elif isinstance(value, float):
+            yield from sized("size", key)
+        else:
+            yield left_out("size", key)
 
 
 def _defaults(mechanism: Mechanism) -> Iterator[Change]:
@@ -67,12 +90,11 @@ def _defaults(mechanism: Mechanism) -> Iterator[Change]:
         usual = usual_sizes[key]
         if given[key] == usual:
             continue
-        values: list[Value] = [usual]
-        if usual is None:
-            without = mechanism.spec.with_(f"size.{key}", None)
-            default = size_now(mechanism._replace(spec=without), key)
-            values = [None] if default is None else [default, None]
-        yield Change("size", key, lambda now, values=values: values)  # type: ignore[misc]
+        without = mechanism.spec.with_(f"size.{key}", None)
+        default = size_now(mechanism._replace(spec=without), key) if usual is None else usual
+        if isinstance(default, float):
+            yield towards("size", key, default, COARSE)
+        yield set_to("size", key, usual)
 
 
 def _sine(now: float) -> list[Value]:
@@ -80,7 +102,7 @@ def _sine(now: float) -> list[Value]:
 
 
 _SLOTS = Change("wheel", "z", lambda z: list(range(z + 1, Z_USUAL + 1)))
-_FEWER = Change("drive", "rollers", lambda m: list(range(m - 1, 0, -1)))
+_FEWER = fewer("drive", "rollers", 1)
 _MOTION = (increased("motion", "alpha0_deg", -180.0), increased("motion", "alpha0_deg", 180.0))
 _DRIVE = (
     towards("drive", "A", 0.99),
@@ -115,6 +137,13 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         _LARGER,
         *_MILDER,
     ),
+    "stopping_torque_Nm": (scaled("drive", "n_rpm", 30.0),),
+    "entry_shock_N": (
+        scaled("tolerance", "crank_radius_mm", 0.0),
+        scaled("tolerance", "center_distance_mm", 0.0),
+        _SLOWER,
+    ),
+    "reversal_shock_N": (scaled("size", "slot_clearance_mm", 0.0), _SLOWER),
     "pv_max_W_m2": (_SLOWER, scaled("size", "face_width_mm", 10.0), _LARGER),
     "roller_life_min_h": (
         scaled("material.roller", "dynamic_capacity_N", 10.0),
@@ -127,7 +156,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         _LARGER,
     ),
     "pin_stress_MPa": (
-        scaled("size", "pin_mm", 1.9, 1.5, 1.2),
+        scaled("size", "pin_mm", 1.9),
         set_to("size", "pin_held", "fixed"),
         scaled("size", "face_width_mm", 0.1),
         _SLOWER,
@@ -176,8 +205,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "wall_between_slots_mm": (_SMALLER, scaled("size", "slot_clearance_mm", 0.0)),
     "horn_mm": (
-        scaled("size", "lock_radius_mm", 0.5),
-        left_out("size", "lock_radius_mm"),
+        *sized("size", "lock_radius_mm"),
         _SMALLER,
         scaled("size", "lock_clearance_mm", 0.0),
         scaled("size", "slot_clearance_mm", 0.0),
@@ -197,9 +225,10 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "arm_eye_mm", 0.5),
         replaced("size", "crank_bore_mm", 0.0),
         *(
-            left_out("size", f"{part}_{what}_mm")
+            change
             for part in ("wheel", "crank")
             for what in ("hub", "hub_length", "shaft_low", "shaft_high")
+            for change in sized("size", f"{part}_{what}_mm")
         ),
     ),
     "gear_gap_mm": (
@@ -214,29 +243,33 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         left_out("size", "wheel_hub_mm"),
     ),
     "arm_wall_mm": (
-        *(left_out("size", key) for key in ("arm_hub_mm", "arm_eye_mm")),
+        *(c for key in ("arm_hub_mm", "arm_eye_mm") for c in sized("size", key)),
         scaled("size", "arm_bore_mm", 0.3),
         scaled("size", "lock_bolt_mm", 0.2),
-        left_out("size", "lock_bolt_circle_mm"),
+        *sized("size", "lock_bolt_circle_mm"),
+        fewer("size", "lock_bolts", 0),
         left_out("size", "crank_keyway"),
     ),
     "arm_to_hub_mm": (scaled("size", "arm_eye_mm", 0.2),),
     "link_wall_mm": tuple(
-        left_out("size", key) for key in ("link_bore_mm", "link_pin_mm", "link_width_mm", "pin_mm")
+        change
+        for key in ("link_bore_mm", "link_pin_mm", "link_width_mm", "pin_mm")
+        for change in sized("size", key)
     ),
     "link_gap_mm": (
-        *(left_out("size", key) for key in ("link_width_mm", "link_pin_mm", "crank_shaft_low_mm")),
+        *(c for key in ("link_width_mm", "link_pin_mm") for c in sized("size", key)),
+        left_out("size", "crank_shaft_low_mm"),
         scaled("size", "wheel_hub_mm", 0.5),
         set_to("size", "wheel_hub_mm", 0.0),
     ),
     "dial_wall_mm": (
-        left_out("size", "dial_bolt_circle_mm"),
-        scaled("size", "dial_bolt_mm", 0.2),
-        left_out("size", "dial_bolt_mm"),
+        *sized("size", "dial_bolt_circle_mm"),
+        *sized("size", "dial_bolt_mm"),
+        fewer("size", "dial_bolts", 0),
         scaled("size", "wheel_bore_mm", 0.3),
         left_out("size", "wheel_keyway"),
     ),
-    "outer_wall_mm": (left_out("size", "wheel_outer_radius_mm"),),
+    "outer_wall_mm": sized("size", "wheel_outer_radius_mm"),
     "branches_apart_mm": _WIDER,
     "branches_crossed_mm": _WIDER,
 }

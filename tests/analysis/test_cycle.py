@@ -119,7 +119,7 @@ def test_no_sample_is_beyond_the_extremes(name):
         )
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(st.sampled_from([*LOADED]), st.floats(0.1, 10.0), st.floats(0.1, 10.0))
 def test_scaled_loads_scale_the_forces(name, heavier, larger):
     """A load so many times as large takes so many times the forces; in a machine so many times as

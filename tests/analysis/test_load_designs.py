@@ -12,6 +12,9 @@ from geneva_cli.spec.tables import Load, Support
 
 LOAD = Load(0.02, 3.0, friction=0.1)
 ULP = 2.0**-52
+# Units in the last place of a quantity's peak. The rounding of one of a table's 41 points moves its
+# second derivative by some 41² units, of a peak of 2 pi: 268. The solution may add half of that.
+WITHIN = {"table-law": 128.0}
 PLACES = (-0.85, -0.3, 0.05, 0.7)  # shares of the way to entry, and to exit
 # Where a linkage's wheel has its entry and exit, nearly: degrees of its crank.
 NEAR = {"slider-crank": (60.75, 225.23), "four-bar": (123.3, 236.7)}
@@ -66,6 +69,7 @@ def spherical(mechanism, number, x):
 @pytest.mark.parametrize("name", NAMES)
 def test_loads_of_a_design(name):
     """Within 32 units in the last place of each quantity's peak; angles of all engagements."""
+    within = WITHIN.get(name, 32.0)
     mechanism = loaded(name)
     witness = planar if mechanism.spec.wheel.FLAT else spherical
     cycle, count = Cycle(mechanism), len(mechanism.engagements)
@@ -83,4 +87,4 @@ def test_loads_of_a_design(name):
             size = abs(getattr(whole, quantity))
             peak = size[np.isfinite(size)].max()
             off = abs(load_witness.mp.mpf(float(found[0])) - exact)
-            assert off <= 32.0 * ULP * peak, (quantity, x, float(off / (ULP * peak)))
+            assert off <= within * ULP * peak, (quantity, x, float(off / (ULP * peak)))

@@ -24,8 +24,8 @@ from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, 
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.spread import spread
 from geneva_cli.analysis.vibration.answers import values
-from geneva_cli.analysis.vibration.many import vibrations_of_many
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
+from geneva_cli.analysis.vibration.vibration import vibrations_of_many
 from geneva_cli.machine import registry
 from geneva_cli.machine.many import many
 from geneva_cli.spec.tables import (

@@ -7,11 +7,11 @@ import pytest
 import vibration_witness as witness
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from swings import shares
 from words import law
 
 from geneva_cli import External
 from geneva_cli.analysis.vibration.shape import law_shape, shape
-from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 
@@ -28,8 +28,7 @@ def of(name):
 
 
 def amplitudes(form, ratios, damping=0.0):
-    ratios = np.array(ratios, dtype=float)
-    return np.abs(residual_swing(form, Swing(ratios, np.full(ratios.shape, damping))))
+    return shares(form, np.array(ratios, dtype=float), damping)
 
 
 def close(found, exact):
@@ -47,7 +46,7 @@ def test_residuals_of_laws(name, damping):
 
 
 @given(st.sampled_from(LAWS), st.floats(0.01, 60.0), st.floats(0.0, 0.99))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_residuals_anywhere(name, ratio, damping):
     found = amplitudes(of(name), [ratio], damping)[0]
     assert close(found, witness.amplitude(name, ratio, damping))

@@ -1,20 +1,30 @@
 """The bench: structure, errors of ours, frontier by error. Never a time: that is for people."""
 
 import json
+import math
 import re
 import subprocess
 import sys
 from importlib.util import find_spec
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
-from geneva_cli.bench.method import Row, beats, with_frontier
+from geneva_cli.bench.formulas import Proportions
+from geneva_cli.bench.method import Row, beats, missing, with_frontier
+from geneva_cli.bench.numeric import by_chebpy
 from geneva_cli.bench.run import SUBJECTS, measure
+from geneva_cli.bench.scalar_loop import looped
 from geneva_cli.bench.subjects import export as bench_export
+from geneva_cli.bench.subjects import motion as bench_motion
 from geneva_cli.bench.subjects import start as bench_start
+from geneva_cli.bench.subjects.cranks import Designs
+from geneva_cli.bench.subjects.motion import EXPRESSIONS, stable
 from geneva_cli.bench.timing_pairs import median_ratio, ratios
+from geneva_cli.bench.truth import acceleration_peak, relative
 
 # The greatest error that ours may show, in the subject's own measure.
 OURS = {
@@ -168,6 +178,76 @@ def test_libraries_write_the_same_numbers(name):
     (task,) = subject.tasks
     (method,) = [m for m in task.methods if m.name == name]
     assert task.error(method.run()) == 0.0
+
+
+def test_exports_of_more_rows_than_are_held_are_compared_too(monkeypatch):
+    """A longer table makes its rows while it is written: the other writers want whole arrays."""
+    monkeypatch.setattr("geneva_cli.analysis.motion.HELD", 1000)
+    monkeypatch.setattr(bench_export, "COUNTS", (3000,))
+    monkeypatch.setattr(bench_export, "TRACED", 0)
+    (task,) = bench_export.subject(False).tasks
+    assert task.name == "3000 rows x 6"
+    task.baseline_run()
+    assert {method.name: task.error(method.run()) for method in task.methods} == dict.fromkeys(
+        [method.name for method in task.methods], 0.0
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "library", "method"),
+    [
+        ("peaks", "chebfun", "chebpy, roots of the slope"),
+        ("cranks", "numba", "numba, loop over designs"),
+        ("motion", "numexpr", "stable formula, numexpr"),
+    ],
+)
+def test_a_library_takes_part_or_is_said_to_be_missing(measured, name, library, method):
+    subject, rows = measured[name]
+    is_here = not missing(library)
+    assert list(subject.absent) == ([] if is_here else [library])
+    assert (method in {row.method for row in rows}) == is_here
+
+
+def test_the_loop_for_numba_finds_the_peaks():
+    """Run as it is written, not compiled; against 50 digits."""
+    designs = Designs(300)
+    sign, l, A, _ = designs.arrays
+    found = np.zeros(300)
+    looped(lambda function: function)(sign, l, A, found)
+    assert designs.error(found) < 4e-15
+
+
+def test_the_expressions_for_numexpr_are_the_stable_formula():
+    l, x = math.sin(math.pi / 3.0), np.linspace(-0.5, 0.5, 101)
+    for text, exact in zip(EXPRESSIONS, stable(l, x, range(4)), strict=True):
+        found = eval(text, {**vars(np), "l": l, "x": x})
+        assert np.abs(found - exact).max() < 4e-15 * np.abs(exact).max()
+
+
+def test_blocks_are_the_whole(monkeypatch):
+    monkeypatch.setattr(bench_motion, "BLOCK", 7)
+    x = np.linspace(-0.5, 0.5, 101)
+    whole, parts = (formula(0.5, x, (1, 3)) for formula in (stable, bench_motion.blocks))
+    assert np.array_equal(whole, parts)
+
+
+class Series(np.polynomial.Chebyshev):
+    """What of a chebfun is asked for."""
+
+    diff = np.polynomial.Chebyshev.deriv
+
+    def roots(self):
+        found = super().roots()
+        real = found.real[np.abs(found.imag) < 1e-9]
+        return real[(real > self.domain[0]) & (real < self.domain[1])]
+
+
+def test_the_call_of_chebpy_finds_the_peak(monkeypatch):
+    stand_in = SimpleNamespace(chebfun=lambda f, ends: Series.interpolate(f, 60, ends))
+    monkeypatch.setitem(sys.modules, "chebpy", stand_in)
+    for z, gearing, A in ((3, "external", 0.0), (6, "external", 0.6)):
+        found = by_chebpy(Proportions.of(z, gearing, A))
+        assert relative(found, acceleration_peak(z, gearing, A)) < 1e-14
 
 
 def test_scripts_of_the_start_print_the_row():

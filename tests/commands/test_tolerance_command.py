@@ -49,7 +49,7 @@ def test_the_same_seed_the_same_bytes(format):
         (["--samples", "0"], "--samples 0: it must be from 1 to 10000000"),
         (["--samples", "1000000000000"], "it must be from 1 to 10000000"),
         (["--seed", "-4"], "--seed -4: it must be 0 or more"),
-        (["--radius", "inf"], "--radius inf: it must be above 0 mm, and finite"),
+        (["--radius", "inf"], "--radius inf: must be above 0"),
         (["--set", "tolerance.slot_width_mm=-1"], "slot_width_mm = -1"),
         (["--set", "tolerance.slot_width_mm=40"], "below 20.09, the slot's width"),
         (["--set", "size.lock_radius_mm=0"], "this machine has no locking disc; remove it"),

@@ -203,5 +203,5 @@ def test_what_is_no_part_to_cut(two_pins):
     design, proof, _ = two_pins
     with pytest.raises(GenevaError, match="--cutter is for parts that are cut out of a plate"):
         design.cutter("assembly", 3.0, of=proof)
-    with pytest.raises(GenevaError, match="--cutter 0: its diameter must be above 0 mm"):
+    with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
         design.cutter("crank", 0.0, of=proof)

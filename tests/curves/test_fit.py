@@ -217,7 +217,7 @@ def test_ends_tangents_and_errors(name, kind, tolerance):
     check(curve, a, b, kind(curve, a, b, tolerance), tolerance, kind)
 
 
-@settings(max_examples=25, derandomize=True, database=None, deadline=None)
+@settings(max_examples=25)
 @given(
     st.lists(st.floats(-1.0, 1.0), min_size=10, max_size=10),
     st.sampled_from([1e-1, 1e-2, 1e-3, 1e-4]),

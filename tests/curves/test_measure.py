@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError
 
 FINE = 1e-5  # mm, of the witnesses' polygons
 # Few examples: the whole file stays within seconds, and each is compared in several ways.
-QUICK = settings(max_examples=60, deadline=None, derandomize=True)
+QUICK = settings(max_examples=60)
 
 
 def winding_area(points):

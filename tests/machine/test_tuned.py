@@ -5,10 +5,10 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from swings import shares
 from words import law, load
 
 from geneva_cli import Design, External, Motion, Tuned
-from geneva_cli.analysis.vibration.lobes import shares
 from geneva_cli.analysis.vibration.shape import law_shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry

@@ -1,17 +1,14 @@
-"""Splines and small matrices in our own order of operations: right, and the same everywhere."""
+"""Small matrices in our own order of operations: right, and the same bytes everywhere."""
 
 import os
 import signal
 import subprocess
 import sys
-from decimal import Decimal
 
 import numpy as np
 import pytest
 import repo
-from scipy.interpolate import make_interp_spline
 
-from geneva_cli.numerics import spline
 from geneva_cli.numerics.linear import gram, inverse2, product
 
 EPS = np.finfo(float).eps
@@ -24,36 +21,6 @@ def test_stacks():
     assert product(a, b) == pytest.approx(a @ b, rel=0, abs=8 * EPS)
     assert gram(c, c) == pytest.approx(c.transpose(0, 2, 1) @ c, rel=0, abs=1000 * EPS)
     assert product(inverse2(a), a) == pytest.approx(np.stack([np.eye(2)] * 7), rel=0, abs=1e-12)
-
-
-def exact(values):
-    return [Decimal(v) for v in values]
-
-
-@pytest.mark.parametrize("count", [7, 8, 41, 300])
-def test_splines_are_scipys(count):
-    """The same spline as SciPy's own, through points uneven by some hundreds to one."""
-    rng = np.random.default_rng(count)
-    x = np.concatenate(([0.0], np.sort(rng.random(count - 2)), [1.0]))
-    y = x * x * (3.0 - 2.0 * x)
-    between = np.concatenate((x, rng.random(1000)))
-    flat = [(1, 0.0), (2, 0.0)]
-    found = spline.at_rest(exact(x.tolist()), exact(y.tolist())).rounded()
-    known = make_interp_spline(x, y, k=5, bc_type=(flat, flat))
-    # what SciPy's rounds comes to some 1e-14 of coefficients about 1
-    assert found(between, 0)[0] == pytest.approx(known(between), rel=0, abs=1e-12)
-    assert found(x, 0)[0].tolist() == y.tolist()
-    for end in (0.0, 1.0):
-        assert found(end, 2) == [end, 0.0, 0.0]
-    for v in between[-9:]:
-        assert found(float(v), 5) == [c[0] for c in found(np.array([v]), 5)]
-
-    y = 1.0 - 0.3 * np.cos(2.0 * np.pi * x)
-    y[-1] = y[0]
-    found = spline.periodic(exact(x.tolist()), exact(y.tolist())).rounded()
-    known = make_interp_spline(x, y, k=5, bc_type="periodic")
-    assert found(between, 0)[0] == pytest.approx(known(between), rel=0, abs=1e-12)
-    assert found(x, 0)[0].tolist() == y.tolist()
 
 
 # What is written of machines whose curves, laws or gears come from systems of equations

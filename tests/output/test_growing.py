@@ -1,6 +1,9 @@
 """A file that grows: whole at the end, kept when stopped, gone on from only for the same."""
 
 import os
+import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -20,9 +23,30 @@ def read(path):
         return file.read()
 
 
-def begun(path, text):
-    with Growing(path, HEADER, KEY, False) as file:
-        file.append(text)
+def begun(path, *blocks, header=HEADER):
+    """What a stopped run leaves."""
+    with Growing(path, header, KEY, False) as file:
+        for block in blocks:
+            file.append(block)
+
+
+def change(path, old, new):
+    """Damage the state file; returns it."""
+    with open(path + ".geneva", "rb") as file:
+        whole = file.read()
+    assert old in whole
+    with open(path + ".geneva", "wb") as file:
+        file.write(whole.replace(old, new))
+
+
+def resumed(path, *blocks, header=HEADER):
+    """The rows that were there, what was said, and the file after ``blocks`` are added."""
+    with Growing(path, header, KEY, True) as file:
+        done, found = file.done, file.found
+        for block in blocks:
+            file.append(block)
+        file.finish()
+    return done, found, read(path)
 
 
 def test_it_is_there_only_when_it_is_whole(path):
@@ -38,25 +62,154 @@ def test_it_is_there_only_when_it_is_whole(path):
     assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
 
 
-def test_a_stopped_run_is_gone_on_from_its_last_whole_line(path):
-    begun(path, "1,2\n3,4\n5,")
-    with Growing(path, HEADER, KEY, True) as file:
-        assert file.done == 2
-        file.append("5,6\n")
-        file.finish()
-    assert read(path) == "a,b\n1,2\n3,4\n5,6\n"
+def test_a_stopped_run_is_gone_on_from_its_last_whole_block(path):
+    begun(path, "1,2\n3,4\n", "5,6\n")
+    change(path, b"5,6\n", b"5,")  # stopped while it was written
+    done, found, rows = resumed(path, "5,6\n")
+    assert (done, rows) == (2, "a,b\n1,2\n3,4\n5,6\n")
+    assert found == (
+        "--resume: rows.csv.geneva is incomplete or damaged after row 2; continues there"
+    )
 
 
-@pytest.mark.parametrize("text", ["1,2\n3,4\n5,", "1", ""])
-def test_a_later_share_has_no_header_to_be_counted(path, text):
+@pytest.mark.parametrize("blocks", [["1,2\n3,4\n"], ["1,2\n", "3,4\n"], []])
+def test_a_later_share_has_no_header_to_be_counted(path, blocks):
     """The row that was taken for one came twice."""
-    with Growing(path, "", KEY, False) as file:
-        file.append(text)
-    with Growing(path, "", KEY, True) as file:
-        assert file.done == text.count("\n")
-        file.append("5,6\n")
-        file.finish()
-    assert read(path) == text[: text.rfind("\n") + 1] + "5,6\n"
+    begun(path, *blocks, header="")
+    done, _, rows = resumed(path, "5,6\n", header="")
+    assert done == 2 * bool(blocks)
+    assert rows == "".join(blocks) + "5,6\n"
+
+
+THREE = ["1,2\n3,4\n", "5,6\n", "7,8\n"]  # blocks of rows
+DAMAGES = {
+    "NUL": (b"5,6", b"\0\0\0", 2),
+    "no UTF-8": (b"5,6", b"\xff,6", 2),
+    "another digit": (b"3,4", b"3,5", 0),
+    "a line missing": (b"3,4\n", b"", 0),
+    "header missing": (b"a,b\n", b"", 0),
+    "a line twice": (b"5,6\n", b"5,6\n5,6\n", 3),
+    "rows after the end": (b"7,8\n", b"7,8\n9,9\n", 4),
+    "another count of rows": (b"block 1 4", b"block 2 4", 2),
+    "too many bytes": (b"block 2 8", b"block 2 999999999999999999", 0),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_block_and_what_follows_is_written_again(path, damage):
+    """Half of these came out with exit status 0, as a wrong file."""
+    old, new, kept = DAMAGES[damage]
+    begun(path, *THREE)
+    change(path, old, new)
+    lines = "".join(THREE).splitlines(keepends=True)
+    done, found, rows = resumed(path, *lines[kept:])
+    assert (done, rows) == (kept, HEADER + "".join(THREE))
+    assert f"damaged after row {kept}" in found
+
+
+def test_a_block_that_is_lost_doubled_or_moved_is_noticed(path):
+    begun(path, *THREE)
+    with open(path + ".geneva", "rb") as file:
+        start, *blocks = file.read().split(b"block ")
+    blocks = [b"block " + block for block in blocks]
+    for order, kept in (([0, 1, 3], 2), ([0, 1, 1, 2, 3], 2), ([0, 2, 1, 3], 0), ([1, 2, 3], 0)):
+        with open(path + ".geneva", "wb") as file:
+            file.write(start + b"".join(blocks[i] for i in order))
+        with Growing(path, HEADER, KEY, True) as file:
+            assert file.done == kept
+
+
+def test_a_state_that_is_changed_meanwhile_does_not_become_the_file(path):
+    with Growing(path, HEADER, KEY, False) as file:
+        for block in THREE:
+            file.append(block)
+        change(path, b"5,6", b"5,7")
+        with pytest.raises(GenevaError, match="somebody has changed this file"):
+            file.finish()
+    assert os.listdir(os.path.dirname(path)) == ["rows.csv.geneva"]
+    assert resumed(path, *THREE[1:])[2] == HEADER + "".join(THREE)
+
+
+FOREIGN = {
+    "a file of the user": lambda name: put(name, "notes\n"),
+    "one that is no text": lambda name: put(name, "\0\0\0\n"),
+    "a folder": os.mkdir,
+    "a pipe": os.mkfifo,  # a run that opened it would wait for a writer for ever
+    "a link": lambda name: (put("secret", "kept"), os.symlink("secret", name)),
+    "a link to nowhere": lambda name: os.symlink("secret", name),
+}
+
+
+def put(name, text):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+@pytest.mark.parametrize("resume", [False, True])
+@pytest.mark.parametrize("kind", FOREIGN)
+def test_what_is_not_its_own_is_refused_and_stays(path, kind, resume, monkeypatch):
+    """A user's file of that name was overwritten or deleted, a link followed."""
+    monkeypatch.chdir(os.path.dirname(path))
+    FOREIGN[kind]("rows.csv.geneva")
+    before = {name: os.lstat(name) for name in os.listdir()}
+    with pytest.raises(GenevaError, match=r"rows\.csv\.geneva: .* something else has it"):
+        Growing(path, HEADER, KEY, resume)
+    assert {name: os.lstat(name) for name in os.listdir()} == before
+
+
+def test_names_of_other_files_are_left_alone(path):
+    names = [path + end for end in (".key", ".partial", ".partial.key", ".partial.parquet")]
+    for name in names:
+        put(name, "the user's\n")
+    begun(path, "1,2\n")
+    resumed(path, "3,4\n")
+    assert [read(name) for name in names] == ["the user's\n"] * 4
+
+
+def test_an_input_of_the_name_of_the_state_is_refused(path):
+    """An empty spec, for --set, is not told from a state that was just created."""
+    put(path + ".geneva", "")
+    with pytest.raises(GenevaError, match="is an input"):
+        Growing(path, HEADER, KEY, False, [path + ".geneva"])
+
+
+HOLD = """
+import sys
+from geneva_cli.output.growing import Growing
+with Growing(sys.argv[1], "a,b\\n", "request", False) as file:
+    file.append("1,2\\n")
+    print("held", flush=True)
+    sys.stdin.readline()
+    file.finish()
+"""
+
+
+@pytest.fixture
+def other_run(path):
+    """A run of another process that has written a row."""
+    command = [sys.executable, "-c", HOLD, path]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen(command, **pipes, text=True) as process:
+        assert process.stdout.readline() == "held\n"
+        yield process
+        process.kill()
+
+
+@pytest.mark.parametrize("resume", [False, True])
+def test_two_runs_do_not_write_one_file(path, other_run, resume):
+    """The rows of both were mixed, with NUL bytes between them, and one ended with status 0."""
+    with pytest.raises(GenevaError, match=r"^rows\.csv: another run is writing this file"):
+        Growing(path, HEADER, KEY, resume)
+    other_run.communicate("\n")
+    assert other_run.returncode == 0
+    assert read(path) == "a,b\n1,2\n"
+    assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
+
+
+def test_a_killed_run_holds_nothing(path, other_run):
+    other_run.send_signal(signal.SIGKILL)
+    other_run.wait()
+    assert resumed(path, "3,4\n")[2] == "a,b\n1,2\n3,4\n"
 
 
 def test_without_resume_it_begins_again(path):
@@ -71,7 +224,7 @@ def test_it_does_not_go_on_for_another_request(path):
     begun(path, "1,2\n")
     with pytest.raises(GenevaError, match="begun for something else"):
         Growing(path, HEADER, "another", True)
-    assert read(path + ".partial") == "a,b\n1,2\n"
+    assert read(path + ".geneva").endswith("\n1,2\n")
 
 
 def whole(path, *lines):
@@ -84,7 +237,7 @@ def whole(path, *lines):
 
 def test_where_there_is_nothing_to_go_on_from_it_begins(path):
     with Growing(path, HEADER, KEY, True) as file:
-        assert "there is no rows.csv.partial" in file.found
+        assert "nothing to continue for rows.csv; from the first row" in file.found
         assert (file.done, file.is_whole) == (0, False)
         file.append("1,2\n")
         file.finish()
@@ -97,7 +250,7 @@ def test_of_a_whole_file_there_is_nothing_to_do(path):
         assert file.is_whole
         assert file.found == "--resume: rows.csv is whole already"
     assert read(path) == "a,b\n1,2\n"
-    assert sorted(os.listdir(os.path.dirname(path))) == ["rows.csv", "rows.csv.key"]
+    assert sorted(os.listdir(os.path.dirname(path))) == ["rows.csv", "rows.csv.geneva"]
 
 
 @pytest.mark.parametrize("key", [KEY, "another"])
@@ -128,8 +281,7 @@ def test_without_resume_nothing_is_left_beside_the_file(path):
 
 
 def test_an_input_is_not_written_over(path):
-    begun(path, "")
-    os.replace(path + ".partial", path)
+    put(path, "")
     with pytest.raises(GenevaError, match="is an input"):
         Growing(path, HEADER, KEY, False, [path])
 

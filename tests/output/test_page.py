@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import tempfile
 from functools import cache
 from html.parser import HTMLParser
 from xml.etree import ElementTree
@@ -11,8 +12,10 @@ import numpy as np
 import pytest
 import repo
 from py_mini_racer import MiniRacer
+from typer.testing import CliRunner
 
 from geneva_cli import load
+from geneva_cli.app import app
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.machine.layout import Joint
 from geneva_cli.output import animate, moving_gif, page, still_svg
@@ -224,6 +227,36 @@ def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
     hostile = load(str(repo.DESIGNS / "three-slots.toml"), ['title="</script><b>x"'])
     text = "".join(page.chunks(scene(hostile)))
     assert "<b>x" not in text and "&lt;b&gt;x" in text
+
+
+def test_a_title_with_the_name_of_a_part_of_the_page_stays_as_it_is():
+    title = "%DATA% %SCRIPT%"
+    design = load(str(repo.DESIGNS / "three-slots.toml"), [f'title="{title}"'])
+    text = "".join(page.chunks(scene(design)))
+    assert f"<title>{title}</title>" in text and f"<h1>{title}</h1>" in text
+    assert text.count('<script id="scene"') == text.count("// Where things are") == 1
+
+
+def test_view_leaves_one_page_that_nobody_else_can_place(tmp_path, monkeypatch):
+    """Two runs leave the last one's page; where a link has the folder's name, another is made."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    for design in ("turret", "three-slots"):
+        shown = CliRunner().invoke(app, ["view", str(repo.DESIGNS / f"{design}.toml")])
+        assert shown.exit_code == 0
+    (folder,) = tmp_path.iterdir()
+    assert folder.stat().st_mode & 0o777 == 0o700
+    (place,) = folder.iterdir()
+    assert place.read_text(encoding="utf-8") == text_of("three-slots")
+    assert shown.stdout.splitlines()[0] == str(place)
+    place.unlink()
+    folder.rmdir()
+    theirs = tmp_path / "theirs"
+    theirs.mkdir()
+    folder.symlink_to(theirs)
+    shown = CliRunner().invoke(app, ["view", str(repo.DESIGNS / "turret.toml")])
+    assert shown.exit_code == 0 and not list(theirs.iterdir())
 
 
 @pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank", "side-crank-z6", "cam-geneva"])

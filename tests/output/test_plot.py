@@ -12,7 +12,7 @@ import repo
 from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
-from geneva_cli.output import letters, plot, plot_matplotlib, plot_svg, plot_text, strokes
+from geneva_cli.output import letters, plot, plot_svg, plot_text, strokes
 from geneva_cli.output.ticks import labels, said, ticks
 from geneva_cli.study.figures import of_specs
 
@@ -355,9 +355,11 @@ def test_pictures(kind, tmp_path):
     plot(figure, str(file))
     found = file.read_bytes()
     assert found.startswith(start)
-    assert plot_matplotlib.written(figure, format) == found
-    with pytest.raises(GenevaError, match="not for standard output"):
-        plot(figure, "-", format)
+    plot(figure, str(file))
+    assert file.read_bytes() == found  # the same bytes
+    if format == "png":
+        with pytest.raises(GenevaError, match="not for standard output"):
+            plot(figure, "-", format)
 
 
 def test_a_failing_picture_leaves_the_old_file(pressed, tmp_path, monkeypatch):

@@ -79,7 +79,7 @@ def test_any_outline_is_a_closed_solid(turn, holes, low, high):
     require_solid(file, body, plate)
 
 
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 @given(
     st.lists(st.tuples(st.floats(5.0, 60.0), st.floats(-0.3, 0.9)), min_size=3, max_size=12),
     st.floats(0.01, 300.0),

@@ -94,6 +94,62 @@ def test_messages_that_cannot_be_written(arguments, kind, environment):
     assert found.stdout == plain.stdout
 
 
+ROWS = ["sweep", "spec.toml", "--vary", "wheel.z=5,6", "--jobs", "1", "--resume"]
+CLOSED = ["<&-", ">&-", "2>&-", "<&- >&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"]
+
+
+def closed(arguments, streams):
+    """A run that a shell starts without some of its streams."""
+    script = f'exec "$0" "$@" {streams}'
+    return subprocess.run(
+        ["sh", "-c", script, GENEVA, *arguments], capture_output=True, text=True, timeout=60
+    )
+
+
+@pytest.mark.parametrize("streams", CLOSED)
+@pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
+def test_closed_streams(spec, streams):
+    """What nobody can read is dropped: the exit status and the other stream are as ever.
+
+    Without standard output the run ended with status 2 and "Bad file descriptor".
+    """
+    plain, found = run(["peaks", spec]), closed(["peaks", spec], streams)
+    assert found.returncode == plain.returncode == 0
+    parts = streams.split()
+    assert found.stdout == ("" if ">&-" in parts else plain.stdout)
+    assert found.stderr == ("" if "2>&-" in parts else plain.stderr)
+
+
+FILE = """
+import sys
+from geneva_cli.streams import open_streams
+open_streams()
+with open("rows.csv", "w") as file:
+    print("data", file=file, flush=True)
+    print("printed", flush=True)
+    print("a message", file=sys.stderr, flush=True)
+    sys.stdin.read()
+"""
+
+
+@pytest.mark.parametrize("streams", CLOSED)
+def test_nothing_else_gets_into_a_file(streams):
+    """The file took the descriptor of the closed stream, and with it what was said there."""
+    script = f'exec "$0" -c "$1" {streams}'
+    command = ["sh", "-c", script, sys.executable, FILE]
+    subprocess.run(command, stdin=subprocess.DEVNULL, check=True, timeout=60)
+    with open("rows.csv") as file:
+        assert file.read() == "data\n"
+
+
+@pytest.mark.parametrize("streams", CLOSED)
+def test_a_sweep_without_streams_writes_the_same_file(streams):
+    assert run([*ROWS, "-o", "plain.csv"]).returncode == 0
+    assert closed([*ROWS, "-o", "closed.csv"], streams).returncode == 0
+    with open("plain.csv") as plain, open("closed.csv") as found:
+        assert found.read() == plain.read()
+
+
 @pytest.mark.parametrize(
     "arguments", ["--{}", "{}", "table --z {}", "table --n {}", "peaks x --{}", "peaks {}.toml"]
 )

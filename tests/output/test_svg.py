@@ -20,7 +20,7 @@ from geneva_cli.output.svg_look import round_length
 # mm. The last decimal is 1e-9; a radius that is off by half of that moves an arc's centre by up to
 # 4 times as much (at 150 and 210 degrees), and a chord's ends add to it.
 SAME = 1e-8
-QUICK = settings(max_examples=40, deadline=None, derandomize=True)
+QUICK = settings(max_examples=40)
 NAME = "{http://www.w3.org/2000/svg}"
 
 

@@ -188,7 +188,7 @@ def test_what_leaves_no_arm_is_refused(size, said):
         design.drawing("arm")
     assert caught.value.key[0] == "size"
     rows = [c for c in design.checks if c.name.startswith("arm_")]
-    assert all(c.passes is False and said in c.nearest for c in rows)
+    assert all(c.passes is False and said in c.why for c in rows)
     assert rows or "pin_mm" in size
 
 

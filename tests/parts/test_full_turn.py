@@ -239,7 +239,7 @@ def turns_as_polygons_do(case: dict) -> bool | None:
     return passes(found, turn)
 
 
-@settings(max_examples=3, deadline=None, derandomize=True)
+@settings(max_examples=3)
 @given(st.randoms(use_true_random=False))
 def test_random_machines(rng: random.Random) -> None:
     """A few; `stress_outline.py`, of `make stress`, has hundreds."""

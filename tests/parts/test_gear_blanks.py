@@ -174,9 +174,10 @@ def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
         (
             3,
             GearSector(sector_deg=60.0),
-            {"link_bore_mm": 70.0},
-            "crank gear.*hub reaches .*link_bore",
+            {"arm_bore_mm": 70.0},
+            "crank gear.*hub reaches .*smaller crank_bore_mm or arm_bore_mm",
         ),
+        (3, GearSector(sector_deg=60.0), {"link_bore_mm": 7.0}, "what it would bore is on"),
     ],
 )
 def test_refusals(z, drive, keys, said):
@@ -209,9 +210,11 @@ def test_a_pitch_curve_through_its_axis_is_refused():
 
 
 def test_a_bore_that_leaves_no_noncircular_gear_is_refused():
-    of = design("elliptical-gears").with_("size.link_bore_mm", 71.0)
-    with pytest.raises(GenevaError, match=r"no blank of the driven gear.*below 70,.*link_bore_mm"):
-        gear_members(of.drawn(0.001))
+    """The driven gear is on the crank's shaft, and the driver on its own."""
+    for gear, key in (("driven", "arm_bore_mm"), ("driver", "link_bore_mm")):
+        of = design("elliptical-gears").with_(f"size.{key}", 71.0)
+        with pytest.raises(GenevaError, match=rf"no blank of the {gear} gear.*below 70,.*{key}"):
+            gear_members(of.drawn(0.001))
 
 
 def test_a_blank_has_one_closed_outline():

@@ -65,3 +65,15 @@ def test_machines_without_such_a_plate(cam):
         groove_plate(proof.found._replace(sizes=wide), 0.01, "arcs")
     with pytest.raises(GenevaError, match='kind = "crank" has none; kind = "cam" has'):
         Design(External(6)).drawing("groove-plate")
+
+
+def test_a_machine_without_room_for_its_groove_plate_fails():
+    """The rim needs four walls of 20 mm; the machine is not drawn or listed without the plate."""
+    design = load(str(repo.DESIGNS / "tuned-dial.toml")).with_("size.wall_min_mm", 20.0)
+    why = "--part groove-plate: the groove reaches 130.7 mm"
+    (row,) = [c for c in design.checks if c.name == "parts"]
+    assert row.passes is False and row.why.startswith(why)
+    with pytest.raises(GenevaError, match=why):
+        design.drawing("assembly")
+    (missing,) = [r for r in design.part_table("parts").to_rows() if r["row"] == "missing"]
+    assert missing["why"].startswith(why)

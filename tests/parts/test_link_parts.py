@@ -263,7 +263,7 @@ SHAFTS = {
     "side-crank-z6": {"input crank's shaft": ("input crank", "frame")},
     "four-bar-z4": {"crank's shaft": ("crank", "frame"), "rocker's pivot": ("rocker", "frame")},
     "slider-crank": {"crank's shaft": ("crank", "frame")},
-    "geneva-pair": {"first crank's shaft": ("first crank", "frame")},
+    "geneva-pair": {"first crank's shaft": ("first locking disc", "frame")},
     "epicyclic-soft-z6": {"shaft of carrier, planet's arm, planet": ("carrier", None)},
     "gear-sector": {"wheel's shaft": ("wheel", "frame")},
     "noncircular-gears": {"driver gear's shaft": (None, "frame")},

@@ -13,9 +13,11 @@ from scipy.interpolate import make_interp_spline
 from shapely.geometry import Polygon
 from typer.testing import CliRunner
 
+from geneva_cli import Design
 from geneva_cli.app import app
 from geneva_cli.curves.moments import moments
 from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
@@ -430,3 +432,32 @@ def test_a_sphere_is_weighed_from_what_is_printed(name):
             assert float(row["inertia_kgm2"]) == pytest.approx(7850e-15 * polar, rel=1e-11)
         ends = [high - float(row[f"z_{end}_mm"]) for end in ("high", "low")]
         assert ends[1] - ends[0] == pytest.approx(float(row["thickness_mm"]), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "value", "why", "parts"),
+    [
+        ("epicyclic-z4", "gear_bolt_circle_mm", 300.0, "no blank of the fixed gear is left", 4),
+        ("epicyclic-z4", "link_bore_mm", 30.0, "no plate is left round the holes", 4),
+        ("spherical-z6", "dial_bolt_circle_mm", 20.0, "they have their place between", 3),
+    ],
+)
+def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, parts):
+    """And the check of the parts fails for that reason: ``profile`` does not draw the machine."""
+    design = load(next(str(path) for path in DESIGNS if path.stem == name))
+    spec = design.spec.with_("size.dial_bolts", 3) if "dial" in key else design.spec
+    design = Design.of(spec.with_(f"size.{key}", value))
+    rows = design.part_table("parts").to_rows()
+    missing = [row for row in rows if row["row"] == "missing"]
+    assert missing[0]["name"] == "all other parts"
+    assert all(why in row["why"] for row in missing)
+    assert sum(row["row"] == "part" for row in rows) == parts
+    assert any(why in c.why for c in design.checks if c.passes is False)
+    with pytest.raises(GenevaError, match=why):
+        design.drawing("assembly")
+
+
+def test_nothing_is_missing_from_a_machine_that_is_built():
+    for path in DESIGNS:
+        kinds = {row["row"] for row in load(str(path)).part_table("parts").to_rows()}
+        assert "missing" not in kinds, path

@@ -203,7 +203,7 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     assert row.passes == (c < 1.0)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=6)
 @given(st.integers(3, 24), st.sampled_from(["external", "internal"]), st.floats(1.0, 4.0))
 def test_more_clearance_never_gives_less_play(z: int, gearing: str, roller: float) -> None:
     """Of a wheel cut for the same crank; 100,000 in `make fuzz`, with curved slots too."""

@@ -153,6 +153,28 @@ def test_a_shaft_that_the_spec_takes_through_a_link(low):
         assert found.passes is False and found.nearest == "leaving out crank_shaft_low_mm"
 
 
+@pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank"])
+def test_the_ends_of_a_cranks_shaft_that_carries_links_alone(name):
+    """They are as given, and refused where the lower one is not below the upper one."""
+    spec = str(repo.DESIGNS / f"{name}.toml")
+    whole = load(spec)
+    frame, crank = part(whole, "frame"), part(whole, "crank")
+    usual = part(whole, "crank's shaft")
+    assert (usual.low, usual.high) == (frame.low, crank.high)
+    low, high = frame.high + 0.5, crank.high + 0.25
+    given = load(spec, [f"size.crank_shaft_low_mm={low}", f"size.crank_shaft_high_mm={high}"])
+    ends = part(given, "crank's shaft")
+    assert (ends.low, ends.high) == (low, high)
+    # it ends above the frame, which has no hole for it
+    axis = (given.mechanism.center_distance_mm, 0.0)
+    drilled = [[hole.centre for hole in part(one, "frame").holes] for one in (whole, given)]
+    assert [axis in holes for holes in drilled] == [True, False]
+    over = load(spec, [f"size.crank_shaft_low_mm={crank.high}"])
+    with pytest.raises(GenevaError, match="crank_shaft_low_mm: the crank's shaft would reach"):
+        over.drawing("assembly")
+    assert row(over, "beside_shafts_mm").passes is False
+
+
 def test_a_keyway_leaves_a_wall_of_its_hub():
     """DIN 6885-1, t2: 1.0 mm on shafts above 6 mm, 1.8 above 10 mm, 2.3 above 12 mm."""
     keyed = Size(wheel_hub_mm=20.0, wheel_keyway="DIN 6885-1")

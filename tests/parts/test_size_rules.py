@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 from words import Motion, Spec, Wheel
 
+from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.app import app
 from geneva_cli.curves.shapes import Arc
 from geneva_cli.errors import GenevaError
@@ -82,7 +83,12 @@ def test_the_largest_roller(wheel: Wheel, motion: Motion, largest: float) -> Non
 
 def test_many_slots_keep_their_default_roller() -> None:
     """At z = 100 the default of L/20 is too large; the motion does not need it."""
-    build(Spec(Wheel(100)))
+    mechanism = build(Spec(Wheel(100)))
+    arm = math.sin(math.pi / 100.0)
+    assert mechanism.roller_radius_mm == 5.0 > 100.0 * arm
+    assert peaks_table(mechanism).to_dict()["velocity.max"] == pytest.approx(arm / (1.0 - arm))
+    with pytest.raises(GenevaError, match=r"roller_radius_mm = 5\b.* below 3\.14"):
+        build(Spec(Wheel(100), size=Size(roller_radius_mm=5.0)))
 
 
 @pytest.mark.parametrize("offset", [-12.0, 0.0, 12.0])

@@ -177,7 +177,7 @@ def test_shafts_and_arm_have_room_or_not():
     thin = shells(design.with_("size.arm_hub_mm", 3.0).mechanism)
     failing = [c for c in shell_checks(thin) if not c.passes]
     assert [c.name for c in failing] == ["arm_wall_mm"]
-    assert failing[0].nearest.startswith("arm_hub_mm = 3: the hub must be above")
+    assert failing[0].why.startswith("arm_hub_mm = 3: the hub must be above")
     # round the pin: the eye is 10/80 wide, its hole 2.5 mm at 84; more than the hub's wall
     assert row("arm_wall_mm").value == pytest.approx(2.0, rel=1e-12)
 

@@ -5,6 +5,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.specfile.designs import titles
+from geneva_cli.specfile.json_schema import FILE
 
 
 def new(*words):
@@ -29,7 +30,7 @@ def test_a_copy_is_the_design_and_what_it_names(tmp_path):
     assert again.exit_code == 0
     (tmp_path / "table-law" / "table-law.csv").write_text("mine")
     refused = new("--from-design", "table-law", "-o", tmp_path / "table-law" / "third.toml")
-    assert refused.exit_code == 2 and "another file is there" in refused.output
+    assert refused.exit_code == 2 and "this file exists" in refused.output
     assert new("--from-design", "table-law", "-o", tmp_path / "spec.toml").exit_code == 0
     checked = CliRunner().invoke(app, ["peaks", str(tmp_path / "spec.toml")])
     assert checked.exit_code == 0
@@ -40,3 +41,35 @@ def test_what_is_wrong_is_said():
     assert "give -o FILE" in new("--from-design", "table-law").output
     for words in ((), ("curved", "--list"), ("curved", "--from-design", "turret")):
         assert new(*words).exit_code == 2
+
+
+def test_a_file_that_exists_is_replaced_by_force_alone(tmp_path):
+    """A spec is a person's work: of the new one not a byte goes over it."""
+    file = tmp_path / "spec.toml"
+    for words in (["external"], ["--from-design", "turret"]):
+        file.write_text("mine")
+        refused = new(*words, "-o", file)
+        assert refused.exit_code == 2
+        assert "this file exists; give another name, or --force" in refused.output
+        assert file.read_text() == "mine"
+        assert new(*words, "--force", "-o", file).exit_code == 0
+        assert "[wheel]" in file.read_text()
+    file.unlink()
+    (tmp_path / "table-law.csv").write_text("mine")
+    law = ["--from-design", "table-law", "-o", file]
+    assert new(*law).exit_code == 2 and not file.exists()
+    assert new(*law, "--force").exit_code == 0
+    assert (tmp_path / "table-law.csv").read_bytes() == (
+        repo.DESIGNS / "table-law.csv"
+    ).read_bytes()
+
+
+def test_a_new_spec_names_the_schema_that_stands_beside_it_alone(tmp_path):
+    first = f"#:schema ./{FILE}"
+    assert first not in new("external").stdout
+    assert new("external", "-o", tmp_path / "alone.toml").exit_code == 0
+    assert first not in (tmp_path / "alone.toml").read_text(encoding="utf-8")
+    written = CliRunner().invoke(app, ["schema", "-o", str(tmp_path / FILE)])
+    assert written.exit_code == 0
+    assert new("external", "-o", tmp_path / "spec.toml").exit_code == 0
+    assert (tmp_path / "spec.toml").read_text(encoding="utf-8").splitlines()[0] == first

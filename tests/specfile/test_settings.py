@@ -39,8 +39,14 @@ def spec(tmp_path):
     ],
 )
 def test_a_value_is_read_as_in_the_file(text, value):
-    assert read_value(text) == value
-    assert type(read_value(text)) is type(value)
+    found = read_value(text, "--set")
+    assert (found, type(found)) == (value, type(value))
+
+
+@pytest.mark.parametrize("more", ["drive.n_rpm=1", "[drive]\nn_rpm = 1"])
+def test_a_second_line_is_refused_and_not_dropped(spec, more):
+    with pytest.raises(GenevaError, match="one value, and a line with another key"):
+        load(spec, [f"wheel.z=6\n{more}"])
 
 
 def test_a_key_is_set_over_the_files_and_beside_it(spec):

@@ -27,6 +27,7 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
 from geneva_cli.spec.rules import OneOf, Words
 from geneva_cli.spec.schema import REQUIRED, fields
+from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.table import flat
 
@@ -75,7 +76,7 @@ def known_keys(kind):
 
 
 def spec_text(rng, wild=0.02):
-    """A spec from the program's keys; mostly one that makes a machine, or nearly."""
+    """A spec from the program's keys, those of all wheels and laws: few of them are machines."""
     lines = []
     if rng.random() < 0.1:
         lines.append(f'title = "{rng.choice(["a wheel", "=1+1", "x" * 300])}"')
@@ -83,7 +84,7 @@ def spec_text(rng, wild=0.02):
     for table, own in known_keys(kind).items():
         if table not in ("wheel", "drive") and rng.random() < 0.6:
             continue
-        lines.append(f"[{table}]")
+        lines.append(f"[[{table}]]" if table in LISTS else f"[{table}]")
         share = rng.choice([0.1, 0.3, 0.8]) * (0.2 if table == "wheel" else 1.0)
         for field in own:
             if field.key == "kind":

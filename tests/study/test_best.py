@@ -39,8 +39,21 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     A = brentq(lambda A: 1.0 - (half + np.arcsin(A * np.sin(half))) / np.pi - 0.55, 0.0, 0.9)
     assert pytest.approx(A, abs=1e-7) == design.spec.drive.A
     # checks forgive 1e-9, and the least of what is forgiven is not the best
-    assert design.timing.dwell_s >= 0.55 * (1.0 - 1e-12)
+    assert 0.55 <= design.timing.dwell_s <= 0.55 * (1.0 + 1e-11)
     assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
+
+
+def test_a_bound_that_rounding_breaks_is_said_to_be_met_to_rounding(tmp_path):
+    """A dwell of 2/3 s is what z = 6 has; asked for a little more, no key is free to give it."""
+    bound = 2.0 / 3.0 * (1.0 + 1e-10)
+    lines, _ = best(
+        tmp_path,
+        "drive.A=0",
+        best="acceleration.max",
+        random=None,
+        subject_to=[f"dwell_s >= {bound!r}"],
+    )
+    assert lines[1].endswith("(binds, met to rounding)")
 
 
 def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
@@ -50,7 +63,7 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
     monkeypatch.setattr(Proof, "turn", property(lambda proof: turned.append(proof) or plain(proof)))
     asked = {"pick": "smallest_gap_mm,drive.kind", "check": True, "best": "max:dwell_s"}
     lines, design = best(tmp_path, "drive.A=-0.2:0.5", **asked)
-    assert len({*map(id, turned)}) == 2  # of the first design too: what quantities there are
+    assert len({*map(id, turned)}) == 1
     said = dict(line[2:].split(": ") for line in lines if line.startswith("# ") and ": " in line)
     (gap,) = (check.value for check in design.checks if check.name == "gap_mm")
     assert float(said["parts.smallest_gap_mm"]) == gap
@@ -74,8 +87,8 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     rows = [row for block in grid.chosen(grid.blocks()) for row in block]
     at = grid.sweep.names.index("jerk.max")
     assert design.peaks.jerk.max <= min(row[at] for row in rows)
-    assert design.timing.motion_deg <= 150 * (1 + 1e-12)
-    assert design.peaks.velocity.max <= 0.8 * (1 + 1e-12)
+    assert 150 * (1 - 1e-11) <= design.timing.motion_deg <= 150
+    assert design.peaks.velocity.max <= 0.8
 
 
 def test_the_number_of_slots_is_not_left_to_luck(tmp_path):

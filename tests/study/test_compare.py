@@ -1,5 +1,7 @@
 """Designs side by side: the same rows for every machine, and the numbers of their own reports."""
 
+import csv
+import io
 import json
 import os
 
@@ -89,6 +91,21 @@ def test_differing_rows_are_marked_and_alone_on_request():
     assert "wheel.z" not in marked and "acceleration.max" in marked
 
 
+def test_rounding_is_no_difference(tmp_path):
+    """Forces go with 1/L and speeds with L: pv is that of any centre distance, but for a unit in
+    the last place; a nanometre of 100 mm is more than rounding."""
+    spec = tmp_path / "loaded.toml"
+    spec.write_text(
+        '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.3\n[size]\nface_width_mm = 10\n'
+        "[load]\ninertia_kgm2 = 0.4\ntorque_Nm = 5\n"
+    )
+    found = by_quantity(compare([str(spec)], vary=["size.center_distance_mm=100,130,100.000001"]))
+    pv, L = found["life.pv_max_W_m2"], found["sizes.center_distance_mm"]
+    values = [pv[f"{key}"] for key in pv if key not in ("quantity", "differs")]
+    assert max(values) <= min(values) * (1.0 + 1e-12) and len(set(values)) > 1
+    assert not pv["differs"] and L["differs"]
+
+
 def test_picked_quantities_by_whole_and_short_names():
     """And a check that other machines have, whose row here would be empty."""
     some = ["dwell_s", "acceleration.max", "passes", "branches_apart_mm"]
@@ -150,3 +167,37 @@ def test_a_small_number_is_no_noise_beside_another_quantity(capsys):
     show(compare([path("side-crank-z6.toml")], slow, picks=["motion_s", "jerk.max_rad_s3"]))
     jerk = capsys.readouterr().out.splitlines()[-1].split()
     assert jerk[0] == "jerk.max_rad_s3" and 0.0 < float(jerk[1]) < 1e-20
+
+
+HOSTILE = ("a,b", "c\nd", "=cmd", "e\x1b[31mf", "g\u202eh", "[red]i|j")
+SHOWN = ("a,b", "c d", "=cmd", "e [31mf", "g h", "[red]i|j")  # as the table's other texts are
+
+
+def test_file_names_are_escaped_in_headings_as_in_cells(tmp_path, capsys):
+    """A name with a comma is one column, one with = no formula; none reaches the terminal raw."""
+    from geneva_cli.output import show, text
+
+    with open(path("limits.toml"), encoding="utf-8") as file:
+        spec = file.read()
+    paths = [str(tmp_path / f"{name}.toml") for name in HOSTILE]
+    for one in paths:
+        with open(one, "w", encoding="utf-8") as file:
+            file.write(spec)
+    table = compare(paths, picks=["dwell_s"])
+
+    show(table, "-", "csv")
+    head, row = csv.reader(io.StringIO(capsys.readouterr().out))
+    formula = [f"'{name}" if name.startswith("=") else name for name in SHOWN]
+    assert head == ["quantity", *formula, "differs"]
+    assert len(row) == len(head)
+
+    show(table, "-", "json")
+    (found,) = json.loads(capsys.readouterr().out)["rows"]
+    assert list(found) == ["quantity", *HOSTILE, "differs"]
+
+    show(table, "-", "md")
+    said = capsys.readouterr().out
+    assert said.count("\n") == 3 and "\\[red\\]i\\|j" in said
+    for written in (said, "".join(text.chunks(table, False)), "".join(text.chunks(table, True))):
+        assert "\x1b[31mf" not in written and "\u202e" not in written
+    assert "[red]i|j" in "".join(text.chunks(table, True))

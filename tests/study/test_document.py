@@ -324,3 +324,15 @@ def test_letters_beyond_the_western_ones_are_spelled() -> None:
     asked = [c for c in every if "?" in unicodedata.normalize("NFKD", c)]
     assert "?" in asked and len(asked) < 10
     assert "?" not in western("".join(c for c in every if c not in asked))
+
+
+@pytest.mark.parametrize("name", ["press-straight", "turret", "sine-group"])
+def test_every_format_lists_the_same_warnings(name: str) -> None:
+    """The wheel's own inertia was a warning of the page alone, not of json and the table."""
+    design, page = of(name)
+    at = [i for i, b in enumerate(page.blocks) if getattr(b, "text", "") == "Warnings"]
+    block = page.blocks[at[0] + 1]
+    assert isinstance(block, Listed)
+    told = design.report.table.to_dict()["warnings"]
+    assert block.texts == told == design.report.cautions
+    assert sum("the wheel's own inertia" in text for text in told) == 1

@@ -100,6 +100,15 @@ def test_a_column_that_holds_no_numbers():
         assert wants in str(error.value)
 
 
+def test_a_column_by_any_name_of_its_quantity():
+    """A varied limit ends like the peak's other name, and is not meant by it."""
+    swept = put("limits.acceleration_max,acceleration.max\n1,2\n3,5\n")
+    (panel,) = of_table(swept, "limits.acceleration_max", ["acceleration_max"]).panels
+    assert panel.y.label == "acceleration.max"
+    table = put("z,acceleration_max\n5,2\n6,1\n")
+    assert of_table(table, "wheel.z", ["acceleration.max"]).x.label == "z"
+
+
 def test_an_ending_that_two_names_share():
     file = put("drive.A,motion.max,acceleration.max\n0,1,2\n")
     with pytest.raises(GenevaError, match=r"motion\.max or acceleration\.max; say which"):

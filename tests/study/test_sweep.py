@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
+from geneva_cli.output.growing import Growing
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.pool import mapped
 from geneva_cli.study.sweep.plan import Shard, plan
@@ -108,13 +110,17 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert geneva(*arguments, "-o", str(file)).exit_code == 0
     whole = file.read_text()
     assert os.listdir(tmp_path) == ["rows.csv"]
-    key = request(SPEC, GRID).key
-    (tmp_path / "rows.csv.partial").write_text(whole[:300])
-    (tmp_path / "rows.csv.partial.key").write_text(key)
-    assert geneva(*arguments, "-o", str(file), "--resume").exit_code == 0
+    state = tmp_path / "rows.csv.geneva"
+    header, *rows = whole.splitlines(keepends=True)
+    with Growing(str(file), header, request(SPEC, GRID).key, False) as left:
+        left.append("".join(rows[:2]))
+        left.append(rows[2])
+    half = state.read_bytes()[:-20]
+    state.write_bytes(half)
+    resumed = geneva(*arguments, "-o", str(file), "--resume")
+    assert resumed.exit_code == 0 and "incomplete or damaged after row 2" in resumed.stderr
     assert file.read_text() == whole
-    (tmp_path / "rows.csv.partial").write_text(whole[:300])
-    (tmp_path / "rows.csv.partial.key").write_text(key)
+    state.write_bytes(half)
     other = geneva(*arguments, "--set", "drive.n_rpm=90", "-o", str(file), "--resume")
     assert other.exit_code == 2 and "begun for something else" in other.stderr
     assert file.read_text() == whole
@@ -151,15 +157,57 @@ def test_points_that_change_are_another_sweep(tmp_path, named):
     assert "is whole already" in geneva(*asked).stderr
 
 
+LAW = "".join(f"{i / 20},{(i / 20) ** 2 * (3 - i / 10)}\n" for i in range(21))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["sweep", "spec.toml", "--vary", "drive.n_rpm=60,70", "--best", "k", "-o", "spec.toml"],
+        ["sweep", "spec.toml", "--vary", "motion.file=a.csv,b.csv", "-o", "b.csv"],
+        [
+            "sweep",
+            "spec.toml",
+            "--vary",
+            "motion.file=a.csv,b.csv",
+            "--format",
+            "md",
+            "-o",
+            "b.csv",
+        ],
+        ["synth", "--from", "spec.toml", "--tau", "0.3", "--write", "1", "-o", "spec.toml"],
+        ["synth", "--from", "spec.toml", "--tau", "0.3", "--format", "md", "-o", "spec.toml"],
+    ],
+)
+def test_no_input_is_written_over(tmp_path, monkeypatch, arguments):
+    """Only the spec of a sweep's rows, and the points that it names, were held against the name."""
+    monkeypatch.chdir(tmp_path)
+    text = "[wheel]\nz = 6\n"
+    if "motion" in str(arguments):
+        text += '[motion]\nlaw = "table"\nfile = "a.csv"\n'
+    files = {"spec.toml": text, "a.csv": LAW, "b.csv": LAW}
+    for name, content in files.items():
+        (tmp_path / name).write_text(content)
+    found = geneva(*arguments)
+    assert found.exit_code == 2 and "this file is an input" in found.stderr
+    assert {name: (tmp_path / name).read_text() for name in os.listdir()} == files
+
+
+def rows_of(state):
+    """The number of rows that a state file holds."""
+    text = state.read_text() if state.exists() else ""
+    return sum(int(n) for n in re.findall(r"^block (\d+) \d+ [0-9a-f]{64}$", text, re.MULTILINE))
+
+
 def test_ctrl_c_leaves_what_was_done(tmp_path):
     """One design after the other, so slowly that the run is stopped among them."""
-    file, part = tmp_path / "rows.csv", tmp_path / "rows.csv.partial"
+    file, part = tmp_path / "rows.csv", tmp_path / "rows.csv.geneva"
     slow = ["--vary", "drive.A=0:0.5:0.0025", "--pick", "sizes.ratio,jerk.max", "--jobs", "2"]
     command = [sys.executable, "-m", "geneva_cli", "sweep", SPEC, *slow, "-o", str(file)]
     run = subprocess.Popen(command, preexec_fn=heed_signals)
     try:
         end = time.monotonic() + 30.0
-        while not (part.exists() and part.read_text().count("\n") > 1):
+        while not rows_of(part):
             assert time.monotonic() < end and run.poll() is None
             time.sleep(0.01)
         run.send_signal(signal.SIGINT)
@@ -167,8 +215,7 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
     finally:
         run.kill()
     assert not file.exists()
-    done = part.read_text().count("\n") - 1
-    assert 0 < done < 201
+    assert 0 < rows_of(part) < 201
     found = subprocess.run([*command, "--resume"], timeout=60, check=False)
     assert found.returncode == 0
     assert [float(line.split(",")[0]) for line in file.read_text().splitlines()[1:]] == [

@@ -27,6 +27,7 @@ from geneva_cli.study.synthesis.looks import look
 from geneva_cli.study.synthesis.reading import read_wish
 from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
 from geneva_cli.study.synthesis.search import search, synthesis
+from geneva_cli.study.synthesis.shown import for_people
 from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.study.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
@@ -291,7 +292,7 @@ def test_rows_are_sorted_and_numbered(options):
     assert table.names == NAMES
     columns = dict(zip(table.names, table.columns, strict=True))
     assert list(columns["no"]) == list(range(1, len(table) + 1))
-    peaks = columns["acceleration_max"]
+    peaks = columns["acceleration_max_rad_s2" if wish.timed else "acceleration_max"]
     assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
 
 
@@ -674,3 +675,48 @@ def test_a_groove_is_as_steep_as_its_check_says():
     seen = [look(machine.spec).pressure_deg for machine in machines]
     assert any(abs(x - GROOVE_MAX_DEG) < NEAR_DEG for x in seen)
     assert [not _wedged(machine) for machine in machines] == passes
+
+
+def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
+    """Issue: 2.7121 at 1440 rpm is 61,672 rad/s2, and came before 5,103 of several rollers.
+
+    A law's peak is C_a step/t², so the longest motion in the cycle is the gentlest, whatever the
+    rollers: all of it but a hundredth, with the modified sine's C_a = 4 pi²/(4 + pi).
+    """
+    table = synthesis_table(read_wish(z="4", cycle="1/24", motion_deg="..90"), 0)
+    rows = table.to_rows()
+    rates = [row["acceleration_max_rad_s2"] for row in rows]
+    assert all(a <= b * (1.0 + 1e-11) for a, b in zip(rates, rates[1:], strict=False))
+    C_a, motion_s = 4.0 * math.pi**2 / (4.0 + math.pi), 0.99 / 24.0
+    assert rates[0] == pytest.approx(C_a * 0.5 * math.pi / motion_s**2, rel=1e-9)
+    assert any(row["acceleration_max"] < rows[0]["acceleration_max"] for row in rows)
+    people = for_people(table)
+    assert {"rpm", "accel_rad/s2"} <= {*people.names}
+    assert "lowest peak acceleration in rad/s2 first" in people.title
+
+
+def test_the_lowest_of_a_range_is_the_lowest_in_time():
+    """A motion of 0.2 s at any speed: in rad/s2 a side-crank's peak is least at another angle than
+    as an invariant, of which the longest motion has the least."""
+    asked = {"motion_s": "0.2", "motion_deg": "100..200", "z": "6", "external": True}
+    rows = search(read_wish(**asked)).rows
+    best = next(row for row in rows if row.candidate.A is not None).candidate
+    scan = []
+    for motion in range(100, 201, 5):
+        found = search(read_wish(**(asked | {"motion_deg": str(motion)}))).rows
+        scan += [row.candidate for row in found if row.candidate.A is not None]
+    assert len(scan) > 10
+    assert best.peak <= min(one.peak for one in scan) * (1.0 + 1e-9)
+    assert best.acceleration_max > min(one.acceleration_max for one in scan)
+
+
+@pytest.mark.parametrize("more", [{}, {"cycle": "1"}, {"internal": True}])
+def test_a_peak_that_nothing_reaches_is_said_with_the_nearest(more):
+    """Issue: the motion was blamed, which all machines have."""
+    asked = {"motion_deg": "120", "z": "6", **more}
+    with pytest.raises(GenevaError) as error:
+        search(read_wish(acceleration_max="0.0001", **asked))
+    told = str(error.value)
+    least = min(row.candidate.acceleration_max for row in search(read_wish(**asked)).rows)
+    assert told.startswith("--acceleration-max 0.0001: none of ")
+    assert f"(nearest {least:.6g})" in told and "R/L" not in told

@@ -60,7 +60,9 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     found = search(wish)
     plain = {one.no: one.row for one in turned(found)}
     shown = turned(found, buildable=True)
-    assert [found.rank(one.row) for one in shown] == sorted(found.rank(one.row) for one in shown)
+    numbers = [one.no for one in shown]
+    assert numbers == sorted(numbers)
+    assert [found.rank(row) for row in found.rows] == sorted(map(found.rank, found.rows))
     moved = [one for one in shown if one.row.cannot_be is False and plain[one.no].cannot_be]
     assert {one.row.candidate.rollers for one in moved} == {1, 2}
     for no, row in moved:

@@ -104,7 +104,7 @@ def test_what_nothing_bounds_is_told_last():
     assert set(told[count:]) == {None}
     for row, value in zip(found.rows[count - 1 :], told[count - 1 : count + 1], strict=False):
         machine = build(row.spec)
-        (alone,) = pick(found.asked.names, machine).of(machine)
+        (alone,) = pick(found.asked.names).of(machine)
         assert alone == (value and pytest.approx(value, rel=1e-9))
     rows = synthesis_table(wish, 0, found=found).to_rows()
     assert [row["loads.contact_stress_MPa.max"] for row in rows] == told

@@ -96,7 +96,7 @@ def test_something_must_hold_the_wheel_in_the_dwell() -> None:
 def test_what_is_not_proved_is_said() -> None:
     parts = rows(Spec(Wheel(400)))["parts"]
     assert parts.passes is None
-    assert parts.nearest.startswith("not proved: ")
+    assert parts.why.startswith("not proved: ")
 
 
 @pytest.mark.parametrize("key", ["pin_force_max_N", "input_torque_max_Nm"])

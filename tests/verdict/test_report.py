@@ -184,3 +184,23 @@ def test_peaks_begin_with_spec_and_title() -> None:
         assert len(tree["stations"] or []) == engagements
         greatest = max(s["jerk"]["max"] for s in tree["stations"] or [tree])
         assert tree["jerk"]["max"] == greatest
+
+
+@pytest.mark.parametrize("format", ["table", "csv", "json", "md", "html"])
+def test_values_that_are_none_or_have_no_bound_are_words(format: str, tmp_path: Path) -> None:
+    """An eye smaller than its pin's hole has no wall; a slot's edge bears without bound."""
+    spec = written(tmp_path, "[wheel]\nz = 6\n[size]\narm_eye_mm = 1\n")
+    endless = [str(DESIGNS / "press-345.toml"), "--set", "limits.contact_stress_max_MPa=500"]
+    for words, said in (
+        ([spec], "arm_wall_mm is not computed: arm_eye_mm = 1: the eye must be above 5"),
+        (endless, "contact_stress_max_MPa = no bound at -1.36826 deg, must be at most 500"),
+    ):
+        found = run("report", *words, "--format", format)
+        assert found.exit_code == 1 and isinstance(found.exception, SystemExit)
+        assert said in found.stdout
+        assert not re.search(r"\b(nan|inf)\b", found.stdout.replace(spec, ""), re.IGNORECASE)
+    for shown in ("table", "md"):
+        assert "no bound" in run("check", *endless, "--format", shown).stdout
+    warned = run("profile", spec, "--part", "wheel", "--format", "svg").stderr
+    assert "arm_wall_mm is not computed: arm_eye_mm = 1" in warned
+    assert "arm_wall_mm is 0" not in warned and "above 5, the pin's hole would" not in warned

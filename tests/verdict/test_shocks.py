@@ -64,12 +64,12 @@ def test_what_would_pass_passes():
     of = design(100.0)
     check = row(of, "entry_shock_N")
     assert check.passes is False
-    for key, value in re.findall(r"(\w+_mm) = ([\d.e-]+)", check.nearest):
+    for key, value in re.findall(r"(\w+_mm) = ([\d.e-]+)", check.why):
         of = of.with_(f"tolerance.{key}", float(value))
     assert row(of, "entry_shock_N").passes
     check = row(of, "reversal_shock_N")
     assert check.passes is False
-    drag = float(re.match(r"add a drag of ([\d.]+) N m and", check.nearest)[1])
+    drag = float(re.match(r"add a drag of ([\d.]+) N m and", check.why)[1])
     assert row(of.with_("load.torque_Nm", 2.0 + drag), "reversal_shock_N") is None
     assert row(of.with_("load.torque_Nm", 2.0 + 0.97 * drag), "reversal_shock_N") is not None
 
@@ -78,11 +78,11 @@ def test_what_is_missing_is_named():
     check = row(design(size=Size(), load=Load()), "entry_shock_N")
     assert (check.value, check.passes) == (None, None)
     for key in ("inertia_kgm2", "face_width_mm", "pin_force_max_N"):
-        assert key in check.nearest
+        assert key in check.why
     check = row(design(), "reversal_shock_N")
     assert check.value > 0.0
     assert check.passes is None
-    assert "set pin_force_max_N in [limits]; add a drag of" in check.nearest
+    assert "set pin_force_max_N in [limits]; add a drag of" in check.why
 
 
 def test_the_dimensions_that_are_not_there():

@@ -16,6 +16,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.check import NONE
 from geneva_cli.verdict.strength import Strength, margin
 
 DESIGNS = repo.DESIGNS
@@ -77,7 +78,9 @@ def test_each_can_fail_and_one_key_mends_it(name):
     spec = WHOLE.with_(key, limit)
     failing = {c.name: c for c in judged(build(spec), parts=False)}[name]
     assert failing.passes is False
-    told, _, value = failing.nearest.partition(" = ")
+    # two shafts that are too thin are not mended by one key: then each row has its own
+    own = failing.why.rpartition("; ")[2].removesuffix(" passes this one")
+    told, _, value = (failing.nearest or own).partition(" = ")
     tables = {
         "wheel_diameter_mm": "shaft",
         "crank_diameter_mm": "shaft",
@@ -86,6 +89,23 @@ def test_each_can_fail_and_one_key_mends_it(name):
     }
     mended = spec.with_(f"{tables.get(told, 'size')}.{told}", float(value))
     assert rows(mended)[name].passes
+
+
+def test_two_shafts_too_thin_have_no_one_remedy():
+    """Each row then says with which change it would pass alone; with both, all pass."""
+    spec = WHOLE.with_("shaft.shear_stress_max_MPa", 12.0)
+    mechanism = build(spec)
+    failing = {c.name: c for c in judged(mechanism, parts=False) if c.passes is False}
+    assert set(failing) == {"wheel_shaft_stress_MPa", "crank_shaft_stress_MPa"}
+    for part in ("wheel", "crank"):
+        row = failing[f"{part}_shaft_stress_MPa"]
+        assert row.nearest == ""
+        why, said = row.why.split("; ")
+        assert why == NONE
+        key, value = said.removesuffix(" passes this one").split(" = ")
+        assert key == f"{part}_diameter_mm"
+        spec = spec.with_(f"shaft.{key}", float(value))
+    assert all(c.passes is not False for c in rows(spec).values())
 
 
 @pytest.mark.parametrize(
@@ -108,7 +128,7 @@ def test_what_is_not_known_is_said_with_its_key(without, name, said):
     check = rows(spec.with_(without, None))[name]
     assert check.value is None
     assert check.passes is None
-    assert check.nearest == f"not known: it needs {said}"
+    assert check.why == f"not known: it needs {said}"
 
 
 @pytest.mark.parametrize(
@@ -228,7 +248,7 @@ def test_what_a_sphere_lacks_is_said_in_its_rows():
         ("lock_deflection_max_deg", "a flat outline"),
     ):
         assert (found[name].value, found[name].passes) == (None, None)
-        assert said in found[name].nearest
+        assert said in found[name].why
     said = "horn_stress_MPa: needs a wheel that is drawn as a flat outline"
     assert said in of.loads_table.to_dict()["warnings"]
 

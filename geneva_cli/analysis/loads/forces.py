@@ -22,7 +22,7 @@ from geneva_cli.analysis.strength.pin import pin_diameter_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import all_true, choose, library
+from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 
 
@@ -37,6 +37,12 @@ class Setting(NamedTuple):
     friction: float  # along the wall, over the force on it
     efficiency: float
     hertz: float | None  # square of the stress on a flat wall, MPa² per newton; None: no width
+    design: int = 0  # the design's number in its batch: (m, 1) of a batch
+
+    @property
+    def designs(self) -> int:
+        """How many designs it is the setting of."""
+        return designs_of(self.design)
 
     @property
     def rubs(self) -> bool:
@@ -63,6 +69,7 @@ def setting(mechanism: Mechanism) -> Setting:
         rubbing(mechanism),
         load.efficiency,
         hertz,
+        mechanism.design,
     )
 
 

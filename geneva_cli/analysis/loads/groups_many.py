@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.loaded_many import Machine, count
+from geneva_cli.analysis.loads.loaded_many import Machine
 from geneva_cli.machine.many import taken
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def of_groups(
     Designs without friction are apart from those with: a torque whose force has no bound has
     itself a bound without friction alone.
     """
-    m = count(every)
+    m = every[1].designs
     out: list[Array] = []
     for part in parts(every[1].friction, m):
         some = found(taken(every, part), len(part))

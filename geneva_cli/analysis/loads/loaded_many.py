@@ -74,15 +74,6 @@ def machine(
     return engagement, given, tuple(wanted)
 
 
-def count(every: Machine) -> int:
-    """How many designs they are."""
-    engagement, given, wanted = every
-    motion = engagement.motion
-    own = [value for one in wanted if isinstance(one, tuple) for value in one]
-    known = (motion(motion.entry_deg, 1).c[1], motion.entry_deg, *given, *own)
-    return max(np.size(value) for value in known if isinstance(value, np.ndarray | float))
-
-
 class Loaded:
     """Some designs of one engagement under their load, as ``search`` asks for their functions.
 
@@ -92,7 +83,7 @@ class Loaded:
     def __init__(self, machine: Machine, names: Sequence[str], more: Sequence[str] = ()) -> None:
         self.machine = engagement, given, _ = machine
         self.names = names
-        self.n = count(machine)
+        self.n = machine[1].designs
         # p v is 0 where the sliding is, in a notch that may lie beside a pole
         self.kinds = kinds(engagement, given, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
@@ -112,7 +103,7 @@ class Loaded:
     @cached_property
     def spread(self) -> Array:
         """How wide all happens about mid-motion, as of ``spread_deg``: (n, 1)."""
-        return np.broadcast_to(spread_deg(*self.machine[:2]), (count(self.machine), 1))
+        return np.broadcast_to(spread_deg(*self.machine[:2]), (self.n, 1))
 
     @property
     def repeats(self) -> bool:

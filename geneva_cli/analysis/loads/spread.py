@@ -29,9 +29,10 @@ def spread_deg(engagement: Engagement, given: Setting) -> Array:
     _, _, lever, aside, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
     velocity = at.velocity
     with np.errstate(all="ignore"):
-        squares = [array(velocity.c[0] / velocity.c[2]), array(0.5 * lever.c[0] / lever.c[2])]
+        # arrays: of what does not vary a jet holds floats, whose quotient by 0 is an error
+        squares = [array(velocity.c[0]) / velocity.c[2], 0.5 * array(lever.c[0]) / lever.c[2]]
         w = np.sqrt(np.fmin(*map(np.abs, squares))) / DEGREE
         if given.rubs:
             grip = np.abs(lever.c[0]) + given.friction * np.abs(aside.c[0])
-            w = np.fmin(w, grip / np.abs(array(lever.c[1])) / DEGREE)
+            w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
     return np.fmin(np.where(w > 0.0, w, np.inf), WIDEST * engagement.exit_deg)

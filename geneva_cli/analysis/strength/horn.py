@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.loads import state
-from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import pitch
 from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.roots import TIE
@@ -98,7 +98,7 @@ class Side(NamedTuple):
 
     def _turned(self, of: Array) -> Array:
         """On the horn's axes."""
-        return np.array((product(of, self.inwards), product(of, self.across)))
+        return np.stack(np.broadcast_arrays(product(of, self.inwards), product(of, self.across)))
 
     def thickness(self, wall: Array, normal: Array) -> Array:
         """The thickness at points of the wall, mm; infinite where another horn begins."""
@@ -200,7 +200,7 @@ def horn_of_many(
 ) -> HornStress:
     """The same of m designs, whose sizes may be (m, 1); NaN of a recess of 0, or without a load."""
     every = (mechanism, half_width_mm, recess_mm, width_mm)
-    m = designs_in(every)
+    m = mechanism.designs
     if m == 1:
         return _horns(1, *every)
     groups = [

@@ -31,7 +31,7 @@ import numpy as np
 from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength.horn import SHEAR, horns, product
-from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.machine.many import taken
 from geneva_cli.numerics.arrays import all_true, only_of, parameter
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def _contact(
 def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Bent:
     """The weakest horn of each of m designs."""
     every = (mechanism, half_width, recess, phi)
-    m = designs_in(every)
+    m = mechanism.designs
     if m == 1:
         return _weakest(*every)
     groups = [_weakest(*taken(every, slice(i, i + GROUP))) for i in range(0, m, GROUP)]

@@ -62,10 +62,7 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     errors, sizes = motion_errors(mechanism), list(used(mechanism).values())
     if not errors:
         return None
-    motions = [engagement.motion for engagement in mechanism.engagements]
-    own = [motion(motion.entry_deg, 1).c[1] + motion.entry_deg for motion in motions]
-    m = max(np.size(value) for value in (*sizes, *own, *errors[0][1:]))
-    machines = 2 ** sum(bool(np.any(size)) for size in sizes)
+    m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
     group = max(1, MOST // (machines * LOOKS))
     parts = [
         _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)

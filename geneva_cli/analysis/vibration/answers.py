@@ -8,18 +8,17 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.analysis.motion import check_samples
-from geneva_cli.analysis.timing import timings
 from geneva_cli.analysis.vibration.oscillator import NO_INERTIA, Oscillator
+from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import (
     FASTER,
     SLOWER,
     Avoid,
-    Station,
-    each_share,
+    Loads,
+    Vibrations,
+    loads_of,
     speeds_to_avoid,
-    stations,
-    steady,
-    worst_residuals,
+    vibrations,
 )
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
@@ -41,44 +40,41 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
             "warnings": (Caution("not-known", f"all is null: {NO_INERTIA}"),)
         }
-    each = stations(mechanism, load)
+    loads = loads_of(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)
-    first = timings(mechanism)[0]
-    residual = max(each, key=lambda s: s.residual_share)
-    steadies = [s.steady_share for s in each if s.steady_share is not None]
-    worst = worst_residuals(mechanism, np.array([load.ratio]), load.damping)
-    # accelerations over wn²: a wind-up is the wheel's
-    wheel = max(s.windup_deg for s in each)
-    swings = max(s.windup_deg * s.dynamic_factor for s in each)
+    numbers = {name: float(x[0]) for name, x in vibrations(loads)._asdict().items()}
+    each = _stations(loads)
     return {
-        "period_ratio": load.ratio,
-        "damping_ratio": load.damping,
-        "natural_Hz": load.ratio / first.motion_s,
-        "residual_share": residual.residual_share,
-        "residual_deg": max(s.residual_deg for s in each),
-        "residual_share_worst": float(worst[0]),
-        "steady_share": max(steadies) if steadies else None,
-        "dynamic_factor": swings / wheel,
-        "windup_deg": wheel,
+        **{name: _known(number) for name, number in numbers.items()},
         "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
         "avoid": rows_table(Avoid._fields, avoid),
-        "stations": rows_table(Station._fields, each) if len(each) > 1 else None,
-        "warnings": tuple(_warnings(mechanism, load, each)),
+        "stations": rows_table(STATION, each) if len(each) > 1 else None,
+        "warnings": tuple(_warnings(mechanism, load, float(loads.ratio.min()))),
     }
 
 
-NUMBERS = (
+def _stations(loads: Loads) -> list[tuple[float | None, ...]]:
+    """Return a row of ``STATION`` for each kind of index in a period."""
+    factor = loads.swung_deg / loads.windup_deg
+    every = (loads.ratio, loads.share, loads.residual_deg, factor, loads.windup_deg)
+    rows = np.array([*every, loads.steady_share])[:, :, 0].T
+    return [tuple(_known(x) for x in row) for row in rows.tolist()]
+
+
+def _known(number: float) -> float | None:
+    """Return None for NaN, a number that is not known."""
+    return None if math.isnan(number) else number
+
+
+STATION = (
     "period_ratio",
-    "damping_ratio",
-    "natural_Hz",
     "residual_share",
     "residual_deg",
-    "residual_share_worst",
-    "steady_share",
     "dynamic_factor",
     "windup_deg",
-    "speeds_to_avoid_rpm",
+    "steady_share",
 )
+NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
 OFF = 0.01  # share by which a tuned law may miss its period ratio without a word
 UNDAMPED = (
     "steady_share is null: without damping_ratio in [shaft], or --damping, what an index leaves "
@@ -86,9 +82,8 @@ UNDAMPED = (
 )
 
 
-def _warnings(mechanism: Mechanism, load: Oscillator, each: list[Station]) -> list[Caution]:
+def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caution]:
     out = []
-    least = min(s.period_ratio for s in each)
     if least < 1.0:
         out.append(
             Caution(
@@ -127,11 +122,7 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     n_rpm = mechanism.spec.drive.n_rpm
     speed = n_rpm * np.geomspace(SLOWER, FASTER, samples)
     ratio = load.ratio * (n_rpm / speed)
-    each = each_share(mechanism, ratio, load.damping)
-    steps = [2.0 * math.degrees(e.half_step) for e in mechanism.engagements]
-    turned = np.max([share * step for share, step in zip(each, steps, strict=True)], axis=0)
-    worst = worst_residuals(mechanism, ratio, load.damping)
-    settled: object = [None] * samples
-    if load.damping:
-        settled = np.max(steady(mechanism, ratio, load.damping), axis=0)
-    return Table(SPECTRUM, [speed, ratio, np.max(each, axis=0), turned, worst, settled])
+    loads = Loads(mechanism, Swing(ratio, np.full(samples, load.damping)))
+    settled: object = loads.steady_share.max(axis=0) if load.damping else [None] * samples
+    share, turned = loads.share.max(axis=0), loads.residual_deg.max(axis=0)
+    return Table(SPECTRUM, [speed, ratio, share, turned, loads.worst_share, settled])

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import NODES, SERIES, Panels, X
-from geneva_cli.analysis.vibration.shape import Shape
 from geneva_cli.analysis.vibration.swing import Swing
-from geneva_cli.numerics.budget import check_time
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
@@ -28,18 +26,13 @@ _INTEGRALS = (
 )
 
 
-def greatest_acceleration(shape: Shape, ratio: float, damping: float) -> float:
-    """The greatest size of the load's acceleration by u over the step, from entry to exit.
-
-    The load begins at rest. ``ratio`` is the period ratio; the shape's second derivative is
-    integrated piece by piece of its panels, so short that the swing has few terms on each.
-    """
-    swing = Swing(np.array([ratio]), np.array([damping]))
-    return float(greatest_accelerations(shape.flat, np.zeros(1, dtype=np.intp), swing)[0])
-
-
 def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array:
-    """The same of n oscillators, (n,), whose ``motion`` is given by its number."""
+    """Return the greatest size of each load's acceleration by u over the step: (n,).
+
+    From entry to exit; the load begins at rest. ``motion`` (n,) are the motions of the oscillators
+    by their numbers. A shape's second derivative is integrated piece by piece of its panels, so
+    short that the swing has few terms on each.
+    """
     most, omega, p = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
     of, panel, first = panels.paired(motion)
     # panels are cut so that |p h| is at most REACH
@@ -49,7 +42,6 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
     total = np.append(begin[1:], last[-1]) - begin
     active, start, z = np.arange(len(motion)), 0, np.zeros(len(motion), dtype=complex)
     while len(active):
-        check_time()
         wide = max(1, BLOCK // len(active))
         at = start + np.arange(min(wide, int(total[active].max()) - start))
         there = at < total[active][:, None]

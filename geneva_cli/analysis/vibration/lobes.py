@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.shape import Shape
-from geneva_cli.analysis.vibration.swing import Swing, residual_swing
-from geneva_cli.numerics.budget import check_time
+from geneva_cli.analysis.vibration.panels import Panels
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
@@ -28,37 +26,15 @@ _chebyshev = np.polynomial.chebyshev
 
 
 class Lobes(NamedTuple):
-    """Period ratios at which the residual has a local maximum, ascending, and its share there."""
-
-    ratio: Array
-    share: Array
-
-
-class LobesOfMany(NamedTuple):
-    """The same of n oscillators, all in one: which, ratio and share of each lobe."""
+    """Local maxima of the residuals of n oscillators: which, period ratio and share of each."""
 
     which: Whole
     ratio: Array
     share: Array
 
 
-def shares(shape: Shape, ratio: Array, damping: float) -> Array:
-    """The residual amplitude over the step at period ratios."""
-    return np.abs(residual_swing(shape, Swing(ratio, np.full(ratio.shape, damping))))
-
-
-def lobes(shape: Shape, low: float, high: float, damping: float) -> Lobes:
-    """The local maxima of the residual between two period ratios."""
-    found = lobes_of_many(
-        lambda _, ratio: shares(shape, ratio, damping), np.array([low]), np.array([high])
-    )
-    return Lobes(found.ratio, found.share)
-
-
-def lobes_of_many(
-    share_at: Callable[[Whole, Array], Array], low: Array, high: Array
-) -> LobesOfMany:
-    """The local maxima of n residuals, each between two period ratios of its own.
+def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) -> Lobes:
+    """Return the local maxima of n residuals, each between two period ratios of its own.
 
     ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each.
     """
@@ -68,7 +44,6 @@ def lobes_of_many(
         some = np.flatnonzero(count == number)
         ratio = np.linspace(low[some], high[some], number + 1, axis=1)
         share = share_at(np.repeat(some, number + 1), ratio.ravel()).reshape(ratio.shape)
-        check_time()
         before, here, after = share[:, :-2], share[:, 1:-1], share[:, 2:]
         row, at = np.nonzero((here >= before) & (here > after))
         found.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
@@ -89,16 +64,17 @@ def lobes_of_many(
         step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
         x = np.clip(x - step, -1.0, 1.0)
     ratios = middle + reach * x
-    return LobesOfMany(which, ratios, share_at(which, ratios))
+    return Lobes(which, ratios, share_at(which, ratios))
 
 
-def highest_ratio(shape: Shape, share: float, damping: float) -> float:
-    """A period ratio above which no motion of this shape leaves more than a share of the step.
+def highest_ratio(panels: Panels, share: float, damping: float) -> float:
+    """Return a period ratio above which a motion never leaves more than a share of the step.
 
     The residual is at most the variation of a derivative over Omega to its order, and over
     sqrt(1 - zeta²).
     """
-    orders = np.arange(1, len(shape.variation) + 1)
-    most = SAMPLED * shape.variation / math.sqrt(1.0 - damping * damping)
+    variation = panels.variation[: int(panels.smooth[0]) + 1, 0]
+    orders = np.arange(1, len(variation) + 1)
+    most = SAMPLED * variation / math.sqrt(1.0 - damping * damping)
     omega = (most / share) ** (1.0 / orders)
     return float(omega.min()) / (2.0 * math.pi)

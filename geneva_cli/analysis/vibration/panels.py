@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.budget import check_time
-
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
 
@@ -139,7 +137,6 @@ def _refined(
     closed: list[_Refined] = []
     greatest, count, many = np.zeros((order, m)), np.zeros(m, dtype=int), np.zeros(m, dtype=bool)
     while len(open_):
-        check_time()
         np.add.at(count, motion, 1)
         if order > LOWEST and (count > PANELS).any():
             many = count > PANELS

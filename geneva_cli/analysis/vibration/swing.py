@@ -15,20 +15,18 @@ is stable and leaves nothing but the panels' ends (Filon's method). No textbook 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.panels import TERMS
-from geneva_cli.analysis.vibration.shape import Shape
+from geneva_cli.analysis.vibration.panels import TERMS, Panels
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Array, Complex
+    from numpy.typing import NDArray
 
-# Period ratios at a time, so that they stay in the cache; with damping, whose numbers are complex,
-# so few that no product of matrices is shared out to threads, which wait longer than they work.
-BLOCK, DAMPED = 2048, 1024
+    from geneva_cli.numerics.arrays import Array, Complex, Whole
+
+BLOCK = 1 << 14  # pairs of an oscillator and a panel at a time, so that they stay in the cache
 SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
 LARGE = float(TERMS)  # above it the recurrence goes upwards
 SPLIT = 2.0**26  # half of a double's bits
@@ -76,92 +74,75 @@ class Swing(NamedTuple):
         return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
-def residual_swing(shape: Shape, swing: Swing) -> Complex:
-    """What a motion leaves: a complex number for each oscillator, its size over the step.
+def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
+    """Return what a motion leaves of each oscillator's swing: (n,), its size over the step.
 
     It is (r' - p* r) / Im p at the end of the motion, r being the load's angle less the wheel's
     over the step, and p* the conjugate: r = Im of it. The motion begins without vibration.
+    ``motion`` (n,) are the motions of the oscillators, by their numbers among the panels'.
     """
-    out = np.empty(len(swing.ratio), dtype=complex)
-    block = DAMPED if swing.damping.any() else BLOCK
-    by_ratio = np.argsort(swing.ratio)
-    order = _orders(shape, swing)[by_ratio]
-    for k in range(1, len(shape.greatest) + 1):
-        at = by_ratio[order == k]
-        for start in range(0, len(at), block):
-            part = at[start : start + block]
+    out = np.empty(len(motion), dtype=complex)
+    order = _orders(panels, motion, swing)
+    for k in range(1, int(order.max(initial=0)) + 1):
+        at = np.flatnonzero(order == k)
+        count = np.cumsum(np.diff(panels.ends)[motion[at]])
+        start = 0
+        while start < len(at):
+            done = count[start - 1] if start else 0
+            stop = max(start + 1, int(np.searchsorted(count, done + BLOCK, side="right")))
+            part = at[start:stop]
             some = Swing(swing.ratio[part], swing.damping[part])
             p = some.p
             # By parts: a derivative more, where it vanishes at both ends, is worth a factor p.
-            out[part] = -_integral(shape, k, some) * p ** (2 - k) / p.imag
+            out[part] = -_integral(panels, k, motion[part], some) * p ** (2 - k) / p.imag
+            start = stop
     return out
 
 
-def _orders(shape: Shape, swing: Swing) -> Array:
-    """Which derivative, 1 or higher, is best integrated: rounding is a share of its greatest."""
-    best = np.ones(len(swing.ratio), dtype=int)
+def _orders(panels: Panels, motion: Whole, swing: Swing) -> Whole:
+    """Return which derivative is best integrated: rounding is a share of its greatest value."""
+    best = np.ones(len(motion), dtype=np.intp)
     omega = 2.0 * np.pi * swing.ratio
-    for k in range(2, len(shape.greatest) + 1):
-        best[omega > shape.greatest[k - 1] / shape.greatest[k - 2]] = k
+    with np.errstate(all="ignore"):
+        for k in range(2, len(panels.greatest) + 1):
+            rate = (panels.greatest[k - 1] / panels.greatest[k - 2])[motion]
+            best[(k <= panels.smooth[motion] + 1) & (omega > rate)] = k
     return best
 
 
-def _integral(shape: Shape, order: int, swing: Swing) -> Complex:
-    """Integrals of a derivative; the ratios ascend."""
-    total = np.zeros(len(swing.ratio), dtype=complex)
-    ends: dict[float, Complex] = {}
-    p = swing.p
-
-    def after(v: float, part: slice) -> Complex:
-        if v not in ends:
-            ends[v] = swing.after(v)
-        return ends[v][part]
-
+def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Complex:
+    """Integrate a derivative of each oscillator's motion against its swing."""
+    of, panel, first = panels.paired(motion)
+    p, h = swing.p[of], panels.half[panel]
+    each = Swing(swing.ratio[of], swing.damping[of])
+    series = panels.series[order - 1, panel]
     # Without damping q = -i omega h, and all recurrences are real ones of omega h.
     unit = 1.0 if swing.damping.any() else -1j
-    for panels in shape.panels:
-        series, h = panels.series[order - 1], panels.half
-        size = np.abs(p) * h
-        q = -p * h
-        reduced = q if unit == 1.0 else size
-        low, high = (int(v) for v in np.searchsorted(size, (SMALL, LARGE)))
-        for part, moments in ((slice(0, low), by_powers), (slice(low, high), by_recurrence)):
-            if part.start < part.stop:
-                parts = moments(reduced[part], unit, series, GRID) * h
-                for i, right in enumerate(panels.right):
-                    total[part] += after(1.0 - right, part) * parts[:, i]
-        part = slice(high, len(total))
-        if high < len(total):
-            first, last = by_ends(reduced[part], unit, series, GRID)
-            for i, (a, b) in enumerate(zip(panels.left, panels.right, strict=True)):
-                both = after(1.0 - a, part) * first[:, i] + after(1.0 - b, part) * last[:, i]
-                total[part] += both / p[part]
-    return total
+    size = np.abs(p) * h
+    reduced: Array | Complex = -p * h if unit == 1.0 else size
+    out: Complex = np.empty(len(of), dtype=complex)
+    after = each.after(1.0 - panels.right[panel])
+    large = size >= LARGE
+    for here, moments in ((size < SMALL, _by_powers), ((size >= SMALL) & ~large, _by_recurrence)):
+        if here.any():
+            out[here] = moments(reduced[here], unit, series[here]) * h[here] * after[here]
+    if large.any():
+        some = Swing(each.ratio[large], each.damping[large])
+        one, other = _by_ends(reduced[large], unit, series[large])
+        both = some.after(1.0 - panels.left[panel[large]]) * one + after[large] * other
+        out[large] = both / p[large]
+    return np.add.reduceat(out, first)
 
 
-class Pairing(NamedTuple):
-    """How numbers of oscillators and of panels go together: each with each, or in pairs."""
-
-    spread: Callable[..., Complex]  # of oscillators, against panels
-    sum: Callable[..., Complex]  # (terms, oscillators), (panels, terms) -> sums over terms
-
-
-def _products(terms: Complex, series: Array) -> Complex:
-    """Their matrix product, (oscillators, panels); of complex terms as two real ones, in one."""
-    if not np.iscomplexobj(terms):
-        out: Complex = terms.T @ series.T
-        return out
-    both = terms.view(float).T @ series.T
-    return both[::2] + 1j * both[1::2]
+def _sums(terms: NDArray[np.inexact], series: Array) -> Complex:
+    """Return sums over the terms: of (terms, pairs) times (pairs, terms)."""
+    out: Complex = np.einsum("tp,pt->p", terms, series)
+    return out
 
 
-GRID = Pairing(lambda x: x[:, None], _products)
-PAIRS = Pairing(lambda x: x, lambda a, b: np.einsum("tp,pt->p", a, b))
-
-
-def by_powers(reduced: Array | Complex, unit: complex, series: Array, by: Pairing) -> Complex:
+def _by_powers(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
     """Integrals of f e^(q (x - 1)), q the oscillators' and f the panels', by powers of q."""
-    q = by.spread(reduced * unit)
+    q: Complex = np.multiply(reduced, unit, dtype=complex)
     total: Complex = q * 0.0 * series[:, 0]
     for c in (series @ _MOMENTS).T[::-1]:
         total *= q
@@ -169,7 +150,7 @@ def by_powers(reduced: Array | Complex, unit: complex, series: Array, by: Pairin
     return total
 
 
-def by_recurrence(reduced: Array | Complex, unit: complex, series: Array, by: Pairing) -> Complex:
+def _by_recurrence(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
     """The same by modified spherical Bessel functions i_n(q) = unit^n y_n, scaled by their sum.
 
     q = unit times ``reduced``; the sum of (2 n + 1) i_n(q) is e^q.
@@ -192,14 +173,12 @@ def by_recurrence(reduced: Array | Complex, unit: complex, series: Array, by: Pa
         term += square * above  # i_(n-1) = i_(n+1) + (2 n + 1) i_n / q
         above, here = here, term
     scaled = 2.0 * series * square ** (np.arange(TERMS) // 2)
-    even, odd = by.sum(kept[::2], scaled[:, ::2]), by.sum(kept[1::2], scaled[:, 1::2])
-    found: Complex = (even + unit * odd) / by.spread(sums[0] + unit * sums[1])
+    even, odd = _sums(kept[::2], scaled[:, ::2]), _sums(kept[1::2], scaled[:, 1::2])
+    found: Complex = (even + unit * odd) / (sums[0] + unit * sums[1])
     return found
 
 
-def by_ends(
-    reduced: Array | Complex, unit: complex, series: Array, by: Pairing
-) -> tuple[Complex, Complex]:
+def _by_ends(reduced: Array | Complex, unit: complex, series: Array) -> tuple[Complex, Complex]:
     """What the panels' left and right ends add, times p.
 
     The moments with Legendre's polynomials are m_(n+1) = m_(n-1) - (2 n + 1) m_n / q, from those of
@@ -217,6 +196,6 @@ def by_ends(
         before = even, odd
         even, odd = following
     turned = series * -((-1.0) ** np.arange(TERMS))
-    first = by.sum(kept[0], series) + unit * by.sum(kept[1], series)
-    last = by.sum(kept[0], turned) - unit * by.sum(kept[1], turned)
+    first = _sums(kept[0], series) + unit * _sums(kept[1], series)
+    last = _sums(kept[0], turned) - unit * _sums(kept[1], turned)
     return first, last

@@ -1,4 +1,4 @@
-"""What a load on an elastic shaft does at a design's speed, and at which speeds it swings most.
+"""Vibration of a load on an elastic shaft, at one speed or many, behind one design or many.
 
 The wheel turns by psi, the load by psi + r, and between them are a spring k and a damper:
 
@@ -6,43 +6,63 @@ The wheel turns by psi, the load by psi + r, and between them are a spring k and
 
 The period ratio is the motion's time over the natural period 2 pi / wn. A residual is the amplitude
 of the swing that a motion leaves, begun at rest, at its end; its share is that of the wheel's step.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load, Shaft
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(6), load=Load(inertia_kgm2=0.2), shaft=Shaft(stiffness_Nm_rad=5e3))
+    >>> machine = many(spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
+    >>> vibrations_of_many(machine).residual_share.round(6)
+    array([0.000708, 0.000695])
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.peaks import peak
-from geneva_cli.analysis.vibration.during import greatest_acceleration
-from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes, shares
-from geneva_cli.analysis.vibration.oscillator import Oscillator
-from geneva_cli.analysis.vibration.shape import shape
+from geneva_cli.analysis.loads.carried import inertia_kgm2
+from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.analysis.timing import timings
+from geneva_cli.analysis.vibration.during import greatest_accelerations
+from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
+from geneva_cli.analysis.vibration.oscillator import RATIO, Oscillator, period_ratio_of
+from geneva_cli.analysis.vibration.shape import law_shape, motion_shapes, shape
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # the speeds looked at, over the design's
 AVOIDED = 1e-4  # least share of the step that makes a speed one to avoid
+TIE = 1e-12  # share of a residual: a lobe that falls short of the greatest by less counts
+GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
 
 
-class Station(NamedTuple):
-    """One kind of index."""
+class Vibrations(NamedTuple):
+    """Vibration of m designs (m,) each, as of the command; NaN where one is not known."""
 
-    period_ratio: float
-    residual_share: float
-    residual_deg: float
-    dynamic_factor: float  # greatest acceleration of the load over the wheel's, during the motion
-    windup_deg: float  # I alpha / k at the wheel's greatest acceleration
-    steady_share: (
-        float | None
-    )  # the residual after many cycles; None: without damping there is none
+    period_ratio: Array
+    damping_ratio: Array
+    natural_Hz: Array
+    residual_share: Array
+    residual_deg: Array
+    residual_share_worst: Array
+    steady_share: Array
+    dynamic_factor: Array
+    windup_deg: Array
 
 
 class Avoid(NamedTuple):
@@ -54,107 +74,224 @@ class Avoid(NamedTuple):
     residual_share: float
 
 
-def stations(mechanism: Mechanism, load: Oscillator) -> list[Station]:
-    """Each engagement of a period, the load at rest before it (but for the steady state)."""
-    out = []
-    for engagement, scale, share in zip(
-        mechanism.engagements, _scales(mechanism), steady_shares(mechanism, load), strict=True
-    ):
-        form, ratio = shape(engagement), load.ratio * scale
-        step = 2.0 * engagement.half_step
-        residual = float(shares(form, np.array([ratio]), load.damping)[0])
-        # the wheel's greatest acceleration by the share of the motion's time, over the step
-        whole = engagement.motion_deg * DEGREE
-        wheel = peak(engagement.motion, "acceleration").max * whole * whole / step
-        swings = greatest_acceleration(form, ratio, load.damping)
-        windup = wheel * math.degrees(step) / (2.0 * math.pi * ratio) ** 2
-        out.append(
-            Station(ratio, residual, residual * math.degrees(step), swings / wheel, windup, share)
-        )
-    return out
+class Index:
+    """One kind of index: of one design, or of each of a batch of m."""
+
+    def __init__(self, engagement: Engagement, scale: Array, m: int, in_batch: bool) -> None:
+        motion, law = engagement.motion, engagement.motion.law
+        self.motion = motion
+        self.scale = scale  # its time over that of the machine's first motion
+        self.whole = np.ravel(engagement.motion_deg * DEGREE)
+        self.exit_deg = np.ravel(engagement.mid_deg + engagement.exit_deg)
+        self.step = np.ravel(2.0 * engagement.half_step)
+        # a law without numbers that vary has one shape in all designs
+        alike = law is not None and taken(law, slice(0)) is law
+        self.is_one = m == 1 or alike
+        if in_batch:
+            self.panels = law_shape(law) if law and alike else motion_shapes(motion, m)
+        else:
+            self.panels = shape(engagement)
+
+    def shapes(self, which: Whole) -> Whole:
+        """Return the numbers of oscillators' motions among the panels'."""
+        return 0 * which if self.is_one else which
+
+    def residual(self, which: Whole, ratio: Array, damping: Array) -> Complex:
+        """Return what the motion leaves of oscillators, by period ratios of the first motion."""
+        scale = self.scale if len(self.scale) == 1 else self.scale[which]
+        return residual_swing(self.panels, self.shapes(which), Swing(ratio * scale, damping))
 
 
-def _scales(mechanism: Mechanism) -> list[float]:
-    """The time of each motion over that of the first."""
-    first = mechanism.engagements[0].motion_deg
-    return [engagement.motion_deg / first for engagement in mechanism.engagements]
+class Loads:
+    """n oscillators behind a machine: each behind one of its n designs, or all behind one.
 
-
-def steady_shares(mechanism: Mechanism, load: Oscillator) -> list[float | None]:
-    """The residual after each motion once the cycle repeats itself, over that motion's step.
-
-    A motion adds its own residual to what is left of all before it: a geometric series. Without
-    damping it has no sum.
+    Arrays (stations, n) have a row for each kind of index in a period; the load is at rest before
+    it, but for the steady state.
     """
-    engagements = mechanism.engagements
-    if not load.damping:
-        return [None] * len(engagements)
-    return [float(s[0]) for s in steady(mechanism, np.array([load.ratio]), load.damping)]
+
+    def __init__(self, mechanism: Mechanism, swing: Swing) -> None:
+        self.mechanism, self.swing = mechanism, swing
+        self.every = np.arange(len(swing.ratio))
+        first = mechanism.engagements[0].motion_deg
+        self.indices = [
+            Index(e, np.ravel(e.motion_deg / first), mechanism.designs, is_array(mechanism.design))
+            for e in mechanism.engagements
+        ]
+
+    @cached_property
+    def ratio(self) -> Array:
+        """Period ratios of each motion."""
+        return np.array([self.swing.ratio * index.scale for index in self.indices])
+
+    @cached_property
+    def residual(self) -> Complex:
+        """Residual swings, as of ``residual_swing``."""
+        return self.residuals(self.swing.ratio)
+
+    def residuals(self, ratio: Array, which: Whole | None = None) -> Complex:
+        """Return residual swings (stations, k) of some oscillators at period ratios (k,)."""
+        which = self.every if which is None else which
+        damping = self.swing.damping[which]
+        return np.array([index.residual(which, ratio, damping) for index in self.indices])
+
+    @property
+    def share(self) -> Array:
+        """Residual amplitudes over the step."""
+        return np.abs(self.residual)
+
+    @property
+    def residual_deg(self) -> Array:
+        """Residual amplitudes, degrees."""
+        return np.degrees(self.share * self._steps)
+
+    @cached_property
+    def windup_deg(self) -> Array:
+        """I alpha / k at the wheel's greatest acceleration, degrees."""
+        rows = []
+        for index, bent in zip(self.indices, self._bent_deg, strict=True):
+            most = peaks_of_many(index.motion, ["acceleration"])["acceleration"].max
+            # by the share of the motion's time, over the step
+            rows.append(np.ravel(most) * index.whole * index.whole / index.step * bent)
+        return np.array(rows)
+
+    @cached_property
+    def swung_deg(self) -> Array:
+        """I alpha / k at the load's greatest acceleration during the motion, degrees."""
+        damping = self.swing.damping
+        rows = [
+            greatest_accelerations(i.panels, i.shapes(self.every), Swing(ratio, damping))
+            for i, ratio in zip(self.indices, self.ratio, strict=True)
+        ]
+        return np.array(rows) * self._bent_deg
+
+    @cached_property
+    def steady_share(self) -> Array:
+        """Residuals over the step once the cycle repeats itself; NaN without damping.
+
+        A motion adds its own residual to what is left of all before it: a geometric series. Without
+        damping it has no sum.
+        """
+        period = np.ravel(self.mechanism.period_deg)
+        first = np.ravel(self.mechanism.engagements[0].motion_deg)
+        rate = self.swing.p / first  # by degrees of the input
+        exits = [index.exit_deg for index in self.indices]
+        added = [one * i.step for one, i in zip(self.residual, self.indices, strict=True)]
+        rows = []
+        with np.errstate(all="ignore"):
+            sum_ = -np.expm1(rate * period)
+            for index in self.indices:
+                ages = [(index.exit_deg - other) % period for other in exits]
+                left = sum(a * np.exp(rate * age) for a, age in zip(added, ages, strict=True))
+                rows.append(np.abs(left / sum_) / index.step)
+        return np.where(self.swing.damping > 0.0, rows, np.nan)
+
+    @cached_property
+    def worst_share(self) -> Array:
+        """The greatest residual share for any stiffness within 20 % of the given: (n,)."""
+        low, high = self.swing.ratio * SOFTER, self.swing.ratio * STIFFER
+        near = [self.residuals(ratio) for ratio in (low, self.swing.ratio, high)]
+        worst: Array = np.abs(near).max(axis=(0, 1))
+        for index in self.indices:
+            one = index.is_one and bool((self.swing.damping == self.swing.damping[0]).all())
+            if one:  # the lobes of all are those of one
+                tops = self.lobes(index, low.min(keepdims=True), high.max(keepdims=True))
+                of, top = np.nonzero((tops.ratio >= low[:, None]) & (tops.ratio <= high[:, None]))
+            else:
+                tops = self.lobes(index, low, high)
+                inside = (tops.ratio >= low[tops.which]) & (tops.ratio <= high[tops.which])
+                top = np.flatnonzero(inside)
+                of = tops.which[top]
+            np.maximum.at(worst, of, tops.share[top])
+        return worst
+
+    def lobes(self, index: Index, low: Array, high: Array) -> Lobes:
+        """Return the lobes of an index, between period ratios of the first oscillators' own."""
+
+        def share_at(which: Whole, ratio: Array) -> Array:
+            return np.abs(index.residual(which, ratio, self.swing.damping[which]))
+
+        return lobes(share_at, low, high)
+
+    @property
+    def _steps(self) -> Array:
+        rows = [np.broadcast_to(index.step, self.every.shape) for index in self.indices]
+        return np.array(rows)
+
+    @property
+    def _bent_deg(self) -> Array:
+        """The wind-up at an acceleration of 1 step over the motion's time squared, degrees."""
+        out: Array = np.degrees(self._steps) / (2.0 * np.pi * self.ratio) ** 2
+        return out
 
 
-def steady(mechanism: Mechanism, ratio: Array, damping: float) -> list[Array]:
-    """The same at many period ratios of the first engagement, with a damping above 0."""
-    engagements = mechanism.engagements
-    zeta = np.full(ratio.shape, damping)
-    rate = Swing(ratio, zeta).p / engagements[0].motion_deg  # by degrees of the input
-    added = [
-        residual_swing(shape(e), Swing(ratio * scale, zeta)) * e.half_step
-        for e, scale in zip(engagements, _scales(mechanism), strict=True)
-    ]
-    exits = [e.mid_deg + e.exit_deg for e in engagements]
-    sum_ = -np.expm1(rate * mechanism.period_deg)
-    out = []
-    for here, exit_ in zip(engagements, exits, strict=True):
-        ages = [(exit_ - other) % mechanism.period_deg for other in exits]
-        swing = sum(a * np.exp(rate * age) for a, age in zip(added, ages, strict=True))
-        out.append(np.abs(swing / sum_) / here.half_step)
-    return out
+def loads_of(mechanism: Mechanism, load: Oscillator) -> Loads:
+    """Return the load of one design."""
+    return Loads(mechanism, Swing(np.array([load.ratio]), np.array([load.damping])))
+
+
+def vibrations(loads: Loads, asked: Collection[str] = Vibrations._fields) -> Vibrations:
+    """Return the answers of each oscillator; the greatest of all motions.
+
+    NaN stands for what takes its time and is not in ``asked``: the worst residual, and what happens
+    during the motion.
+    """
+    swing, none = loads.swing, np.full(len(loads.every), np.nan)
+    windup = loads.windup_deg.max(axis=0)
+    return Vibrations(
+        swing.ratio,
+        swing.damping,
+        swing.ratio / np.ravel(timings(loads.mechanism)[0].motion_s),
+        loads.share.max(axis=0),
+        loads.residual_deg.max(axis=0),
+        loads.worst_share if "residual_share_worst" in asked else none,
+        loads.steady_share.max(axis=0),
+        loads.swung_deg.max(axis=0) / windup if "dynamic_factor" in asked else none,
+        windup,
+    )
+
+
+def vibrations_of_many(
+    mechanism: Mechanism, asked: Collection[str] = Vibrations._fields
+) -> Vibrations | None:
+    """Return the answers of m designs; None where they have no ``stiffness_Nm_rad``.
+
+    NaN stands for a design whose period ratio is out of range.
+    """
+    stiffness = mechanism.spec.shaft.stiffness_Nm_rad
+    if stiffness is None:
+        return None
+    with np.errstate(all="ignore"):
+        # an array: a float's quotient by 0 is an error
+        inertia = parameter(array(inertia_kgm2(mechanism.spec)))
+        periods = period_ratio_of(mechanism, stiffness, inertia)
+    damping = mechanism.spec.shaft.damping_ratio
+    ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
+    known = np.flatnonzero(np.isfinite(ratio) & RATIO.holds(ratio))
+    out = np.full((len(Vibrations._fields), len(ratio)), np.nan)
+    for i in range(0, len(known), GROUP):
+        part = known[i : i + GROUP]
+        some = Loads(taken(mechanism, part), Swing(ratio[part], zeta[part]))
+        out[:, part] = vibrations(some, asked)
+    return Vibrations(*out)
 
 
 def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
-    """Speeds at which the residual has a local maximum of at least ``AVOIDED`` of the step.
+    """Return speeds at which the residual has a local maximum of at least ``AVOIDED`` of the step.
 
     From half to twice the design's, ascending. Where engagements differ, the greatest residual of
     all counts.
     """
-    n_rpm = mechanism.spec.drive.n_rpm
-    scales = _scales(mechanism)
-    found: list[tuple[float, float]] = []
-    for i, engagement in enumerate(mechanism.engagements):
-        form = shape(engagement)
-        low = load.ratio / FASTER * scales[i]
-        high = min(load.ratio / SLOWER * scales[i], highest_ratio(form, AVOIDED, load.damping))
+    n_rpm, own = mechanism.spec.drive.n_rpm, loads_of(mechanism, load)
+    places: list[tuple[float, float]] = []
+    for index in own.indices:
+        scale = float(index.scale[0])
+        high = highest_ratio(index.panels, AVOIDED, load.damping) / scale
+        low, high = load.ratio / FASTER, min(load.ratio / SLOWER, high)
         if low >= high:
             continue
-        own = lobes(form, low, high, load.damping)
-        worst = residuals(mechanism, own.ratio / scales[i], load.damping)
-        kept = (own.share >= AVOIDED) & (own.share >= worst * (1.0 - 1e-12))
-        places = zip(own.ratio[kept] / scales[i], own.share[kept], strict=True)
-        found += [(float(r), float(s)) for r, s in places]
-    speeds = [(n_rpm * load.ratio / ratio, share) for ratio, share in found]
+        tops = own.lobes(index, np.array([low]), np.array([high]))
+        most = np.abs(own.residuals(tops.ratio, tops.which)).max(axis=0)
+        kept = (tops.share >= AVOIDED) & (tops.share >= most * (1.0 - TIE))
+        places += zip(tops.ratio[kept].tolist(), tops.share[kept].tolist(), strict=True)
+    speeds = [(n_rpm * load.ratio / ratio, share) for ratio, share in places]
     return [Avoid(n, n * SOFTER, n * STIFFER, share) for n, share in sorted(speeds)]
-
-
-def each_share(mechanism: Mechanism, ratio: Array, damping: float) -> list[Array]:
-    """The residual share of each engagement, at period ratios of the first."""
-    every = zip(mechanism.engagements, _scales(mechanism), strict=True)
-    return [shares(shape(e), ratio * scale, damping) for e, scale in every]
-
-
-def residuals(mechanism: Mechanism, ratio: Array, damping: float) -> Array:
-    """The greatest of them."""
-    worst: Array = np.max(each_share(mechanism, ratio, damping), axis=0)
-    return worst
-
-
-def worst_residuals(mechanism: Mechanism, ratio: Array, damping: float) -> Array:
-    """The same, the greatest for any stiffness within 20 % of the given."""
-    near = [residuals(mechanism, ratio * f, damping) for f in (SOFTER, 1.0, STIFFER)]
-    out: Array = np.max(near, axis=0)
-    for engagement, scale in zip(mechanism.engagements, _scales(mechanism), strict=True):
-        low, high = ratio * (SOFTER * scale), ratio * (STIFFER * scale)
-        own: Lobes = lobes(shape(engagement), float(low.min()), float(high.max()), damping)
-        first, last = np.searchsorted(own.ratio, low), np.searchsorted(own.ratio, high)
-        for i in np.flatnonzero(first < last):
-            out[i] = max(out[i], own.share[first[i] : last[i]].max())
-    return out

@@ -11,8 +11,9 @@ import numpy as np
 
 from geneva_cli.bench.formulas import Proportions, acceleration, jerk
 from geneva_cli.bench.kinds import task_of_many
-from geneva_cli.bench.method import Method, Subject
+from geneva_cli.bench.method import Method, Subject, missing
 from geneva_cli.bench.numeric import NUMERIC, vertex
+from geneva_cli.bench.scalar_loop import by_numba
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks
 
@@ -21,6 +22,7 @@ QUICK = 2_000
 SAMPLE = 50  # designs of which a loop over single designs is run
 CHECKED = 200  # designs whose error is measured
 BLOCK = 4096  # designs at a time, for every vectorised method
+SECANTS = 6  # steps
 
 
 class Designs:
@@ -79,19 +81,40 @@ def parabola(d: Proportions, n: int) -> Any:
     return np.where(i == inner, top, size[i, every])
 
 
-def find_root(d: Proportions, n: int) -> Any:
-    """SciPy's vectorised bracketing solver between the points of a scan."""
-    from scipy.optimize.elementwise import find_root as solve
-
+def scanned(d: Proportions, n: int, solve: Callable[[Proportions, Any, Any], Any]) -> Any:
+    """The greatest value at the end and where ``solve`` finds the slope's zeros between points."""
     best = np.abs(acceleration(np, d, d.half))
     nodes = [d.half * (i / (n - 1)) for i in range(n)]
     slopes = np.array([jerk(np, d, x) for x in nodes])
     left, which = np.nonzero(slopes[:-1] * slopes[1:] < 0.0)
     part = Proportions(*[v[which] for v in d])
     a, b = part.half * (left / (n - 1)), part.half * ((left + 1) / (n - 1))
-    found = solve(lambda x, *args: jerk(np, Proportions(*args), x), (a, b), args=tuple(part))
-    np.maximum.at(best, which, np.abs(acceleration(np, part, found.x)))
+    np.maximum.at(best, which, np.abs(acceleration(np, part, solve(part, a, b))))
     return best
+
+
+def find_root(d: Proportions, n: int) -> Any:
+    """SciPy's vectorised bracketing solver between the points of a scan."""
+    from scipy.optimize.elementwise import find_root as solve
+
+    def root(part: Proportions, a: Any, b: Any) -> Any:
+        return solve(lambda x, *of: jerk(np, Proportions(*of), x), (a, b), args=tuple(part)).x
+
+    return scanned(d, n, root)
+
+
+def secants(d: Proportions, n: int) -> Any:
+    """Some steps of the secant method between the points of a scan, in NumPy alone."""
+
+    def root(part: Proportions, a: Any, b: Any) -> Any:
+        x, value, last, before = b, jerk(np, part, b), a, jerk(np, part, a)
+        for _ in range(SECANTS):
+            fall = np.where(value == before, 1.0, value - before)
+            x, last = np.clip(x - value * (x - last) / fall, a, b), x
+            value, before = jerk(np, part, x), value
+        return x
+
+    return scanned(d, n, root)
 
 
 def _has_find_root() -> bool:
@@ -104,6 +127,7 @@ VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]]
     ("vectorised grid", grid, (33, 101, 1001)),
     ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
     ("vectorised scan + SciPy find_root", find_root, (17, 33)),
+    ("vectorised scan + secants", secants, (17, 33)),
 ]
 
 
@@ -128,6 +152,9 @@ def subject(quick: bool) -> Subject:
                 times=count / sample,
             )
         )
+    absent = missing("numba")
+    if not absent:
+        methods.append(Method("numba, loop over designs", None, partial(_compiled, designs)))
     methods.append(
         Method(
             "ours",
@@ -142,7 +169,15 @@ def subject(quick: bool) -> Subject:
         f"greatest relative error of {CHECKED} designs' peaks",
         [task],
         floor=4e-15,
+        absent=absent,
     )
+
+
+def _compiled(designs: Designs) -> Any:
+    sign, l, A, _ = designs.arrays
+    out = np.empty(len(A))
+    by_numba()(sign, l, A, out)
+    return out
 
 
 def _sized(method: Callable[[Proportions, int], Any], n: int, d: Proportions) -> Any:

@@ -7,7 +7,7 @@ import importlib.util
 import io
 import tracemalloc
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,9 +17,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.output import delimited
-
-if TYPE_CHECKING:
-    from geneva_cli.table import Table
+from geneva_cli.table import Table
 
 COUNTS = (1_000, 100_000, 1_000_000)
 TRACED = 100_000  # rows
@@ -104,7 +102,9 @@ def subject(quick: bool) -> Subject:
     found = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
     tasks = []
     for count in COUNTS[:1] if quick else COUNTS:
-        table = motion_table(mechanism, count)
+        # whole arrays, as the writers take them: the program's own columns are made while written
+        columns = motion_table(mechanism, count).to_dict()
+        table = Table(tuple(columns), list(columns.values()))
         methods = [
             Method(name, count, _call(run, table), is_ours, memory=_memory(run, table, count))
             for name, run, is_ours in (*found, *WRITERS)

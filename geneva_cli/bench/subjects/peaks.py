@@ -9,8 +9,8 @@ from typing import Any
 
 from geneva_cli.analysis.peaks import acceleration_peak as program
 from geneva_cli.bench.formulas import Proportions, acceleration
-from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.numeric import NUMERIC, closed
+from geneva_cli.bench.method import Method, Subject, Task, missing
+from geneva_cli.bench.numeric import NUMERIC, by_chebpy, closed
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.crank import Crank
@@ -21,13 +21,19 @@ from geneva_cli.machine.wheels import classic
 from geneva_cli.machine.wheels import side_crank_peaks as many
 
 DESIGNS = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
+CHEBPY = "chebfun"  # what installs chebpy: another package has that name
 QUICK = 2  # how many of a method's sizes a quick run shows
 
 
 def subject(quick: bool) -> Subject:
     """Every method on a few designs."""
     tasks = [_task(*design, quick) for design in DESIGNS[: 2 if quick else None]]
-    return Subject("Peak acceleration of one design", "relative error of the peak", tasks)
+    return Subject(
+        "Peak acceleration of one design",
+        "relative error of the peak",
+        tasks,
+        absent=missing(CHEBPY),
+    )
 
 
 def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
@@ -37,6 +43,8 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
         for numeric in NUMERIC
         for size in (numeric.sizes[:QUICK] if quick else numeric.sizes)
     ]
+    if not missing(CHEBPY):
+        methods.append(Method("chebpy, roots of the slope", None, partial(by_chebpy, d)))
     wheel = registry.gearing(gearing)(z)
     mechanism = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
     engagement = mechanism.engagements[0]

@@ -24,10 +24,9 @@ from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import motion_plays, used
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
-from geneva_cli.analysis.vibration.many import vibrations_of_many
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.analysis.vibration.shape import shape
-from geneva_cli.analysis.vibration.vibration import stations
+from geneva_cli.analysis.vibration.vibration import loads_of, vibrations, vibrations_of_many
 from geneva_cli.bench.kinds import one_by_one, task_of_many
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.side_crank import SideCrank
@@ -94,7 +93,8 @@ def _motor(machine: Mechanism) -> float:
 
 def _swing(machine: Mechanism) -> float:
     shape.cache_clear()
-    return stations(machine, required_oscillator(machine))[0].dynamic_factor
+    loads = loads_of(machine, required_oscillator(machine))
+    return float(vibrations(loads, ("dynamic_factor",)).dynamic_factor[0])
 
 
 def _swings(machine: Mechanism) -> Any:

@@ -140,7 +140,7 @@ def _task(damping: float, quick: bool) -> Task:
     ratio = np.random.default_rng(8).permutation(np.linspace(0.3, 20.0, count))
     ratio[: len(BESIDE)] = BESIDE
     ours, sample = law_shape(registry.law(LAW)()), 5 if quick else SAMPLE
-    zeta = np.full(count, damping)
+    swing, motion = Swing(ratio, np.full(count, damping)), np.zeros(count, dtype=np.intp)
     methods = [
         Method(
             f"loop: SciPy solve_ivp (extrapolated from {sample})",
@@ -159,9 +159,7 @@ def _task(damping: float, quick: bool) -> Task:
         for name, method, sizes in others
         for size in sizes
     ]
-    methods.append(
-        Method("ours", None, lambda: np.abs(residual_swing(ours, Swing(ratio, zeta))), True)
-    )
+    methods.append(Method("ours", None, lambda: np.abs(residual_swing(ours, motion, swing)), True))
     return Task(
         f"{count} period ratios, damping {damping:g}",
         f"one np.sin + np.cos over {count} numbers",

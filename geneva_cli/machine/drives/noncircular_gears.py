@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from decimal import ROUND_FLOOR, Decimal, localcontext
 from functools import lru_cache
 from typing import Annotated, ClassVar, NamedTuple
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
@@ -23,14 +24,12 @@ from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.digits import FIFTY, PI, of_degrees, to_degrees
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.spline import ZERO, Doubt, Exact, Pieces, doubt, periodic, shifted
+from geneva_cli.numerics.spline import DEGREE, Doubt, Pieces, doubt, periodic
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
 
-TURN = FIFTY.multiply(2, PI)
 MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
 
 
@@ -121,17 +120,16 @@ class NoncircularGears(Transmission, kw_only=True):
         if self.ratio is None:
             return None
         x, i = zip(*self.ratio.pairs, strict=True)
-        with localcontext(FIFTY):
-            found = doubt([of_degrees(v) for v in x], i, True, 2)
+        found = doubt([math.radians(v) for v in x], i, True, 2)
         return found._replace(move=found.move / i[bisect_right(x, input_deg % 360.0) - 1])
 
 
 @lru_cache(4)  # advice builds one machine many times
-def _turned(points: tuple[tuple[float, float], ...]) -> Exact:
+def _turned(points: tuple[tuple[float, float], ...]) -> Pieces:
     """The crank's angle over a turn, scaled to close. Raises GenevaError where no gears have it."""
     key = ("drive", "ratio_file")
-    i = [p[1] for p in points]
-    if points[0][0] != 0.0 or points[-1][0] != 360.0 or i[0] != i[-1]:
+    x, i = zip(*points, strict=True)
+    if x[0] != 0.0 or x[-1] != 360.0 or i[0] != i[-1]:
         raise GenevaError(
             "the ratio runs over a turn: from 0 to 360 deg, and ends as it began", key
         )
@@ -139,18 +137,15 @@ def _turned(points: tuple[tuple[float, float], ...]) -> Exact:
         raise GenevaError(
             f"not realisable as gears: the ratio falls to {min(i):g}, not above 0", key
         )
-    with localcontext(FIFTY):
-        x = [of_degrees(p[0]) for p in points]
-        whole = periodic(x, [Decimal(v) for v in i]).integral()
-        mean = whole.end() / TURN
-        scaled = Exact(x, [[v / mean for v in c] for c in whole.c])
-    if abs(float(mean) - 1.0) > MEAN:
+    whole = periodic([math.radians(v) for v in x], i).integral()
+    mean = whole(math.tau, 0)[0] / math.tau
+    if abs(mean - 1.0) > MEAN:
         raise GenevaError(
-            f"the gears do not close: the ratio's mean over a turn is {float(mean):.9g}, and must "
-            f"be 1; divide it by {float(mean):.9g}",
+            f"the gears do not close: the ratio's mean over a turn is {mean:.9g}, and must "
+            f"be 1; divide it by {mean:.9g}",
             key,
         )
-    return scaled
+    return Pieces(whole.cuts, whole.origins, whole.rows / mean)
 
 
 class Since(NamedTuple):
@@ -167,40 +162,24 @@ class Since(NamedTuple):
         return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
 
 
-def _through(crank: Exact, crank_deg: float) -> About:
-    with localcontext(FIFTY):
-        phi = _input(crank, of_degrees(crank_deg))
-        since = _since(crank, phi).rounded()
-    return About(to_degrees(phi), Since(since))
+def _through(crank: Pieces, crank_deg: float) -> About:
+    turns, wanted = divmod(math.radians(crank_deg), math.tau)
+    phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
+    return About(math.degrees(phi + turns * math.tau), Since(_since(crank, phi)))
 
 
-def _input(crank: Exact, wanted: Decimal) -> Decimal:
-    """The input angle of a crank angle, radians, by halving down to the last of 50 digits."""
-    turns = (wanted / TURN).to_integral_value(ROUND_FLOOR)
-    wanted -= turns * TURN
-    i = max(bisect_right([c[0] for c in crank.c], wanted) - 1, 0)
-    whole = crank.x[i + 1] - crank.x[i]
-    since = boundary(lambda t: shifted(crank.c[i], t)[0] < wanted, ZERO, whole)
-    return crank.x[i] + since + turns * TURN
+def _since(crank: Pieces, phi: float) -> Pieces:
+    """The crank's angle since the input angle phi, by the input's since then, over three turns.
 
-
-def _since(crank: Exact, phi: Decimal) -> Exact:
-    """The crank's angle since the input angle phi, by the input's since then: half a turn either
-    way, with a knot at phi, so that the least way is written in full."""
-    turns = (phi / TURN).to_integral_value(ROUND_FLOOR)
-    at = phi - turns * TURN
-    i = bisect_right(crank.x, at, hi=len(crank.x) - 1) - 1
-    here = shifted(crank.c[i], at - crank.x[i])
-    x = [ZERO, *[v - at for v in crank.x[i + 1 :]], *[v - at + TURN for v in crank.x[1 : i + 1]]]
-    c = [here, *crank.c[i + 1 :], *[[v[0] + TURN, *v[1:]] for v in crank.c[: i + 1]]]
-    if at > crank.x[i]:
-        x.append(TURN)
-    else:
-        c.pop()
-    c = [[v[0] - here[0], *v[1:]] for v in c]
-    half = bisect_right(x, TURN / 2)  # the first knot past half a turn: its piece serves both ways
-    back = [v - TURN for v in x[half - 1 :]]
-    return Exact(
-        [*back, *x[1 : half + 1]],
-        [*[[v[0] - TURN, *v[1:]] for v in c[half - 1 :]], *c[:half]],
-    )
+    The piece about phi is written in powers of the input's angle since then, so that the least
+    angle has all its digits.
+    """
+    here = crank(phi, DEGREE + 1)
+    turns = math.tau * np.arange(-1.0, 2.0)
+    origins = np.add.outer(turns, crank.origins - phi).ravel()
+    rows = np.tile(crank.rows, (3, 1))
+    rows[:, 0] = np.add.outer(turns, crank.rows[:, 0] - here[0]).ravel()
+    middle = len(crank.origins) + int(crank.cuts.searchsorted(phi))
+    cuts = origins[1:].copy()
+    origins[middle], rows[middle] = 0.0, [0.0, *here[1:]]
+    return Pieces(cuts, origins, rows)

@@ -60,6 +60,14 @@ class Law(SpecTable):
         """
         return self.breaks
 
+    def may_vary(self, table: str, key: str) -> bool:
+        """Whether a number of a table may be an array along a design axis with this law.
+
+        >>> Cycloidal().may_vary("motion", "alpha0_deg")
+        True
+        """
+        return True
+
     @property
     def tuned_to(self) -> float | None:
         """The period ratio of the load that it leaves at rest; None for a law not tuned to one.

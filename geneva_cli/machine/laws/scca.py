@@ -44,6 +44,10 @@ class SineConstantCosine(Law):
                     (self.TABLE, key),
                 )
 
+    def may_vary(self, table: str, key: str) -> bool:
+        """The shares say which pieces there are, and so they are numbers."""
+        return table != "motion" or key not in self.as_dict()
+
     @property
     def _shares(self) -> tuple[float, float]:
         """The shares b and d of exactly the whole; without c, b is what d leaves to the bit."""

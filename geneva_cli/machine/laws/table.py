@@ -6,18 +6,17 @@ conditions put velocity and acceleration to zero at both ends.
 
 from __future__ import annotations
 
-from decimal import Decimal, localcontext
 from functools import cached_property, lru_cache
-from itertools import pairwise
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.numerics.digits import FIFTY
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.spline import Doubt, Exact, Pieces, at_rest, doubt, shifted
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import Points
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.spline import Doubt, Pieces
 
 
 class TableLaw(Law):
@@ -50,7 +49,7 @@ class TableLaw(Law):
 
     @cached_property
     def _halves(self) -> tuple[Pieces, Pieces]:
-        """Each half from its own end: the second is the spline of 1 - s by w = 1 - u."""
+        """The spline from its start; and from its end, as 1 - s by w = 1 - u."""
         return _halves(self.points.pairs)
 
     @property
@@ -78,18 +77,26 @@ class TableLaw(Law):
 
 @lru_cache(4)  # advice builds one machine many times
 def _halves(points: tuple[tuple[float, float], ...]) -> tuple[Pieces, Pieces]:
-    spline = at_rest([Decimal(p[0]) for p in points], [Decimal(p[1]) for p in points])
-    with localcontext(FIFTY):
-        parts = zip(pairwise(spline.x), spline.c, strict=True)
-        ends = [(1 - b, shifted(c, b - a)) for (a, b), c in parts]
-        w = [*[end for end, _ in reversed(ends)], 1 - spline.x[0]]
-        left = [
-            [1 - c[0], *[v if k % 2 else -v for k, v in enumerate(c) if k]]
-            for _, c in reversed(ends)
-        ]
-    return spline.rounded(), Exact(w, left).rounded()
+    # a list of the laws needs no splines
+    import numpy as np
+
+    from geneva_cli.numerics.spline import DEGREE, Pieces, at_rest, taylor
+
+    u, s = zip(*points, strict=True)
+    spline = at_rest(u, s)
+    ends = np.array(u[1:])
+    columns = taylor(ends - spline.origins, list(spline.rows.T), DEGREE)
+    # 1 - s changes the sign of every coefficient, and w = 1 - u that of the odd ones
+    left = [1.0 - np.array(s[1:]), *[c if k % 2 else -c for k, c in enumerate(columns) if k]]
+    rows = np.array(left).T[::-1].copy()
+    rows[0, :3] = 0.0  # at rest at the end
+    starts = 1.0 - ends[::-1]
+    return spline, Pieces(starts[1:], starts, rows)
 
 
 @lru_cache(4)
 def _doubt(points: tuple[tuple[float, float], ...]) -> Doubt:
-    return doubt([Decimal(p[0]) for p in points], [p[1] for p in points], False, 3)
+    from geneva_cli.numerics.spline import doubt
+
+    u, s = zip(*points, strict=True)
+    return doubt(u, s, False, 3)

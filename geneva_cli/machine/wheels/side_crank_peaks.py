@@ -29,7 +29,7 @@ from geneva_cli.machine.wheels.side_crank_formulas import (
     wheel_of,
 )
 from geneva_cli.numerics.angles import DEGREE, one_minus_sin_pi, sin_cos_pi
-from geneva_cli.numerics.arrays import PLAIN, library
+from geneva_cli.numerics.arrays import PLAIN, library, read_only
 from geneva_cli.numerics.roots import root
 from geneva_cli.spec.rules import Z_MAX
 
@@ -147,7 +147,7 @@ def _exact() -> Array:
     import numpy as np
 
     few = range(3, EXACT_Z)
-    return np.array([(*sin_cos_pi(1, z), one_minus_sin_pi(1, z)) for z in few])
+    return read_only(np.array([(*sin_cos_pi(1, z), one_minus_sin_pi(1, z)) for z in few]))
 
 
 # of the crank angle f

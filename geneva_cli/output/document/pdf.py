@@ -16,7 +16,7 @@ from geneva_cli.document import (
     Prose,
 )
 from geneva_cli.errors import clean
-from geneva_cli.output import pdf_file
+from geneva_cli.output import pdf_file, plot_pdf
 from geneva_cli.output.document.paper import (
     BODY,
     GREEN,
@@ -34,7 +34,6 @@ from geneva_cli.output.document.paper import (
     words,
 )
 from geneva_cli.output.document.pdf_drawing import drawing
-from geneva_cli.output.document.pdf_plot import figure
 from geneva_cli.output.document.pdf_table import facts, grid
 from geneva_cli.output.letters import western
 
@@ -83,7 +82,7 @@ def _block(block: Block) -> Iterator[Item]:
         yield drawing(block.drawing)
     else:
         assert isinstance(block, Curves)
-        yield from figure(block)
+        yield from plot_pdf.items(block.figure)
 
 
 def _wrapped(text: str, room: float) -> list[str]:

@@ -6,6 +6,7 @@ import math
 
 from geneva_cli.document import Row, Value
 from geneva_cli.errors import GenevaError, clean
+from geneva_cli.table import in_digits
 
 DIGITS = 6
 TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
@@ -43,7 +44,5 @@ def _bare(value: Value) -> str:
             "a value of the report is not a number, which is a fault of this program; please "
             "report it with the spec"
         )
-    if math.isinf(value):
-        return "no bound"
-    digits, _, power = f"{value + 0.0:.{DIGITS}g}".partition("e")
+    digits, _, power = in_digits(value, DIGITS).partition("e")
     return f"{digits}{TIMES}10{str(int(power)).translate(RAISED)}" if power else digits

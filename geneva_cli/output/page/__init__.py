@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -36,10 +37,8 @@ def chunks(scene: Scene) -> Iterator[str]:
         "SCRIPT": _file("page.js"),
         "VIEW": _view(scene),
     }
-    text = _file("page.html")
-    for name, value in parts.items():
-        text = text.replace(f"%{name}%", value)
-    yield text
+    # One pass: a title that holds the name of another part stays as it is.
+    yield re.sub("%([A-Z]+)%", lambda place: parts[place[1]], _file("page.html"))
 
 
 def _file(name: str) -> str:

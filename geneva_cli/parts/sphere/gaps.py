@@ -12,7 +12,6 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import Arcs
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.sizes import Ball
@@ -120,7 +119,6 @@ class BallGaps:
         least = np.full(len(pose.wheel), near / self.found.radius_mm)
         if not len(self._facing):
             return near + 0.0 * pose.wheel
-        check_time()
         turn = pose.wheel + lead
         # The wheel's edge against the sectors: its corners, and what faces their edges' axes ...
         axis = about(np.tile(self._frame[2], (len(turn), 1)), -turn)
@@ -161,7 +159,6 @@ class BallGaps:
 
         Each is turned to the first slot, which is half of all that is as near.
         """
-        check_time()
         step = 2.0 * self.found.half_step
         back = step * np.round(np.arctan2(points[:, 1], points[:, 0]) / step)
         away, foot = self.around.signed(about(points, -back))

@@ -5,21 +5,21 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 
 from geneva_cli.curves.mass import MM, mass_properties
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, Member, Plate, Shell, solids
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, opposite
-from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.missing import Missing, or_missing
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.built import ROLLER, built, crank_group, wheel_shell
 from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
+from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.spec.tables import Size
@@ -30,19 +30,24 @@ ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 def shell_rows(proof: Proof) -> Iterator[dict[str, object]]:
     """All solids of a machine, each kind once with its count; inertia about its own axis.
 
-    That is the wheel's or the crank's, or of a roller and its pin its own. They are wheel and crank
-    alone where the sizes leave no arm or hub; a check says why. Raises GenevaError where there are
-    none.
+    That is the wheel's or the crank's, or of a roller and its pin its own. Raises GenevaError where
+    one cannot be built.
     """
+    yield from _rows(proof, built(proof.shells).members)
+
+
+def bare_rows(proof: Proof) -> Iterator[dict[str, object]]:
+    """The solids of wheel and crank without hub, bolts and arm. Raises GenevaError without any."""
     found = proof.shells
-    try:
-        members = built(found).members
-    except GenevaError:
-        members = Member(wheel_shell(Size(), found.ball)), Member(crank_group(found, None))
+    members = Member(wheel_shell(Size(), found.ball)), Member(crank_group(found, None))
+    yield from _rows(proof, members)
+
+
+def _rows(proof: Proof, members: tuple[Member, ...]) -> Iterator[dict[str, object]]:
     counted = Counter(map(_alike, solids(Group("", members))))
     kinds = {_alike(one): one for one in solids(Group("", members))}
     for alike, count in counted.items():
-        yield _row(proof.mechanism.spec, found.ball, kinds[alike], count)
+        yield _row(proof.mechanism.spec, proof.shells.ball, kinds[alike], count)
 
 
 def _alike(one: Plate | Shell) -> tuple[str, str]:
@@ -80,9 +85,12 @@ def _row(spec: Spec, ball: Ball, one: Plate | Shell, count: int) -> dict[str, ob
     }
 
 
-def dimensions(proof: Proof) -> Iterator[Dimension]:
-    """What all is turned and cut by. Raises GenevaError where the sizes leave none."""
-    shells = proof.shells
+def dimensions(proof: Proof) -> Iterator[Dimension | Missing]:
+    """Yield what all is turned and cut by, and what cannot be built with the reason."""
+    yield from or_missing("dimensions of the shells", lambda: _dimensions(proof.shells))
+
+
+def _dimensions(shells: Shells) -> Iterator[Dimension | Missing]:
     found = shells.ball
     inner, outer = found.span_mm
     yield Dimension("shells' inner radius", inner, "mm")
@@ -93,8 +101,8 @@ def dimensions(proof: Proof) -> Iterator[Dimension]:
     yield Dimension("rim, from the wheel's axis", math.degrees(found.rim), "deg")
     yield Dimension("slotted ring's inner edge, from its axis", math.degrees(found.inner), "deg")
     yield from _axle("wheel", found.bore_mm, found.hub_mm)
-    with suppress(GenevaError):  # a check says why
-        yield from _bolts("dial's bolt", dial_holes(proof.mechanism.spec.size, found))
+    size = shells.assembly.given.spec.size
+    yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, found)))
     if found.lock:
         yield Dimension("lock, from the crank's axis", math.degrees(found.lock), "deg")
         yield Dimension("recess, from the crank's axis", math.degrees(found.recess), "deg")
@@ -102,8 +110,7 @@ def dimensions(proof: Proof) -> Iterator[Dimension]:
     for k, region in enumerate(shells.crank):
         yield from _sector(f"locking sector {k + 1}", region)
     if has_arm(shells):
-        with suppress(GenevaError):  # a check says why
-            yield from _arm(found, crank_arm(shells))
+        yield from or_missing("arm's dimensions", lambda: _arm(found, crank_arm(shells)))
     yield from _cones(found)
 
 

@@ -17,6 +17,7 @@ from geneva_cli.curves.measure import at, mapped
 from geneva_cli.curves.plates import Group, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
+from geneva_cli.machine.layout import Dimension
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bored, radius_of
@@ -65,7 +66,7 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     rows = [
         (d.name, number(d.value, DECIMALS), d.unit)
         for d in dimensions(proof)
-        if isinstance(d.value, (int, float))
+        if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
     fixed = [
         table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),

@@ -12,7 +12,6 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.around import Around, half_seen
@@ -61,7 +60,6 @@ class Gaps:
         self.left = WORK
 
     def _work(self, count: int) -> None:
-        check_time()
         self.left -= count
         if self.left < 0.0:
             raise NotProved(

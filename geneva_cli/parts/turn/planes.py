@@ -20,9 +20,9 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_pins import joined
-from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_positions import SAME, links_at
 from geneva_cli.parts.link_sizes import LinkSizes, places
-from geneva_cli.parts.links import SAME, Links, drawn_links
+from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
 from geneva_cli.parts.wheel_hub import wheel_hub_length
@@ -76,7 +76,7 @@ def planes(found: Outlines) -> Planes:
     if not links:
         return Planes(min(geared, default=None), None)
     outlines = _outlines(made)
-    shaft = _Shaft(found, links, outlines, made.sizes)
+    shaft = _Shaft(found, links, outlines, made)
     passing = [*_passing(found, links, made.sizes, turn), *shaft.between()]
     met = [
         _meeting(link, outlines[link.name], one, turn)
@@ -121,7 +121,7 @@ def crank_stop(found: Outlines, bars: Links) -> float | None:
     links = [link for link in links_at(given, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
-    shaft = _Shaft(found, links, _outlines(bars), bars.sizes)
+    shaft = _Shaft(found, links, _outlines(bars), bars)
     blocked = shaft.below(turn)
     if blocked is None or blocked.gap >= 0.0:
         return None
@@ -166,24 +166,23 @@ class _Shaft:
         found: Outlines,
         links: list[Link],
         outlines: dict[str, Contour],
-        sizes: LinkSizes,
+        made: Links,
     ) -> None:
-        L = found.assembly.L
+        L, sizes = found.assembly.L, made.sizes
+        assert sizes is not None
         self.links, self.outlines = links, outlines
         self.way = places(links[0])[0] * 0.0 + L
         self.carries: set[int] = set()
-        bores = [sizes.crank_shaft or 0.0]
         for link in links:
             at, kind = places(link)[0], link.kinds[0]
             if kind is Joint.SHAFT and np.abs(at - L).max() < SAME * L:
                 self.carries.add(link.plane)
-                bores.append(sizes.bore(math.inf, L, on_crank=True))
         if has_arm(found):
             self.carries.add(1)
         self.through = found.sizes.crank_bore > 0.0  # the wheel's plane, with the locking disc
         if self.through:
             self.carries.add(0)
-        self.radius = max(bores)
+        self.radius = sizes.crank_shaft or made.shaft((L, 0.0), L)
         low = found.assembly.given.spec.size.crank_shaft_low_mm
         ends = math.inf if low is None else low + SAME * L
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}

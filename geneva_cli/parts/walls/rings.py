@@ -18,7 +18,6 @@ import numpy as np
 
 from geneva_cli.curves.moments import Moments
 from geneva_cli.numerics.arrays import array
-from geneva_cli.numerics.budget import check_time
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.parts.roller_paths import rest
 
@@ -80,7 +79,6 @@ def _sum(of: Callable[[Array, Array], Array]) -> Array:
     # the polar moment tells: it is of the same sign everywhere
     size, total = abs(whole[:, -1]).sum(), 0.0 * whole[0]
     for _ in range(DEEPEST):
-        check_time()
         middle = 0.5 * (low + high)
         halves = of(np.append(low, middle), np.append(middle, high))
         left, right = halves[: len(low)], halves[len(low) :]
@@ -106,7 +104,6 @@ def _places(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> tuple[A
     t = np.append(np.linspace(first, 0.0, FIRST // 2, endpoint=False), np.linspace(0.0, last, 33))
     z = pin(t)
     for _ in range(HALVINGS):
-        check_time()
         far = np.flatnonzero(np.abs(np.diff(z)) > near)
         middle = 0.5 * (t[far] + t[far + 1])
         far = far[(middle > t[far]) & (middle < t[far + 1])]

@@ -130,12 +130,20 @@ def swinging(left: Left) -> Iterator[Block]:
             yield Listed(tuple(said))
 
 
+CAPTIONS = {
+    "part": "Parts",
+    "pivot": "Pivots",
+    "dimension": "Dimensions",
+    "missing": "Not built",
+}
+
+
 def parts(left: Left) -> Iterator[Block]:
     """The list of parts, pivots and dimensions."""
     tables: dict[str, Any] = left.take("parts_list")
     if any(is_known(table) for table in tables.values()):
         yield Heading("Parts list")
-    for name, caption in (("part", "Parts"), ("pivot", "Pivots"), ("dimension", "Dimensions")):
+    for name, caption in CAPTIONS.items():
         if is_known(tables.get(name)):
             found = grid(caption, tables[name])
             rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in found.rows)

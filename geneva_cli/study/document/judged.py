@@ -19,7 +19,7 @@ HEADS = (
     "Must be",
     "Limit",
     "Verdict",
-    "Nearest change that passes, or why not proved",
+    "Nearest change that passes, or why there is none",
 )
 
 
@@ -40,20 +40,20 @@ def verdict(design: Design, left: Left) -> tuple[str, tuple[str, ...]]:
 def checks(design: Design) -> Iterator[Block]:
     """Every check."""
     rows = tuple(
-        (c.name, c.value, c.at_deg, c.must_be, c.limit, WORDS[c.passes], c.nearest)
+        (c.name, c.value, c.at_deg, c.must_be, c.limit, WORDS[c.passes], c.nearest or c.why)
         for c in design.checks
     )
     yield Heading("Checks")
-    told = len(HEADS) if any(c.nearest for c in design.checks) else len(HEADS) - 1
+    told = len(HEADS) if any(c.nearest or c.why for c in design.checks) else len(HEADS) - 1
     yield Grid("Every check with its verdict", HEADS[:told], tuple(r[:told] for r in rows))
 
 
 def said(design: Design, left: Left) -> Iterator[Block]:
     """Warnings, what is not known and would be by which key, and sources."""
-    told = dict.fromkeys([*left.one("warnings"), *design.warnings, *design.load_warnings])
-    of_loads = design.loads_page.to_dict()["warnings"]
+    cautions = tuple(left.one("warnings"))
+    of_loads = design.loads_page.to_dict()["warnings"]  # the keys that sizing needs among them
+    known = {*cautions, *design.life.missing(LIFE)}  # these, and more, are the report's own
     unknown = dict.fromkeys(missing(design.cycle))
-    known = {*told, *design.life.missing(LIFE)}  # these, and more, are the report's own
     unknown |= dict.fromkeys(text for text in of_loads if text not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))
     rest = list(left.rest())
@@ -61,7 +61,6 @@ def said(design: Design, left: Left) -> Iterator[Block]:
         yield Heading("Other answers")
         yield from rest
     yield Heading("Warnings")
-    cautions = tuple(text for text in told if text not in unknown)
     yield Listed(cautions) if cautions else Prose("None.")
     if unknown:
         yield Heading("What is not known, and the key that would give it")

@@ -43,7 +43,7 @@ class Winner(NamedTuple):
             f"# The {word} {name} of {self.tried:,} designs, {self.feasible:,} of them within the "
             f"bounds: {self.values[name]:.9g}.",
             *[
-                f"# {c}: {self.values[c.name]:.9g}{' (binds)' * c.binds(self.values[c.name])}"
+                f"# {c}: {self.values[c.name]:.9g}{c.standing(self.values[c.name])}"
                 for c in asked.constraints
             ],
             *[f"# {name}: {_said(value)}" for name, value in self.beside.items()],
@@ -57,14 +57,17 @@ class Winner(NamedTuple):
 def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner:
     """The best of the rows of a sweep, which come some at a time and are not kept.
 
-    It is refined over those of its keys that were given as spans: from the best places by clouds of
-    designs that draw together, from the best of these by an optimiser. Raises GenevaError, saying
-    how near the designs come, where none keeps the bounds.
+    The spec's own design is tried too, where it lies in what is varied. The best is refined over
+    those of its keys that were given as spans: from the best places by clouds of designs that draw
+    together, from the best of these by an optimiser. Raises GenevaError, saying how near the
+    designs come, where none keeps the bounds.
     """
     search = SweepSearch(found, asked.objective, asked.constraints)
     tally = Tally(search)
     for rows in every:
         tally.add(rows)
+    if search.free and found.given is not None:  # a cloud comes near the spec's design, not to it
+        tally.add([found.row(found.given)])
     places = closer(search, tally.places.best()) if search.free else tally.places.best()
     starts = [row for row in places if search.keeps(row)][:STARTS]
     if not starts:

@@ -21,7 +21,8 @@ Row: TypeAlias = Sequence[Cell]
 EVALUATIONS = 300  # of the optimiser, from each start
 WIDE, CLOSE = 0.05, 2e-3  # first steps, shares of the spans: from a place, and at the end
 FINEST = 1e-9  # share of a key's range to which it is refined
-WITHIN = 1e-13  # share of a bound: what rounding takes; a search lives on more, where it is let
+# Share of a bound by which the optimiser stays inside, so that rounding does not leave it outside.
+INSIDE = 1e-13
 FAR = 1e3  # outside a bound, or above a cost: a design that cannot be built
 
 
@@ -93,7 +94,7 @@ class SweepSearch:
                 seen[place] = self.found.row(self.moved(start, x))
             return seen[place]
 
-        rooms = NonlinearConstraint(lambda x: self.rooms(row(x)), 0.0, np.inf)
+        rooms = NonlinearConstraint(lambda x: self.rooms(row(x)), INSIDE, np.inf)
         minimize(
             lambda x: min(self.cost(row(x)) / scale, FAR),
             self.shares(start),
@@ -103,5 +104,5 @@ class SweepSearch:
             options={"maxfev": EVALUATIONS, "initial_tr_radius": reach, "final_tr_radius": FINEST},
         )
         kept = [r for r in (start, *seen.values()) if self.keeps(r)]
-        inside = [r for r in kept if min(self.rooms(r), default=0.0) >= -WITHIN]
+        inside = [r for r in kept if min(self.rooms(r), default=0.0) >= 0.0]
         return min(inside or kept, key=self.cost)

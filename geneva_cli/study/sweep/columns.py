@@ -60,6 +60,17 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
 
     A value is infinite where nothing bounds it, and NaN where the design must be built alone.
     """
+    found, out = known_columns(machine, names), []
+    for name in names:
+        value = found.get(name)
+        if value is None:
+            return None
+        out.append(np.broadcast_to(np.reshape(value, -1), (count,)))
+    return out
+
+
+def known_columns(machine: Mechanism, names: Sequence[str]) -> Columns:
+    """Those of the quantities that the designs in one machine have, (m,) each, or one number."""
     groups = dict.fromkeys(_group(name) for name in names)
     found: Columns = {}
     if "timing" in groups:
@@ -71,13 +82,7 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
         others = [name for name in names if not is_motion(name) and load_named(known)(name)]
         if others:
             found |= load_named(of)(machine, others)
-    out = []
-    for name in names:
-        value = found.get(name)
-        if value is None:
-            return None
-        out.append(np.broadcast_to(np.reshape(value, -1), (count,)))
-    return out
+    return found
 
 
 def _timing(machine: Mechanism) -> Columns:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple, TypeGuard
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.study.quantity_names import WORDS
 
 _FORM = re.compile(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*")
-WORDS = {"<=": "at most", ">=": "at least"}
+MUST_BE = {"<=": "at most", ">=": "at least"}
 BINDING = 1e-6  # share of a bound, nearer than which a quantity stands at it
 
 
@@ -33,7 +34,7 @@ class Constraint(NamedTuple):
 
     def kept(self, value: object) -> bool:
         """Whether a value keeps it, but for rounding; what does not apply to a design does not."""
-        return is_number(value) and keeps(float(value), WORDS[self.sign], self.bound)
+        return is_number(value) and keeps(float(value), MUST_BE[self.sign], self.bound)
 
     def room(self, value: N) -> N:
         """How far inside the bound values are, over the bound's size; negative outside."""
@@ -43,6 +44,12 @@ class Constraint(NamedTuple):
     def binds(self, value: float) -> bool:
         """Whether a value stands at the bound."""
         return abs(self.room(value)) <= BINDING
+
+    def standing(self, value: float) -> str:
+        """How a value that keeps the bound stands to it: nothing to say of one well inside."""
+        if self.room(value) < 0.0:
+            return " (binds, met to rounding)"
+        return " (binds)" if self.binds(value) else ""
 
 
 def is_number(value: object) -> TypeGuard[float]:
@@ -104,12 +111,12 @@ class Nearness:
         ]
 
 
-def refuse_words(words: Collection[str], options: Mapping[str, str], instead: str) -> None:
+def refuse_words(options: Mapping[str, str], instead: str) -> None:
     """Raise GenevaError for a quantity that is a word, of those that ``options`` ask for by their
     names; ``instead`` says what would be right.
     """
     for name, option in options.items():
-        if name in words:
+        if name in WORDS:
             raise GenevaError(f"{option} {name}: a word has no order; {instead}")
 
 

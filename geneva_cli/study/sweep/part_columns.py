@@ -23,7 +23,7 @@ from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.strength import roller
 from geneva_cli.analysis.strength.roller_many import by_roller_of_many, passages_of_many
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, used
-from geneva_cli.analysis.vibration.many import Vibrations, vibrations_of_many
+from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.study.sweep import strength_columns as strength
 from geneva_cli.study.sweep.quantity_group import Columns, Designs, QuantityGroup

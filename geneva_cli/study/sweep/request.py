@@ -42,10 +42,17 @@ class Request(NamedTuple):
     @property
     def key(self) -> str:
         """What the rows depend on, as one word: the sweep, and points in files."""
+        return f"{self.sweep.key} {digest(self.inputs[1:])}"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The files that are read: the spec, points that it names, and what a varied word names.
+
+        A word that names no file is among them, and does no harm there.
+        """
         folder = os.path.dirname(self.files[0])
         words = [v for a in self.sweep.plan.axes for v in a.values if isinstance(v, str)]
-        points = digest([*self.files[1:], *(os.path.join(folder, word) for word in words)])
-        return f"{self.sweep.key} {points}"
+        return (*self.files, *(os.path.join(folder, word) for word in words))
 
     def blocks(self, done: int = 0) -> Iterator[list[list[Cell]]]:
         """All rows, some at a time; ``done`` are there already."""
@@ -127,7 +134,7 @@ def request(
     objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
     refuse_opposites(objectives)
     options = {whole[a]: option for a, option in by.items()}
-    refuse_words(found.pick.words, options, "--vary or --set picks it")
+    refuse_words(options, "--vary or --set picks it")
     return Request(found, constraints, objectives, jobs, files)
 
 

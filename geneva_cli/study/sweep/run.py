@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -26,7 +27,7 @@ ERROR = "error"  # the column that says why a design cannot be built
 TEXTS = (ERROR, CHECKED[1])  # columns that hold no numbers, even where all is well
 TASK = 64  # designs that a process is given at a time
 FEW = 4  # and where their parts are drawn, which takes longer: what is stopped, loses little
-TRIED = 1000  # designs among which one must be built, to know the quantities
+TRIED = 1000  # designs among which one must be built
 
 
 class Sweep(NamedTuple):
@@ -91,6 +92,18 @@ class Sweep(NamedTuple):
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()
 
+    @property
+    def given(self) -> list[Value] | None:
+        """The spec's own values of the varied keys; None where one is not among those varied."""
+        with suppress(GenevaError):  # a spec may lack what is varied
+            spec, own = self.text.spec(), list[Value]()
+            for axis in self.plan.axes:
+                table, _, name = axis.key.rpartition(".")
+                own.append(spec.table(table).get(name, ""))
+            if all(value in axis for value, axis in zip(own, self.plan.axes, strict=True)):
+                return own
+        return None
+
     def row(self, some: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys."""
         try:
@@ -120,27 +133,27 @@ def sweep(
     built.
     """
     checked = CHECKED if check else ()
-    machine = _first(text, plan)
-    later = None if of_best is None else pick([*of_best, *checked], machine)
-    found = pick([*picks, *([] if later else checked)], machine, options=options)
+    later = None if of_best is None else pick([*of_best, *checked])
+    found = pick([*picks, *([] if later else checked)], options=options)
+    _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns: no name may stand twice
     names = tuple(name for name in found.names if name not in varied)
     return Sweep(text, plan, found._replace(names=names), shard, later)
 
 
-def _first(text: Text, plan: SweepPlan) -> Mechanism:
-    """A design that can be built: the one in the middle, or the first of some of the others.
+def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
+    """Raise GenevaError where neither the middle design nor any of some others can be built.
 
     The middle one needs no drawing, for which SciPy would be loaded.
     """
-    with suppress(GenevaError):
-        return _machine(text, plan, plan.middle())
     said = []
-    for some in plan.some(TRIED):
+    for some in itertools.chain([plan.middle()], plan.some(TRIED)):
         try:
-            return _machine(text, plan, some)
+            _machine(text, plan, some)
+            return
         except GenevaError as error:
             said.append(str(error))
+    del said[0]  # that of the middle design, which may be one of the others
     those = f"{len(said)} designs all over" if len(plan) > TRIED else f"the {len(said)} designs"
     count = f"none of {those}" if len(plan) > 1 else "no design"
     raise GenevaError(f"{count} can be built: {said[0]}")

@@ -24,6 +24,13 @@ class VariedKey(NamedTuple):
     values: Sequence[Value]
     span: bool = False
 
+    def __contains__(self, value: object) -> bool:
+        """Whether it is one of the values, or between the two ends of a span."""
+        if not self.span:
+            return value in self.values
+        low, high = map(float, self.values)
+        return isinstance(value, float | int) and low <= value <= high
+
 
 def axis(text: str, random: bool = False) -> VariedKey:
     """What ``KEY=VALUES`` varies; ``random`` where values are drawn, and LOW:HIGH is a span.
@@ -79,7 +86,7 @@ def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:
 
 
 def _one(text: str, said: str) -> Value:
-    value = read_value(text)
+    value = read_value(text, said)
     if isinstance(value, bool) or not isinstance(value, (int, float, str)) or not text.strip():
         raise GenevaError(f"{said}: {cut(text)!r} is neither a number nor a word")
     if isinstance(value, float) and not math.isfinite(value):

@@ -1,9 +1,10 @@
 """Of each family one machine that keeps the wish's bounds: the best, or the nearest.
 
-The best has the least peak acceleration, or the least of what the wish sorts by; the nearest to
-the plain crank is taken where any motion will do. All families are looked at together: at places
-evenly between their ends, then nearer and nearer about those of each that are better than the
-places beside them, or about the place where a bound is just kept.
+The best has the least peak acceleration, in rad/s² where the speed is asked for, or the least of
+what the wish sorts by; the nearest to the plain crank is taken where any motion will do. All
+families are looked at together: at places evenly between their ends, then nearer and nearer about
+those of each that are better than the places beside them, or about the place where a bound is just
+kept.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from geneva_cli.study.sweep.columns import in_arrays
 from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import PEAK, Wish
+from geneva_cli.study.synthesis.wish import Wish
 
 PLACES = 24  # intervals of a family's span that are looked at first
 LOOKS, CLOSER = 8, 3  # times that the look is narrowed, and by how much: a least value is flat
@@ -117,7 +118,8 @@ class Places:
         self.patient = patient  # also about places that no step nearby makes keep the bounds
         least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
         self.nearest = wish.any_motion and not least
-        self.least, self.sign = least.lstrip("-") or PEAK, -1.0 if least[:1] == "-" else 1.0
+        self.peak = wish.peak
+        self.least, self.sign = least.lstrip("-") or self.peak, -1.0 if least[:1] == "-" else 1.0
         self.found: dict[int, Candidate] = {}
         # of each family all places looked at, in order
         self.tried: list[list[Tried]] = [[] for _ in families]
@@ -197,9 +199,11 @@ class Places:
 
     def _numbers(self, specs: Sequence[Spec]) -> Sequence[Sequence[float] | None]:
         rows = numbers(specs, [self.least, *(b.name for b in self.bounds)])
-        if self.bounds or self.least != PEAK:  # what no array of machines has, is asked for later
+        if (
+            self.bounds or self.least != self.peak
+        ):  # what no array of machines has, is asked for later
             without = iter(
-                numbers([s for s, row in zip(specs, rows, strict=True) if not row], [PEAK])
+                numbers([s for s, row in zip(specs, rows, strict=True) if not row], [self.peak])
             )
             rows = [row or next(without) for row in rows]
         return rows

@@ -12,6 +12,7 @@ import numpy as np
 from geneva_cli.analysis.law_values import Characteristic, characteristic
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import omega
 from geneva_cli.study.sweep.columns import columns
 
 if TYPE_CHECKING:
@@ -48,10 +49,12 @@ def law_peaks(machine: Mechanism) -> dict[str, Any]:
     (engagement,) = machine.engagements
     C_v, C_a, C_j, C_p = law_costs(machine.law)
     step, rate = 2.0 * engagement.half_step, 1.0 / (engagement.motion_deg * (math.pi / 180.0))
+    speed = omega(machine.spec.drive.n_rpm)
     entry = engagement.motion(engagement.entry_deg, 2).derivatives()[2]
     return {
         "velocity.max": C_v * step * rate,
         "acceleration.max": C_a * step * rate**2,
+        "acceleration.max_rad_s2": C_a * step * (rate * speed) ** 2,
         "acceleration.entry": abs(entry),
         "jerk.max": C_j * step * rate**3,
         "power.max": C_p * step**2 * rate**3,

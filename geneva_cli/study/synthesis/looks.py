@@ -69,9 +69,11 @@ def look(spec: Spec) -> PartsLook:
     own = _alike(spec)
     if own not in _kept:
         look_at([spec])
-    if own not in _kept:
-        (_kept[own],) = _looks([own], build(own))
-    return _kept[own]
+    found = _kept.get(own)  # another thread may clear them
+    if found is None:
+        (found,) = _looks([own], build(own))
+        _kept[own] = found
+    return found
 
 
 def look_at(specs: Iterable[Spec]) -> None:

@@ -35,6 +35,7 @@ class Asked(NamedTuple):
     pick: Pick | None
     bounds: tuple[Constraint, ...]
     sort: str
+    bound_by: str = "--subject-to"  # the option that sets the bounds
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -51,20 +52,20 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     wanted = [b.name for b in wish.bounds]
     machine = build(spec)
     pick = load_named("study.fields:pick")  # with all that a report has: most wishes name nothing
-    of_sort = pick([sort], machine, "--sort").names if sort else ()
-    of_bounds = pick(wanted, machine, "--subject-to").asked if wanted else ()
-    found = pick([*of_sort, *of_bounds], machine)
+    of_sort = pick([sort], "--sort").names if sort else ()
+    of_bounds = pick(wanted, "--subject-to").asked if wanted else ()
+    found = pick([*of_sort, *of_bounds])
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # of two names for one quantity
     by = {b.name: "--subject-to" for b in bounds}
-    refuse_words(found.words, by, "only numbers are bound")
+    refuse_words(by, "only numbers are bound")
     loads = [name for name in found.names if name.startswith("loads.")]
     if loads and not load_named("analysis.loads.cycle:cycle_of")(machine).is_loaded:
         raise GenevaError(
             f"{loads[0]}: nothing resists the wheel, so it is known of none; --from SPEC says what "
             "does, its [load]"
         )
-    return Asked(found, bounds, of_sort[0] if of_sort else "")
+    return Asked(found, bounds, of_sort[0] if of_sort else "", wish.bound_by)
 
 
 def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:
@@ -97,7 +98,7 @@ def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None
         if all(b.kept(by_name[b.name]) for b in wanted.bounds):
             out.append(row._replace(asked=tuple(cells)))
     if not out:
-        raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(found))}")
+        raise GenevaError(f"{wanted.bound_by}: {_how_near(wanted, nearest, len(found))}")
     return out
 
 

@@ -80,6 +80,12 @@ class Candidate(NamedTuple):
         return self.A is not None or self.eccentricity is not None
 
     @property
+    def peak(self) -> float:
+        """The greatest acceleration, in rad/s² where the speed is asked for."""
+        rate = self.acceleration_max_rad_s2
+        return self.acceleration_max if rate is None else rate
+
+    @property
     def of_two_numbers(self) -> bool:
         """Whether both a drive before the crank and the wheel depart from the plain machine."""
         return self.is_driven and bool(self.axes_deg not in (None, 90.0) or self.offset_mm)

@@ -90,6 +90,8 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
     found = [row for part in parts for row in part.rows]
     if not found:
         reached = [peak for part in parts for peak in part.reached]
+        if wish.acceleration_max is not None and not reached:
+            return search(wish.by_bounds)  # which says how near they come
         raise GenevaError(_out_of_reach(wish, reached, errors))
     together = [cells for part in parts for cells in part.asked]
     ranked = _ranked(wish, wanted, found, together)
@@ -217,7 +219,7 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
             float(f"{_first(wish, wanted, row):.12g}") if is_number(value) else 0.0,
             "" if is_number(value) else str(value),
         ]
-    peaks = (candidate.acceleration_max, candidate.jerk_max)
+    peaks = (candidate.peak, candidate.jerk_max)
     return (
         *first,
         *[float(f"{x:.12g}") for x in peaks],
@@ -253,7 +255,7 @@ def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
 def _first(wish: Wish, wanted: Asked, row: Row) -> float:
     """What rows are put in order by first, the least being the first; NaN is none."""
     if not wanted.sort:
-        return row.candidate.acceleration_max
+        return row.candidate.peak
     value = row.asked[wanted.names.index(wanted.sort)]
     return (
         float(value) * (-1.0 if wish.sort.startswith("-") else 1.0)

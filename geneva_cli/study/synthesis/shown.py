@@ -22,9 +22,9 @@ HEADS = {
     "machine": "machine",
     "parts": "parts",
     "acceleration_max": "accel_max",
+    "n_rpm": "rpm",
     "asked": "",
     "rollers": "rollers",
-    "n_rpm": "rpm",
     "motion_deg": "motion_deg",
     "dwell_s": "dwell_s",
     "acceleration_max_rad_s2": "accel_rad/s2",
@@ -43,6 +43,7 @@ ORDER = (
     *("dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max", "acceleration_entry"),
     *("jerk_max", "power_max", "acceleration_max_rad_s2", "asked", "parts"),
 )
+PEAK, RATE = "acceleration_max", "acceleration_max_rad_s2"
 CONSTANT = ("rollers", "motion_deg", "dwell_deg", "motion_s", "dwell_s", "tau", "k", "n_rpm")
 DESCRIBED = (  # columns that the machine's description stands for
     *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
@@ -131,6 +132,8 @@ def _links(row: dict[str, Any]) -> str:
 def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
     """As many columns as stand side by side, the dearest dropped first."""
     rank = {source: i for i, source in enumerate(HEADS)}
+    if RATE in {c.source for c in columns}:  # rows are in its order
+        rank[PEAK], rank[RATE] = rank[RATE], rank[PEAK]
     wide = [c.width + BETWEEN for c in columns]
     kept = [*range(len(columns))]
     while sum(wide[i] for i in kept) + 1 > WIDTH:

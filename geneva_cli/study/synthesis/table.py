@@ -29,7 +29,8 @@ def synthesis_table(
     found = found or search(wish, import_checks if count else None)
     rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
-    title = f"{what}, {wish.sort or 'lowest peak acceleration'} first" if len(rows) > 1 else what
+    first = wish.sort or f"lowest peak acceleration{' in rad/s2' * wish.timed}"
+    title = f"{what}, {first} first" if len(rows) > 1 else what
     if buildable:
         title = f"{title}{',' * (len(rows) > 1)} of {len(found.rows)}"
     if not rows:
@@ -38,7 +39,7 @@ def synthesis_table(
 
 
 class Numbered(NamedTuple):
-    """A row and its number, which it keeps where others are hidden or come before it."""
+    """A row and its number, which it keeps where others are hidden."""
 
     no: int
     row: Row
@@ -49,7 +50,7 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
 
     A row that was turned says yes, with sizes that pass, or no; others maybe, or no where that is
     plain without. For one that stands in for another, or of those that are to pass, the best of its
-    family that is found to pass is taken where it fails itself.
+    family that is found to pass is taken where it fails itself, under its number.
     """
     every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
@@ -74,7 +75,6 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
         shown = [one for one in shown if one.row.candidate.parts == YES]
     else:
         shown = [one for one in shown if one.no not in again or one.no in others]
-    shown.sort(key=lambda one: found.rank(one.row))
     return shown[:count] if buildable else shown
 
 

@@ -25,7 +25,7 @@ GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Interval(0.0, math.inf)
-PEAK = "acceleration.max"
+PEAK, RATE = "acceleration.max", "acceleration.max_rad_s2"
 TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on which say how long a motion may be
 SECONDS = ("motion_s", "dwell_s")  # and on which do where the cycle is known
 SPACE = 3.0  # centre distances that a linkage may take where nothing is said
@@ -51,12 +51,20 @@ class Wish(NamedTuple):
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
     bounded: frozenset[str] = frozenset()  # the spans that bounds have narrowed
+    bound_by: str = "--subject-to"  # the option that is named where nothing keeps the bounds
     strict: bool = False  # whether its bounds are the frame's limits too: many families keep none
 
     @property
     def timed(self) -> bool:
         """Whether seconds are asked for, or given with the frame."""
         return self.frame is not None or not {"cycle", "motion_s", "dwell_s"}.isdisjoint(self.spans)
+
+    @property
+    def peak(self) -> str:
+        """The peak acceleration, which is to be least where nothing else is asked for; in rad/s²
+        where the speed is.
+        """
+        return RATE if self.timed else PEAK
 
     @property
     def any_motion(self) -> bool:
@@ -69,6 +77,12 @@ class Wish(NamedTuple):
         """All bounds, the one on the acceleration among them."""
         most = self.acceleration_max
         return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
+
+    @property
+    def by_bounds(self) -> Wish:
+        """The same with the bound on the acceleration as any other bound."""
+        said = f"--acceleration-max {self.acceleration_max:.7g}"
+        return self._replace(acceleration_max=None, bounds=self.limits, bound_by=said)
 
     @property
     def named(self) -> list[str]:

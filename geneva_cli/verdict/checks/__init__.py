@@ -13,9 +13,12 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
+from geneva_cli.verdict.checks.check import refused
 from geneva_cli.verdict.checks.registry import (
     LIMITS,
     MOTION,
+    SPHERE,
+    STATIC,
     check_named,
     motion_checks,
     shell_checks,
@@ -34,46 +37,79 @@ def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
     return [*motion, *shown, *motion_checks(LIMITS, mechanism)]
 
 
-def checks_quick_first(mechanism: Mechanism, parts: bool = True) -> Iterator[Check]:
-    """The same checks one after the other, those that take longest last."""
+def checks_at_rest(mechanism: Mechanism, proof: Proof | None) -> Iterator[Check]:
+    """The checks of the motion and of the limits, then those of ``proof``'s parts at rest.
+
+    Raises GenevaError where wheel or crank cannot be made.
+    """
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
-    if parts:
-        yield from _parts(mechanism)
+    if proof is not None:
+        yield from _standing(proof)
+
+
+def checks_turning(proof: Proof) -> Iterator[Check]:
+    """The checks of the turn, several times, each time looked at closer.
+
+    What fails once, fails in the end. Raises NotProved where that takes too long.
+    """
+    from geneva_cli.parts.turn.full_turn import turning
+
+    for closer in turning(proof.turned):
+        yield from turn_checks(proof.turned, closer)
 
 
 def single_check(mechanism: Mechanism, name: str) -> Check | None:
-    """The check of this name, without making the others; None if the design has no such check."""
+    """The check of this name, without the others and the turn; None if there is no such check.
+
+    Raises GenevaError where it is of parts that cannot be made.
+    """
     for among in (MOTION, LIMITS):
         found = check_named(among, name, mechanism)
         if found:
             return found
-    return next((c for c in _parts(mechanism) if c.name == name), None)
+    if not mechanism.spec.has_parts or name not in {**STATIC, **SPHERE}:
+        return None
+    proof = _proof(mechanism)
+    if mechanism.spec.wheel.FLAT:
+        return check_named(STATIC, name, proof.found)
+    return check_named(SPHERE, name, proof.shells)
+
+
+def _proof(mechanism: Mechanism) -> Proof:
+    from geneva_cli.parts.proof import Proof
+
+    return Proof(mechanism)
+
+
+def _standing(proof: Proof) -> Iterator[Check]:
+    """The checks of parts at rest. Raises GenevaError where wheel or crank cannot be made."""
+    if proof.mechanism.spec.wheel.FLAT:
+        return static_checks(proof.found)
+    return shell_checks(proof.shells)
 
 
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     """Walls, shafts and the full turn of a machine whose parts are drawn.
 
-    Where the parts cannot be made, or turned, one check says so in place of the rest.
+    Where wheel or crank cannot be made, or turned, one check says so in place of the rest.
     """
     if not mechanism.spec.has_parts:
         why = f"not proved: wheels of more than {Z_DRAWN} slots are not drawn"
         yield Check("parts", None, "proved", None, None, why)
         return
-    from geneva_cli.parts.proof import Proof
     from geneva_cli.parts.turn.gaps import NotProved
 
-    proof = proof or Proof(mechanism)
+    proof = proof or _proof(mechanism)
     try:
-        flat = mechanism.spec.wheel.FLAT
-        rows = list(static_checks(proof.found) if flat else shell_checks(proof.shells))
+        rows = list(_standing(proof))
     except GenevaError as error:
-        yield Check("parts", 0.0, "at least", 1.0, False, str(error))
+        yield refused("parts", error)
         return
     yield from rows
     try:
         turn = proof.turn
     except NotProved as error:
-        yield Check("full_turn", 0.0, "at least", 1.0, False, str(error))
+        yield refused("full_turn", error)
         return
     yield from turn_checks(proof.turned, turn)

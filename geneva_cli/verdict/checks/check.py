@@ -11,16 +11,19 @@ from geneva_cli.numerics.keeps import keeps
 if TYPE_CHECKING:
     from geneva_cli.parts.turn.beside_shafts import Beside
 
-NONE = "none found"  # ``nearest`` of a failing check for which the adviser found no change
+# Why a failing check has no advice.
+NONE = "no change of one value that was tried passes all checks"
+STOPPED = "no change found: the adviser made all the trials that it may"
 ROUNDING = 1e-12  # of the centre distance, or the sphere's radius: of a gap
 
 
 class Check(NamedTuple):
     """One check of one design.
 
-    ``passes`` is None where that is not known, and ``nearest`` then says why; of a check that fails
-    ``nearest`` is the nearest change that would pass. ``at_deg`` is the input angle at which the
-    value occurs, None where it is not a value at one angle.
+    ``passes`` is None where that is not known. ``why`` says why the value is not known, or why a
+    check that fails has no advice. ``at_deg`` is the input angle at which the value occurs, None
+    where it is not a value at one angle. ``nearest`` is one change of the spec with which all
+    checks pass.
     """
 
     name: str
@@ -28,8 +31,14 @@ class Check(NamedTuple):
     must_be: str
     limit: float | None
     passes: bool | None
-    nearest: str = ""
+    why: str = ""
     at_deg: float | None = None
+    nearest: str = ""
+
+    @property
+    def not_computed(self) -> str:
+        """The reason why there is no value, in words; empty where there is one."""
+        return f"{self.name} is not computed: {self.why}" if self.value is None else ""
 
 
 def compared(
@@ -51,14 +60,17 @@ def compared(
     return Check(name, value, must_be, limit, passes, at_deg=at_deg)
 
 
-def gap(
-    name: str, least: Callable[[], Beside | None], L: float, refused: bool | None
-) -> Check | None:
-    """The least gap beside shafts, if there is one; ``refused`` is what a refusal comes to."""
+def refused(name: str, error: GenevaError) -> Check:
+    """The check of what cannot be made: it fails, and says why."""
+    return Check(name, 0.0, "at least", 1.0, False, str(error))
+
+
+def gap(name: str, least: Callable[[], Beside | None], L: float) -> Check | None:
+    """The least gap beside shafts, if there is one; it fails where parts cannot be built."""
     try:
         found = least()
     except GenevaError as error:
-        return Check(name, None, "at least", 0.0, refused, str(error))
+        return Check(name, None, "at least", 0.0, False, str(error))
     return compared(name, found.gap, "at least", 0.0, noise=ROUNDING * L) if found else None
 
 

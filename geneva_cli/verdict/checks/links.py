@@ -29,7 +29,7 @@ def gap(name: str, found: Outlines) -> Check | None:
     try:
         seen = planes(found)
     except GenevaError as error:
-        return Check(name, None, "at least", 0.0, None, str(error))
+        return Check(name, None, "at least", 0.0, False, str(error))
     given = found.assembly.given
     if seen.way_out is not None:
         one = seen.way_out
@@ -38,9 +38,9 @@ def gap(name: str, found: Outlines) -> Check | None:
             one.gap,
             "at least",
             0.0,
-            None,
-            f"not proved: {one.passing} would meet the {one.link}: it needs an eccentric in a "
-            "hollow input shaft, or another way out",
+            False,
+            f"{one.passing} meets the {one.link}: it needs an eccentric in a hollow input shaft, "
+            "or another way out",
             given.shown_deg(one.input_deg),
         )
     if seen.nearest is None:

@@ -75,6 +75,7 @@ STATIC: Checks = {
     "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
+    "parts": "there:plates",
 }
 # Of the shells of a sphere, without turning them.
 SPHERE: Checks = {
@@ -85,6 +86,7 @@ SPHERE: Checks = {
     "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:beside",
     "arm_wall_mm": "sphere:arm_wall",
+    "parts": "there:solids",
 }
 # Of plates or shells in a whole turn.
 TURNING: Checks = {
@@ -98,7 +100,7 @@ TURNING: Checks = {
 }
 
 
-# Whether there are parts, and whether their turn can be proved: made where the parts are.
+# Whether the turn of the parts can be proved: made where the parts are.
 THERE = ("parts", "full_turn")
 
 
@@ -144,4 +146,12 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
 
 
 def _made(among: Checks, *of: object) -> Iterator[Check]:
-    yield from (check for name in among if (check := check_named(among, name, *of)))
+    """The checks that apply; of those that fail for one reason, the first."""
+    reasons = set()
+    for name in among:
+        check = check_named(among, name, *of)
+        if check is None or (check.passes is False and check.why in reasons):
+            continue
+        yield check
+        if check.passes is False and check.why:
+            reasons.add(check.why)

@@ -56,12 +56,12 @@ def beside(name: str, found: Outlines) -> Check | None:
     given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
     if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
         return None
-    return gap(name, lambda: beside_shafts(found), found.assembly.L, refused=False)
+    return gap(name, lambda: beside_shafts(found), found.assembly.L)
 
 
 def beside_noncircular(name: str, found: Outlines) -> Check | None:
     """Between noncircular gears, by the farthest places of their pitch curves, and shafts."""
-    return gap(name, lambda: beside_gears(found), found.assembly.L, refused=None)
+    return gap(name, lambda: beside_gears(found), found.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:

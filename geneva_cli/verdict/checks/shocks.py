@@ -27,7 +27,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     check = _judged(name, mechanism, blow)
     if check.passes is not False:
         return check
-    return check._replace(nearest=_share(mechanism, check.limit or 0.0))
+    return check._replace(why=_share(mechanism, check.limit or 0.0))
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -42,8 +42,8 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     check = _judged(name, mechanism, blow)
     more = drag_words(mechanism)
     if check.passes is None:
-        return check._replace(nearest=f"{check.nearest}; {more}")
-    return check._replace(nearest=more) if check.passes is False else check
+        return check._replace(why=f"{check.why}; {more}")
+    return check._replace(why=more) if check.passes is False else check
 
 
 def drag_words(mechanism: Mechanism) -> str:

@@ -84,7 +84,7 @@ def beside(name: str, found: Shells) -> Check | None:
     if any(row and row.value is None for row in walls):
         return None
     L = found.ball.radius_mm
-    return gap(name, lambda: beside_shafts(found, built(found)), L, refused=False)
+    return gap(name, lambda: beside_shafts(found, built(found)), L)
 
 
 def _wall(name: str, angle: float, found: Shells) -> Check:

@@ -11,11 +11,14 @@ from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
-from geneva_cli.table import Table, record_table
+from geneva_cli.parts.wheel_inertia import known_wheel_body
+from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.carried_cautions import carried_cautions
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.cycle_cautions import cycle_cautions
+from geneva_cli.verdict.life import life
 from geneva_cli.verdict.load_cautions import load_cautions
 from geneva_cli.verdict.report.sections import SECTIONS
 from geneva_cli.verdict.report.values import Values
@@ -24,7 +27,7 @@ from geneva_cli.verdict.turn_cautions import turn_cautions
 
 
 class Report(NamedTuple):
-    """A page on a design; ``passes`` as ``check`` has it, and what its checks and cautions say."""
+    """A page on a design; ``passes`` as ``check`` has it, and the warnings of every format."""
 
     table: Table
     passes: bool
@@ -46,6 +49,8 @@ def report(
         *cautions(mechanism),
         *load_cautions(mechanism),
         *cycle_cautions(cycle, summaries(cycle)),
+        *carried_cautions(mechanism, known_wheel_body(mechanism)),
+        *life(mechanism).cautions(),
         *turn_cautions(proof),
     )
     passes = all_pass(rows)
@@ -55,7 +60,7 @@ def report(
         "title": title,
         "passes": passes,
         "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
-        "not_proved": tuple(f"{c.name}: {c.nearest}" for c in rows if c.passes is None),
+        "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
     for section in SECTIONS:
         values |= section.values(proof)
@@ -65,7 +70,10 @@ def report(
 
 def _said(check: Check) -> str:
     """A failing check in a line."""
+    if check.value is None or check.limit is None:
+        return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"
-    value, limit = (float("nan") if x is None else x for x in (check.value, check.limit))
-    text = f"{check.name} = {value:.6g}{where}, must be {check.must_be} {limit:.6g}"
-    return f"{text}; nearest change: {check.nearest}"
+    value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
+    change = f"; nearest change: {check.nearest}" if check.nearest else ""
+    why = f"; {check.why}" if check.why else ""
+    return f"{check.name} = {value}{where}, must be {check.must_be} {limit}{change}{why}"

@@ -7,6 +7,8 @@ from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
 from geneva_cli.verdict.report.values import Values
 
+INPUTS = "inputs."
+HELD_BY = f"{INPUTS}wheel.held_by"
 ECHOED = {  # what the numbers below rest on, besides the machine's own shape
     "drive": ("n_rpm",),
     "size": (
@@ -27,12 +29,18 @@ ECHOED = {  # what the numbers below rest on, besides the machine's own shape
 }
 
 
+def input_names() -> tuple[str, ...]:
+    """The names of the keys that a report repeats."""
+    keys = (f"{INPUTS}{table}.{key}" for table, names in ECHOED.items() for key in names)
+    return (HELD_BY, *keys)
+
+
 def inputs(proof: Proof) -> Values:
     """What was asked."""
     spec = proof.mechanism.spec
     allowed = {"size": spec.size.allowances._asdict()}  # of the process, where a key is left out
-    values: Values = {"inputs.wheel.held_by": spec.wheel.held_by}
+    values: Values = {HELD_BY: spec.wheel.held_by}
     for table, names in ECHOED.items():
         given = spec.table(table) | allowed.get(table, {})
-        values |= {f"inputs.{table}.{key}": given[key] for key in names}
+        values |= {f"{INPUTS}{table}.{key}": given[key] for key in names}
     return values

@@ -10,6 +10,7 @@ from geneva_cli.analysis.tolerance.spread import Spread
 from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof
+from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.tolerance.study import Study, study
 
@@ -21,8 +22,8 @@ def tolerance_table(
     mechanism: Mechanism, proof: Proof, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
     """The study as a record, with micrometres at ``radius_mm``, if that is given."""
-    if radius_mm is not None and not (0.0 < radius_mm < math.inf):
-        raise GenevaError(f"--radius {radius_mm:g}: it must be above 0 mm, and finite")
+    if radius_mm is not None:
+        require_mm("--radius", radius_mm, POSITIVE)
     found = study(mechanism, proof, samples, seed)
     spec, given, entry = mechanism.spec, mechanism.spec.size, found.entry
     locked = found.clearances.lock_mm is not None

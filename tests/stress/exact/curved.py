@@ -125,8 +125,23 @@ def laid_out(table, machine, mechanism, series, top, values, front, gearing, z, 
         places = [Found(c.size, entry + c.x * whole, c.shift * whole) for c in top[name][1]]
         found[name] = (size[name], places)
     got = strictly(peaks, engagement)
-    compare_peaks(table, machine, got, found, whole / 2, where)
+    more = peaks_move(series, top, size, scale) if hasattr(series, "moves") else None
+    compare_peaks(table, machine, got, found, whole / 2, where, more)
     slot_points(table, machine, mechanism, x, exact, values, front, gearing, z, ratio, where)
+
+
+def peaks_move(series, top, size, scale):
+    """What the last place of any one point moves each peak, in units in the last place."""
+    places = {name: float(top[name][1][0].x) for name in PEAKS}
+    moves = {name: [by[0] for by in series.moves(np.array([u]))] for name, u in places.items()}
+    out = {
+        name: moves[name][k] * float(scale[name]) / unit(size[name])
+        for k, name in enumerate(NAMES)
+        if k
+    }
+    # a product moves with the greater relative move of its factors
+    v, a = (max(1.0, out[name]) for name in ("velocity", "acceleration"))
+    return out | {"power": max(v, a)}
 
 
 def pitch_curve(values, front, gearing, l):

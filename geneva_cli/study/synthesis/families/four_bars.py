@@ -43,7 +43,7 @@ from geneva_cli.study.synthesis.families.four_bar_search import (
     searched,
 )
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import PEAK, Wish
+from geneva_cli.study.synthesis.wish import Wish
 
 ROLLER = 0.025  # of the centre distance: the roller that has room, half the usual one,
 THIN = 1.0 / 3.0  # but no more than this share of sin b, which is the crank of a plain wheel
@@ -59,7 +59,7 @@ def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
     if wish.rollers not in (None, 1):
         return
     tasks = [task for wheel in wheels if (task := _task(wish, wheel))]
-    names = [wish.sort.lstrip("-") or PEAK, *(b.name for b in wish.limits)]
+    names = [wish.sort.lstrip("-") or wish.peak, *(b.name for b in wish.limits)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
     for task, found in zip(tasks, _found(wish, tuple(tasks)), strict=True):
         if found and (n := len(found.cost)):
@@ -90,7 +90,7 @@ def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
     if not tasks:
         return []
     bounds = tuple(b for b in wish.limits if is_known(b.name))
-    goal = Goal(wish, tasks, bounds, PEAK)
+    goal = Goal(wish, tasks, bounds, wish.peak)
     least = wish.sort.lstrip("-")
     if least:
         sign = -1.0 if wish.sort.startswith("-") else 1.0

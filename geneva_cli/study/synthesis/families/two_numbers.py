@@ -38,7 +38,7 @@ from geneva_cli.study.synthesis.families.family import (
     wanted,
 )
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import PEAK, Wish
+from geneva_cli.study.synthesis.wish import Wish
 
 GRID = 10  # places of either number that are looked at first, in the middle of even shares
 TRACKS = 3  # places of a wheel that are looked about, where it is not only the gentlest
@@ -94,7 +94,7 @@ class _Search:
         self.motions = [span for span in spans if span]
         self.bounds = known_bounds(wish)
         least = wish.sort.lstrip("-")
-        self.least = least if least and in_arrays([least]) else PEAK
+        self.least = least if least and in_arrays([least]) else wish.peak
         self.sign = -1.0 if self.least == least and wish.sort.startswith("-") else 1.0
         self.nearest = wish.any_motion and not least
 
@@ -131,7 +131,7 @@ class _Search:
         shape, wheels = u.shape, len(self.wheels)
         self.of = np.arange(wheels)
         seen = np.array(self.cost(*(np.tile(x.ravel(), (wheels, 1)) for x in (u, v))))
-        tracks = TRACKS if self.bounds or self.least != PEAK else 1
+        tracks = TRACKS if self.bounds or self.least != self.wish.peak else 1
         starts = []
         for i in range(wheels):
             rank = np.empty(u.size, dtype=int)

@@ -1,0 +1,115 @@
+"""A figure as PDF: a page of its own, or panels on the pages of a document."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import partial
+
+from geneva_cli.figure import Figure
+from geneva_cli.output import pdf_file
+from geneva_cli.output.document.paper import INK, LEFT, WIDE, Item, box, wide, words
+from geneva_cli.output.letters import western
+from geneva_cli.output.pdf_file import POINT, number
+from geneva_cli.output.plot_layout import END, PAGE, START, TEXT, Block, Frame, Path, Point, blocks
+from geneva_cli.output.strokes import LIGHT, colour, dashes
+
+INCH = 25.4 / 82.0  # mm a px of a figure's own page, which is ten inches wide
+
+
+def chunks(figure: Figure) -> Iterator[str]:
+    """Yield the text of a file with the figure alone."""
+    made = list(blocks(figure))
+    tall = INCH * sum(block.high for block in made)
+    content, top = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n", tall
+    for block in made:
+        content += _drawn(block, 0.0, INCH, top)
+        top -= INCH * block.high
+    page = pdf_file.Page(INCH * PAGE, tall, content, fonts=2)
+    yield from pdf_file.written(western(figure.title), [page])
+
+
+def items(figure: Figure) -> Iterator[Item]:
+    """Yield a figure's parts for a document: no title and no last panel stands alone."""
+    scale = WIDE / PAGE
+    made = list(blocks(figure))
+    for i, block in enumerate(made):
+        draw = partial(_drawn, block, LEFT, scale)
+        yield Item(scale * block.high, draw, keeps=i in (0, len(made) - 2))
+
+
+def _drawn(block: Block, left: float, scale: float, top: float) -> str:
+    pen = _Pen(left, scale, top)
+    block.draw(pen, 0.0)
+    return "".join(pen.out)
+
+
+class _Pen:
+    """Operators of a page, in mm; y upwards."""
+
+    def __init__(self, left: float, scale: float, top: float) -> None:
+        self.left, self.scale, self.top = left, scale, top
+        self.out: list[str] = []
+
+    def begin(self, name: str, frame: Frame) -> None:
+        """Begin a panel: a page has no groups."""
+
+    def end(self) -> None:
+        """End a panel."""
+
+    def rest(self, x: float, y: float, wide: float, high: float) -> None:
+        (left, bottom), k = self._place((x, y + high)), self.scale
+        self.out.append(box(left, bottom, k * wide, k * high, _ink(LIGHT.rest)))
+
+    def grid(self, paths: Iterable[Path]) -> None:
+        self._stroke(LIGHT.grid, 0.5, paths)
+
+    def axis(self, paths: Iterable[Path]) -> None:
+        self._stroke(LIGHT.axis, 0.9, paths)
+
+    def curve(self, number: int, paths: Iterable[Path]) -> None:
+        self._stroke(colour(number, LIGHT), 1.6, paths, dashes(number))
+
+    def sample(self, number: int, place: Point, long: float) -> None:
+        self.curve(number, [[place, (place[0] + long, place[1])]])
+
+    def jumps(self, number: int, paths: Iterable[Path]) -> None:
+        self._stroke(colour(number, LIGHT), 0.8, paths)
+
+    def points(self, number: int, places: Path) -> None:
+        self._stroke(colour(number, LIGHT), 4.0, [[place] for place in dict.fromkeys(places)])
+
+    def dot(self, number: int, place: Point) -> None:
+        self._stroke(colour(number, LIGHT), 5.6, [[place]])
+
+    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
+        self._words(x, y, text, size, hold)
+
+    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
+        self._words(x, y, text, size, START, bold=True)
+
+    def _words(
+        self, x: float, y: float, text: str, size: float, hold: str, bold: bool = False
+    ) -> None:
+        (x, y), size = self._place((x, y)), self.scale * size
+        before = 0.0 if hold == START else wide(text, size, bold) * (1.0 if hold == END else 0.5)
+        self.out.append(words(text, x - before, y, size, bold, INK))
+
+    def _stroke(
+        self, ink: str, width: float, paths: Iterable[Path], pattern: tuple[float, ...] = ()
+    ) -> None:
+        """Draw lines with round ends; a path of one place is a dot."""
+        dash = " ".join(number(self.scale * x) for x in pattern)
+        self.out.append(f"{_ink(ink)} RG {number(self.scale * width)} w [{dash}] 0 d\n")
+        for path in paths:
+            first, *rest = dict.fromkeys(self._at(place) for place in path)
+            self.out.append(f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first]) + "S\n")
+
+    def _place(self, place: Point) -> Point:
+        return self.left + self.scale * place[0], self.top - self.scale * place[1]
+
+    def _at(self, place: Point) -> str:
+        return pdf_file.point(self._place(place))
+
+
+def _ink(rgb: str) -> str:
+    return " ".join(number(int(rgb[i : i + 2], 16) / 255.0) for i in (1, 3, 5))

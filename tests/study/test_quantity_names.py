@@ -1,0 +1,124 @@
+"""Names of quantities: the list is what designs have, and one rule resolves a name for all."""
+
+import csv
+import io
+import json
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli import GenevaError, load
+from geneva_cli.app import app
+from geneva_cli.study.fields import ALL, pick
+from geneva_cli.study.quantity_names import SECTIONS, WORDS, section_of, whole_name
+from geneva_cli.study.survey import NAMES as TABLE
+from geneva_cli.study.synthesis.rows import Candidate
+from geneva_cli.table import Table
+
+pytestmark = pytest.mark.usefixtures("made_once")
+LISTS = {  # of a report's names those of tables and lists, which are no quantities
+    *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
+    "tolerance.warnings",
+}
+# Columns that tell what a machine is by keys of its spec, and of curves that no design has.
+KEYS = {
+    *("no", "A", "eccentricity", "phase", "alpha0_deg", "offset_mm", "planet_ratio", "fixed"),
+    *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
+    *("sector_deg", "first_z", "parts", "C_v", "C_a", "C_j", "C_p"),
+}
+LIMITS = str(repo.DESIGNS / "limits.toml")
+
+
+def geneva(*words: str) -> str:
+    result = CliRunner().invoke(app, list(words))
+    assert result.exit_code == 0, result.stderr
+    return result.stdout
+
+
+@pytest.mark.parametrize("name", ["tolerances", "press-curved", "unequal-steps", "spherical-z6"])
+def test_every_section_has_the_names_that_are_listed(name):
+    proof = load(str(repo.DESIGNS / f"{name}.toml")).proof
+    for section in ALL:
+        if section.by == "verdict.report.parts_list:parts_list_tables":
+            continue  # tables alone
+        values = section.values(proof)
+        assert {*values} - LISTS == {*SECTIONS[section.by]}
+        assert not [n for n in SECTIONS[section.by] if isinstance(values[n], (tuple, Table))]
+        assert {n for n, value in values.items() if isinstance(value, str)} <= WORDS
+
+
+def test_a_column_of_table_and_synth_is_named_alike_everywhere():
+    """But for the columns that are keys of a spec, which --vary names."""
+    known = {}
+    for name in {*TABLE, *Candidate._fields} - KEYS:
+        known[name] = whole_name(name)
+    assert known["acceleration_max"] == "acceleration.max"
+    assert known["acceleration_max_rad_s2"] == "acceleration.max_rad_s2"
+    assert known["acceleration_max_deg"] == "acceleration.at_deg"
+    assert known["jerk_entry"] == "jerk.entry"
+    assert (known["n_rpm"], known["dwell_deg"]) == ("inputs.drive.n_rpm", "timing.dwell_deg")
+    for name in KEYS - {"no", "parts"}:
+        with pytest.raises(GenevaError, match="no quantity of a design"):
+            whole_name(name)
+
+
+def test_a_wheels_own_values_under_the_columns_of_its_table():
+    """limits.toml is a plain wheel: the row of ``table`` at its speed has the same numbers."""
+    design = load(LIMITS)
+    n = design.spec.drive.n_rpm
+    (row,) = csv.DictReader(
+        io.StringIO(geneva("table", "--z", "8", "--n", f"{n}", "--format", "csv"))
+    )
+    names = [n for n in TABLE if n not in KEYS and n not in ("gearing", "Am", "Vm", "Qm")]
+    for name, value in zip(names, pick(names).of(design.mechanism), strict=True):
+        assert value == pytest.approx(float(row[name]), rel=1e-12), name
+
+
+def test_a_bound_is_on_the_peak_and_not_on_its_limit():
+    """Issue: z = 6 has a peak of 1.35 (and a limit of its own), and more slots are gentler."""
+    vary = ("sweep", LIMITS, "--vary", "wheel.z=6..12")
+    rows = geneva(*vary, "--subject-to", "acceleration_max <= 1").splitlines()[1:]
+    assert [int(row.partition(",")[0]) for row in rows] == [7, 8, 9, 10, 11, 12]
+    front = geneva(*vary, "--pareto", "min:acceleration_max,max:dwell_s").splitlines()[1:]
+    assert len(front) == 7  # more slots: gentler, and less dwell
+
+
+def test_compare_and_synth_read_the_same_names():
+    told = geneva("compare", LIMITS, "--pick", "acceleration_max,n_rpm", "--format", "json")
+    quantities = [row["quantity"] for row in json.loads(told)["rows"]]
+    assert quantities == ["acceleration.max", "inputs.drive.n_rpm"]
+    wish = ("synth", "--motion-deg", "120", "--z", "6", "--checked", "0", "--format", "csv")
+    told = geneva(*wish, "--sort", "acceleration_max_rad_s2")
+    rows = csv.DictReader(io.StringIO(told))
+    peaks = [float(f"{float(row['acceleration.max_rad_s2']):.12g}") for row in rows]
+    assert len(peaks) > 5 and peaks == sorted(peaks)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("max", "it may be velocity.max or acceleration.max or jerk.max or power.max or"),
+        ("horn_stress_MPa", "it may be strength.lock.horn_stress_MPa or life.horn_stress_MPa; say"),
+        ("rim_radius_mm", "it may be sizes.rim_radius_mm or parts.rim_radius_mm; say which"),
+        ("efficiency", 'no quantity of a design (did you mean "inputs.load.efficiency"?)'),
+        ("limits.acceleration_max", "no quantity of a design"),
+        ("acceleration.mx", '(did you mean "acceleration.max"?)'),
+    ],
+)
+def test_what_no_name_is(asked, said):
+    with pytest.raises(GenevaError) as error:
+        whole_name(asked, "--sort")
+    assert str(error.value).startswith(f"--sort {asked}: ") and said in str(error.value)
+    assert str(error.value).count(" or ") <= 5
+
+
+def test_keys_and_checks_give_way():
+    """A key has its whole name alone; a check is meant where no other quantity ends so."""
+    assert whole_name("inertia_kgm2") == "sizing.inertia_kgm2"
+    assert whole_name("inputs.load.inertia_kgm2") == "inputs.load.inertia_kgm2"
+    assert whole_name("horn_mm") == "parts.horn_mm"
+    assert whole_name("branches_apart_mm") == "checks.branches_apart_mm"
+    assert whole_name("checks.acceleration_max") == "checks.acceleration_max"
+    assert whole_name("pin_force_N_max") == whole_name("pin_force_N.max") == "loads.pin_force_N.max"
+    assert all(whole_name(name) == name for name in section_of())

@@ -1,0 +1,167 @@
+"""Whatever varies in a sweep, each row has its own design's answers."""
+
+import os
+
+import numpy as np
+import pytest
+from design_arrays import MACHINES
+from sweep_keys import NAMES, apart, base, keys, off
+from words import Motion
+
+from geneva_cli import Design, External, GearSector, Load, SideCrank
+from geneva_cli.design import load
+from geneva_cli.machine.many import alone, many, may_vary, taken
+from geneva_cli.machine.registry import STANDARD_LAWS
+from geneva_cli.machine.spec import Spec
+from geneva_cli.study.sweep.request import request
+
+DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
+OWN = ("wheel", "drive", "motion")  # tables of what makes the machine
+# of the laws that differ in their formula alone two stand for all; `make stress` has the rest
+SOME = [name for name in NAMES if name not in STANDARD_LAWS[2:]]
+
+
+def swept(tmp_path, text, *vary, pick):
+    """The rows of a sweep without their last column, which says what is wrong: nothing."""
+    path = tmp_path / "spec.toml"
+    path.write_text(text)
+    rows = [row for block in request(str(path), vary, pick=pick).blocks() for row in block]
+    assert [row[-1] for row in rows] == [None] * len(rows)
+    return [row[:-1] for row in rows]
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_a_key_of_its_own_kind_alone(name):
+    """Its last ones; together with another, and equal in all, keys of all tables have their turn.
+
+    `make stress` varies every key of every machine (stress_sweep.py).
+    """
+    spec, number = base(name), SOME.index(name)
+    every = list(keys(spec))
+    own = [key for key in every if key.split(".")[0] in OWN][::-1]
+    rest = [key for key in every if key not in own]
+    key, first = next((k, pair) for k in own if (pair := apart(spec, k)))
+    assert off(spec, {key: first}) == []
+    other, pair = next((k, p) for k in rest[3 * number % len(rest) :] if (p := apart(spec, k)))
+    if number % 3 == 0:
+        assert off(spec, {key: [first[0]] * 2, other: pair}) == []
+    elif number % 3 == 1:
+        assert off(spec, {other: [pair[0]] * 3}) == []
+
+
+def test_the_ratio_alone_reaches_the_loads(tmp_path):
+    """Of R/L = 1/2 the roller turns back in the slot; else the torque has no lever half-way."""
+    text = '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = 0.5\n[load]\ntorque_Nm = 5\n'
+    pick = "loads.pin_force_N.max,loads.sliding_m_s.rms"
+    rows = swept(tmp_path, text, "motion.ratio=0.5,0.4,0.6", pick=pick)
+    assert [row[1] for row in rows] == [pytest.approx(100.0, rel=1e-12), None, None]
+    assert [row[2] for row in rows] == pytest.approx([0.1407993, 0.1156889, 0.1803211], rel=1e-6)
+
+
+def test_the_input_crank_alone_reaches_the_shaft(tmp_path):
+    text = '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.6\n[load]\ntorque_Nm = 5\n'
+    text += "[shaft]\ncrank_overhang_mm = 25\n"
+    pick = "strength.crank_shaft.moment_Nm"
+    rows = swept(tmp_path, text, "drive.input_crank_mm=30,40,50", pick=pick)
+    assert [round(row[1], 3) for row in rows] == [5.002, 5.067, 5.194]
+
+
+def test_the_best_of_a_ratio_that_has_a_bound_at_one_number():
+    """A cloud comes near the 1/2 of the spec, and never to it: its own design is tried too."""
+    path = os.path.join(DESIGNS, "sine-group.toml")
+    asked = request(path, ["motion.ratio=0.4:0.7"], best="min:loads.pin_force_N.max", random=64)
+    lines = asked.best(asked.blocks())
+    assert "of 65 designs, 1 of them within the bounds: 4202.7525." in lines[0]
+    single = load(path).loads["pin_force_N"]
+    assert max(single.max, -single.min) == pytest.approx(4202.7525, rel=1e-8)
+
+
+HORN = "[size]\nface_width_mm = 10\n[load]\ninertia_kgm2 = 0.3\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f'[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = "matched"\n{HORN}',
+        f'[wheel]\nz = 6\n[drive]\nkind = "cam"\n[motion]\nlaw = "cycloidal"\n{HORN}',
+        f'[wheel]\nz = 4\n[drive]\nkind = "epicyclic"\nplanet_ratio = "shockless"\n{HORN}',
+    ],
+)
+def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
+    """Wheels of one shape and one load: the force goes with 1/L, and so does the stress, times
+    1/L² of the sections; the roller and its slot are L/20.
+    """
+    rows = swept(tmp_path, text, "size.center_distance_mm=100,110", pick="life.horn_stress_MPa")
+    assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
+
+
+def test_clearances_alone_reach_the_change_of_sides(tmp_path):
+    """Beside where the torque vanishes a wheel's speed is behind by x²/2, and its angle by x³/6."""
+    text = "[wheel]\nz = 6\n[load]\ninertia_kgm2 = 0.3\n"
+    rows = swept(
+        tmp_path, text, "size.slot_clearance_mm=0.00001,0.00002", pick="shock.reversal.jump"
+    )
+    assert rows[1][1] / rows[0][1] == pytest.approx(2.0 ** (2.0 / 3.0), rel=1e-2)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_a_gear_sector_under_loads_that_vary_alone(tmp_path, friction):
+    """Gears turn the wheel at an even speed; what its inertia alone takes goes with it."""
+    text = '[wheel]\nz = 3\n[drive]\nkind = "gear-sector"\nsector_deg = 60\n'
+    text += f"[load]\ninertia_kgm2 = 0.3\nfriction = {friction}\n"
+    rows = swept(tmp_path, text, "load.inertia_kgm2=0.3,0.6", pick="loads.pin_force_N.max")
+    assert rows[1][1] / rows[0][1] == pytest.approx(2.0, rel=1e-12)
+    spec = Spec(External(3), GearSector(sector_deg=60.0), load=Load(0.3, friction=friction))
+    single = Design(spec.wheel, spec.drive, load=spec.load).loads["pin_force_N"]
+    assert rows[0][1] == pytest.approx(max(single.max, -single.min), rel=1e-14)
+
+
+def test_a_load_without_an_inertia_does_not_swing(tmp_path):
+    text = "[wheel]\nz = 6\n[load]\ntorque_Nm = 5\n[shaft]\nstiffness_Nm_rad = 2000\n"
+    pick = "vibration.residual_share"
+    assert swept(tmp_path, text, "load.torque_Nm=5,6", pick=f"{pick},loads.pin_force_N.max")
+
+
+def test_shares_of_a_law_are_given_one_by_one(tmp_path):
+    text = '[wheel]\nz = 6\n[motion]\nlaw = "scca"\nb = 0.25\nc = 0.5\nd = 0.25\n'
+    rows = swept(tmp_path, text, "motion.b=0.25,0.2500001", pick="acceleration.max")
+    # of the modified trapezoid 8 pi / (2 + pi), over a third of a turn: 60 deg
+    assert rows[0][1] == pytest.approx(8 * np.pi / (2 + np.pi) * (np.pi / 3) / (2 * np.pi / 3) ** 2)
+    assert not may_vary(base("scca"), "motion.b")
+    assert may_vary(base("scca"), "motion.alpha0_deg")
+
+
+@pytest.mark.parametrize(
+    ("text", "vary", "refused"),
+    [
+        ("steps_deg = [72, 48]", "wheel.offset_mm=0,0.003", "choose one of them"),
+        ("[drive]\nrollers = 2\nroller_angles_deg = [0, 90]", "wheel.z=4,5", "jam"),
+    ],
+)
+def test_one_of_a_batch_is_left(tmp_path, text, vary, refused):
+    """The others are refused in their rows; of one a batch is a batch too."""
+    z = 6 if "steps" in text else 4
+    path = tmp_path / "spec.toml"
+    path.write_text(
+        f"[wheel]\nz = {z}\n{text}\n[size]\nface_width_mm = 10\n[load]\ntorque_Nm = 5\n"
+    )
+    pick = "life.horn_stress_MPa,strength.lock.force_N"
+    [[left, other]] = request(str(path), [vary], pick=pick).blocks()
+    [[single]] = request(str(path), [f"{vary.split(',')[0]}"], pick=pick).blocks()
+    assert left[-1] is None
+    assert left[1:-1] == pytest.approx(single[1:-1], rel=1e-14)
+    assert other[1:-1] == [None, None]
+    assert refused in other[-1]
+
+
+def test_a_batch_knows_how_many_it_has():
+    """Whatever varies in it, in parts of it, and in one of it."""
+    spec, _ = MACHINES["side-crank"]
+    found = many(spec, {"drive.A": np.array([0.5, 2.0, 0.5, 0.5])})
+    assert found.machine.designs == 3
+    assert taken(found.machine, slice(1, 3)).designs == 2
+    assert taken(found.machine, np.array([1])).designs == 1
+    assert alone(found.machine, 1).designs == 1
+    assert alone(found.machine, 1).design == 2
+    plain = Spec(External(6), SideCrank(A=0.5), motion=Motion(None))
+    assert many(plain, {"size.pin_mm": np.array([4.0, 4.0])}).machine.designs == 2

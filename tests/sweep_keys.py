@@ -1,0 +1,184 @@
+"""Sweeps of any numeric key held against single designs: every machine, every quantity."""
+
+import math
+
+import numpy as np
+from design_arrays import MACHINES, drawn, machine
+from words import law
+
+from geneva_cli.analysis.loads.cycle import cycle_of
+from geneva_cli.analysis.loads.summary import summaries
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.many import TABLES, changed, many, may_vary
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Motion, attribute
+from geneva_cli.parts.proof import Proof
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import (
+    Load,
+    Motor,
+    RollerMaterial,
+    Shaft,
+    Size,
+    Support,
+    Tolerance,
+    WheelMaterial,
+)
+from geneva_cli.study.fields import ALL, values
+from geneva_cli.study.sweep.columns import in_arrays, known_columns
+
+GIVEN = {
+    "load": Load(inertia_kgm2=0.3, torque_Nm=5.0, friction=0.1, dwell_torque_Nm=3.0),
+    "size": Size(face_width_mm=10.0, slot_clearance_mm=0.01, lock_clearance_mm=0.02),
+    "support": Support(friction=0.01, radius_mm=50.0, force_N=20.0),
+    "motor": Motor(speed_variation=0.1, inertia_kgm2=0.01),
+    "shaft": Shaft(
+        stiffness_Nm_rad=2000.0,
+        damping_ratio=0.02,
+        wheel_diameter_mm=20.0,
+        crank_diameter_mm=18.0,
+        wheel_overhang_mm=30.0,
+        wheel_span_mm=40.0,
+        crank_overhang_mm=25.0,
+        crank_span_mm=45.0,
+        shear_stress_max_MPa=50.0,
+    ),
+    "material_wheel": WheelMaterial(stress_max_MPa=300.0, wear_mm3_Nm=1e-8),
+    "material_roller": RollerMaterial(stress_max_MPa=300.0, dynamic_capacity_N=9000.0),
+    "tolerance": Tolerance(center_distance_mm=0.02, slot_angle_deg=0.05),
+}
+MORE = {
+    "scca": machine(6, motion=Motion(law("scca", b=0.25, c=0.5, d=0.25))),
+    "tuned": machine(6, motion=Motion(law("tuned", of="4-5-6-7", period_ratio=4.0))),
+}
+NAMES = (*MACHINES, *MORE)
+TRIED = (4.0, 8.0, 0.3, 20.0, 60.0, 120.0, 0.0)  # values of keys that a spec goes without
+UNITS = 16 * np.finfo(float).eps
+# Four times that where the rounding of a root is passed on: of how thick a horn is, and of the
+# wheel that a linkage drives.
+ROOTS, FOURFOLD = ("strength.horn",), 4
+UNBOUNDED = 1000.0  # N: a force without a peak; the load's torque gives it at a lever of 5 mm
+MANY = 100  # quantities of any loaded machine that a sweep has of arrays, at least
+SUMS = 1e-12  # what is promised of sums, and of what follows from them (summaries_of_many)
+PLACE = 1e-6  # degrees: a peak is flat
+# these draw whole studies, judge parts, or list them, none of which a sweep has of arrays
+SLOW = ("verdict.report.tolerances", "study.fields:judged", "verdict.report.parts")
+SECTIONS = tuple(section for section in ALL if not section.by.startswith(SLOW))
+
+
+def base(name):
+    """A design of a machine that can be built, loaded so that it has every quantity."""
+    spec, rules = (MORE[name], []) if name in MORE else MACHINES[name]
+    spec = spec.replace(**GIVEN)
+    varied = drawn(rules, 60, 7)
+    every = ({key: rows[i].item() for key, rows in varied.items()} for i in range(60))
+    return changed(spec, next(some for some in ({}, *every) if built(spec, some)))
+
+
+def built(spec, given):
+    """The machine with these values of keys; None where there is none."""
+    try:
+        return build(changed(spec, given))
+    except GenevaError:
+        return None
+
+
+def keys(spec):
+    """The numeric keys of a spec that may vary in an array, and the values that it has of them."""
+    return {
+        f"{table}.{field.key}": (int in field.types, spec.table(table)[field.key])
+        for table in TABLES
+        for field in _fields(spec, table)
+        if may_vary(spec, f"{table}.{field.key}")
+    }
+
+
+def _fields(spec, table):
+    held = vars(spec)[attribute(table)]
+    if held is None:
+        return []
+    return [*fields(type(held)), *(fields(type(held.law)) if table == "motion" else ())]
+
+
+def apart(spec, key):
+    """Two values of a key that both make a machine: the spec's own first, where it has one."""
+    whole, own = keys(spec)[key]
+    for start in (own, *TRIED):
+        if isinstance(start, int | float):
+            for step in (0.04, -0.04):
+                other = start + math.copysign(1, step) if whole else start + step * (start or 0.25)
+                pair = [int(x) if whole else float(x) for x in (start, other)]
+                if all(built(spec, {key: value}) for value in pair):
+                    return pair
+    return None
+
+
+def quantities(mechanism):
+    """The quantities of a single design, and the peaks of its loads."""
+    every = summaries(cycle_of(mechanism)).items() if mechanism.spec.is_loaded else ()
+    bounded = {load: one for load, one in every if None not in (one.max, one.min)}
+    peaks = {f"loads.{load}.max": max(one.max, -one.min) for load, one in bounded.items()}
+    return peaks | values(Proof(mechanism), SECTIONS)
+
+
+def off(spec, varied):
+    """What a sweep's quantities differ in from single designs, said in words; nothing if all agree.
+
+    A quantity of which no design has an array, or that is NaN in it, is asked of each design alone.
+    """
+    count = len(next(iter(varied.values())))
+    found = many(spec, {key: np.array(row) for key, row in varied.items()})
+    assert not found.refused.any(), varied
+    singles = [
+        quantities(built(spec, {key: row[i] for key, row in varied.items()})) for i in range(count)
+    ]
+    assert found.machine.designs == count
+    together = known_columns(found.machine, [name for name in singles[0] if in_arrays([name])])
+    rows = {
+        name: np.broadcast_to(np.reshape(row, -1), (count,))
+        for name, row in together.items()
+        if row is not None and name in singles[0]
+    }
+    assert len(rows) > MANY
+    return [
+        f"{name} of design {i}: {row[i]:.17g}, alone {one[name]}"
+        for name, row in rows.items()
+        for i, one in enumerate(singles)
+        if not _agrees(name, float(row[i]), one, 1 if spec.drive.ONE_ARM else FOURFOLD)
+    ]
+
+
+def _agrees(name, value, single, times):
+    if math.isnan(value):
+        return True
+    alone = single[name]
+    if math.isinf(value) or alone is None:
+        return math.isinf(value) and alone is None
+    group, _, own = name.rpartition(".")
+    if own.endswith("at_deg"):
+        return abs(value - alone) <= PLACE or _is_level(single, group, own)
+    near = UNITS * (FOURFOLD if group in ROOTS else times)
+    if own in ("mean", "rms") or group in ("sizing", "life"):
+        near = SUMS
+    return abs(value - alone) <= near * max(abs(alone), _size(name, single))
+
+
+def _size(name, single):
+    """The size that counts of a signed value: its curve's peak, a radian of an angle, or 1."""
+    group, _, own = name.rpartition(".")
+    if own.endswith("_deg"):
+        return math.degrees(1.0)
+    if "share" in own or own == "margin":
+        return 1.0
+    if group.startswith("shock") and own in ("jump", "force_N", "moment_Nms"):
+        # the root of a way: what rounding is to that, is as much more to its root as it is smaller
+        return abs(single[name] / single[f"{group}.jump"]) if single[name] else 0.0
+    if own == "drag_Nm":  # what a load takes beyond another
+        return single["loads.wheel_torque_Nm.max"] or 0.0
+    peak = single.get(f"{group}.max")
+    return UNBOUNDED if peak is None and group.endswith("_N") else peak or 0.0
+
+
+def _is_level(single, group, own):
+    """Whether a curve has its end in several places, or none: where it is 0, or has no bound."""
+    return not single.get(f"{group}.{'min' if own == 'min_at_deg' else 'max'}")
