@@ -21,7 +21,6 @@ from geneva_cli.analysis.loads.sizing_many import NAMES as SIZING
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.strength import roller
-from geneva_cli.analysis.strength.roller_many import by_roller_of_many, passages_of_many
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, used
 from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
 from geneva_cli.machine.mechanism import Mechanism
@@ -46,8 +45,9 @@ def _life(of: Designs, asked: Collection[str]) -> Columns:
         out["horn_stress_MPa"] = strength.horn(of, asked).get("stress_MPa")
     if not set(asked) - set(out):
         return out
-    ways = passages_of_many(machine)
-    lasts = roller.lives(machine, by_roller_of_many(machine, ways))
+    ways = roller.passages(machine)
+    paired = any(one.paired for one in machine.engagements)
+    lasts = roller.lives(machine, roller.by_roller(machine) if paired else ways)
     worn = roller.wears_mm(machine, ways)
     force = cast("Array", lasts.equivalent_force_N)
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
