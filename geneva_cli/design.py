@@ -49,7 +49,6 @@ if TYPE_CHECKING:
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
-    from geneva_cli.verdict.life import Life
     from geneva_cli.verdict.report import Report
     from geneva_cli.verdict.strength import Strength
 
@@ -278,15 +277,14 @@ class Design:
 
     def _loads(self, for_people: bool) -> Table:
         from geneva_cli.analysis.loads.summary import loads_table
-        from geneva_cli.verdict.life import LIFE
+        from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities together, of which life needs some
-        life = self.life.values  # what it needs is known once it has been looked for
         # without a load all need one, and that is said already
-        needed = self.life.missing(LIFE) if self.cycle.is_loaded else []
-        said = (*self.warnings, *self.load_warnings, *self.life.cautions(), *needed)
+        needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
+        said = (*self.warnings, *self.load_warnings, *self.strength.cautions(), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        return loads_table(self.cycle, life, own, said, for_people)
+        return loads_table(self.cycle, self.life, own, said, for_people)
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
@@ -306,24 +304,22 @@ class Design:
         return known_wheel_body(self.mechanism)
 
     @answer
-    def life(self) -> Life:
+    def life(self) -> dict[str, float | None]:
         """Stresses of pin and horn, the roller's life and the slots' wear; None where not known.
 
         >>> held = Design(External(6), size=Size(200, 8), load=Load(inertia_kgm2=0.4, torque_Nm=15))
-        >>> round(held.life.values["roller_turns_per_motion"], 12)
+        >>> round(held.life["roller_turns_per_motion"], 12)
         2.655148449921
         """
-        from geneva_cli.verdict.life import life
-
-        return life(self.mechanism)
+        return self.strength.life
 
     @answer
     def strength(self) -> Strength:
-        """Likewise, and besides the stresses of lock and shafts.
+        """The strength of pin, horn, lock and shafts, and the life, by the names of a report.
 
         >>> wide = Size(face_width_mm=20)
         >>> held = Design(External(6), size=wide, load=Load(inertia_kgm2=0.4, torque_Nm=15))
-        >>> round(held.strength.pin_stress_MPa, 1)
+        >>> round(held.strength["strength.pin.stress_MPa"], 1)
         528.9
         """
         from geneva_cli.verdict.strength import strength

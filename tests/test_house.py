@@ -42,7 +42,7 @@ SHARED = {
     "commands": {"options", "completion"},
     "bench.subjects": set(),
     "verdict.checks": {"check", "registry"},
-    "verdict.report": {"values", "sections"},
+    "verdict.report": {"values"},
 }
 STREAMS = {"app", "streams", "__main__", "specfile", "output", "manual", "commands"}
 TYPER = {"app", "streams", "__main__", "commands"}

@@ -30,7 +30,6 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
 from geneva_cli.parts.catalogue import PARTS, Part
-from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.rules import Range
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
@@ -38,8 +37,8 @@ from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import registry as checks
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.checks.check import NONE, Check, compared
-from geneva_cli.verdict.report import sections
-from geneva_cli.verdict.report.values import Values
+from geneva_cli.verdict.quantities import groups
+from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 Add = Callable[..., None]
 
@@ -270,17 +269,17 @@ def test_a_check(add: Add, run: Callable[..., Any]) -> None:
     assert slotted.nearest == "" and slotted.why == NONE
 
 
-def counted(proof: Proof) -> Values:
-    """A section of the report."""
-    return {"slots.count": proof.mechanism.spec.wheel.z}
+def counted(of: Designs) -> Columns:
+    """A group of quantities."""
+    return {"count": of.spec.wheel.z}
 
 
-def test_a_section_of_the_report(
+def test_a_group_of_the_report(
     add: Add, run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    add({}, "", "", "verdict.report")
-    line = sections.Section("verdict.report.added:counted")
-    monkeypatch.setattr("geneva_cli.verdict.report.SECTIONS", (line, *sections.SECTIONS))
+    add({}, "", "", "verdict.quantities")
+    line = groups.Group("slots", ("count",), batch="added:counted")
+    monkeypatch.setattr("geneva_cli.verdict.report.REPORT", (line, *groups.REPORT))
     shown = run("report", "[wheel]\nz = 6\n")
     assert shown["slots"] == {"count": 6}
     assert list(shown).index("slots") < list(shown).index("inputs")

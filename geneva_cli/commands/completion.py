@@ -92,9 +92,9 @@ def explained() -> Iterable[str]:
 
 def fields() -> Iterable[str]:
     """The quantities of a design."""
-    from geneva_cli.study.quantity_names import section_of
+    from geneva_cli.study.quantities import group_of
 
-    return section_of()
+    return group_of()
 
 
 def quantities() -> Iterable[str]:

@@ -116,6 +116,8 @@ class Slot(ABC):
 
     # whether it is a curve that was solved for: it has two branches and walls of its own
     curved = False
+    # whether its two branches are mirror images, where the motion is symmetric
+    mirrored = True
     # whether something else than the roller drives the wheel for a while
     relieved = False
     # e: by how much a straight slot's axis misses the wheel's centre
@@ -285,6 +287,11 @@ class Engagement:
     def motion_deg(self) -> float:
         """Input angle of the motion."""
         return self.exit_deg - self.entry_deg
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the way out is the mirror image of the way in: in the motion and in the slot."""
+        return self.motion.symmetric and self.slot.mirrored
 
     @cached_property
     def entry_reach(self) -> Number:

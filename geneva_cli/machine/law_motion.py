@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.laws.law import Law, remaining
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import ascending
+from geneva_cli.numerics.arrays import all_true, ascending
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
 
@@ -31,8 +31,8 @@ class LawMotion(Motion):
 
     @property
     def symmetric(self) -> bool:
-        """Whether the law is symmetric."""
-        return self.law.symmetric
+        """Whether the law is symmetric, and lies evenly about mid-motion."""
+        return all_true(self.law.symmetric) and super().symmetric
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:

@@ -7,7 +7,6 @@ from geneva_cli.machine.engagement import (
     CarrierVelocity,
     Engagement,
     Motion,
-    Path,
     Reactions,
     Slot,
     in_wheel,
@@ -18,10 +17,13 @@ from geneva_cli.numerics.jet import Jet, Number
 
 
 class MiddlePath:
-    """The pin's path, written about mid-motion."""
+    """The pin's path, written about mid-motion.
 
-    def __init__(self, middle: Anchor) -> None:
-        self.middle = middle
+    ``mirrored`` says whether its second half is the mirror image of its first.
+    """
+
+    def __init__(self, middle: Anchor, mirrored: bool = True) -> None:
+        self.middle, self.mirrored = middle, mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin on its circle."""
@@ -33,8 +35,9 @@ class SolvedSlot(Slot):
 
     curved = True
 
-    def __init__(self, path: Path, motion: Motion) -> None:
+    def __init__(self, path: MiddlePath, motion: Motion) -> None:
         self.path, self.motion = path, motion
+        self.mirrored = path.mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """The pin in the wheel's frame."""

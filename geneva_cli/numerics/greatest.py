@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.numerics.roots import TIE
+from geneva_cli.numerics.ties import bar, usual
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
     from geneva_cli.numerics.pieces import Pieces
-
-NOUGHT = 1e-15  # share of a function's size: a greatest value that is no more is 0
 
 
 class Greatest:
@@ -27,7 +25,7 @@ class Greatest:
         self.ways = (1.0,) if sized else (1.0, -1.0)
         self.sized = sized
         self.most = np.full((len(self.ways), functions, n), -np.inf)
-        self.size = np.zeros((functions, n))  # greatest finite size of samples
+        self.size = np.zeros((functions, n))  # of samples, without those near poles
         self.sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
         self.known: list[tuple[int, int, Whole, Array, Array]] = []
 
@@ -47,8 +45,6 @@ class Greatest:
         outside = (x < a[:, None]) | (x > b[:, None])
         first = outside.argmin(axis=1)
         for number, value in enumerate(pieces.value):
-            finite = np.where(outside | ~np.isfinite(value), 0.0, np.abs(value))
-            np.fmax.at(self.size[number], design, finite.max(axis=1, initial=0.0))
             for side, way in enumerate(self.ways):
                 own = np.where(outside, -np.inf, self._side(way, value))
                 best = own.argmax(axis=1)
@@ -62,12 +58,20 @@ class Greatest:
                     known = side, number, design[endless], place[endless], top[endless]
                     self.known.append(known)
 
+    def add_sizes(self, pieces: Pieces) -> None:
+        """Sizes of functions by samples of whole spans, once it is known which have no bound."""
+        design = pieces.rows.design
+        for number, value in enumerate(pieces.value):
+            endless = np.isinf(self.most[:, number]).any(axis=0)[design]
+            # cut at a pole, a piece has one end of any size
+            size = np.abs(value)
+            top = size >= size.max(axis=1, keepdims=True)
+            low, high = usual(np.where(top & endless[:, None], np.inf, value))
+            np.fmax.at(self.size[number], design, np.fmax(-low, high))
+
     def least(self, side: int) -> Array:
         """What a value must come to, to be one of the greatest: (functions, n)."""
-        most = self.most[side]
-        nought = NOUGHT * self.size
-        slack = np.where(np.abs(most) > nought, TIE * np.abs(most), nought)
-        return np.asarray(np.where(np.isfinite(most), most - slack, most))
+        return bar(self.most[side], self.size)
 
     def may_pass(self, design: Whole, low: Array, high: Array) -> Mask:
         """Whether functions between ``low`` and ``high`` may have one of the greatest values:

@@ -1,9 +1,9 @@
 """Integrals of functions of many designs: Gauss and Legendre, halved where a series says so.
 
-The values at the rule's places give the first terms of a function's Legendre series. Of what is
-analytic they fall by one share a term, and n places leave as much as the term 2 n has: so the last
-of n terms and those midway tell it, and no second rule is needed. Terms that fall by a power, as of
-a kink, fall less from n / 2 to n, and are not taken for such.
+The values at the rule's n places give the first n terms of a function's Legendre series. The rule
+leaves about as much as the term 2 n has, so the last of the n terms bound it, and no second rule is
+needed. How fast the terms fall until then does not tell how fast they fall from there: a narrow
+feature's terms are hidden below the larger ones of the rest, which fall sooner.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ NODES = 20  # of a load between its cuts most are settled by so many
 FEW = 12  # and by so many where the span is below a share of its design's widest
 NARROW = 0.25
 MANY = 28  # and by so many where the span is so many times as wide as poles are far
-WIDE = 1.6
+WIDE = 1.0
 TERMS = 2  # taken together: of an even or odd function every other one is 0
-LEFT = 2e-13  # share of a design's integral that may be left
+LEFT = 2e-12  # share of a design's integral that the last terms may have; a tenth is left at most
 
 
 def integrals_many(
@@ -38,15 +38,13 @@ def integrals_many(
     design: Whole,
     asked: Mask,
     ends: bool = False,
-    analytic: bool = True,
     apart: bool = False,
     poles: Array | None = None,
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
     ``asked`` says of which: others, as of functions without a bound, mean nothing; ``functions``
-    may narrow it, where that is seen no sooner. Of functions that are not ``analytic`` within a
-    span, whose higher derivatives may jump, the last terms themselves are what may be left.
+    may narrow it, where that is seen no sooner.
 
     ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
     (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
@@ -71,13 +69,13 @@ def integrals_many(
             for i in range(start, start + count, BLOCK):
                 part = slice(i, min(i + BLOCK, start + count))
                 spans = a, b, of[part], low[part], high[part]
-                found.append(_parts(functions, *spans, nodes, ends, analytic))
+                found.append(_parts(functions, *spans, nodes, ends))
             start += count
-        whole, left, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
+        whole, last, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
         if not len(total):
             total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
             _add(size, design[of], sizes)
-        open_ = (~(left <= LEFT * size[:, design[of]]) & asked[:, design[of]]).any(axis=0)
+        open_ = (~(last <= LEFT * size[:, design[of]]) & asked[:, design[of]]).any(axis=0)
         _add(total, into[of[~open_]], whole[:, ~open_])
         if not open_.any():
             return total
@@ -103,9 +101,8 @@ def _parts(
     high: Array,
     nodes: int,
     ends: bool,
-    analytic: bool,
 ) -> tuple[Array, Array, Array]:
-    """Of shares of spans the integrals, what is left of them, and those of the functions' sizes."""
+    """Of shares of spans the integrals, their last terms, and those of the functions' sizes."""
     node, terms = _rule(nodes)
     half = 0.5 * (high - low)
     # designs lie side by side in memory
@@ -117,20 +114,14 @@ def _parts(
         t = t * t * (3.0 - 2.0 * t)
     value = functions(a[of, None] + width * t, of) * rate
     found = value @ terms
-    midway, last = (
-        np.abs(found[..., part]).max(axis=-1)
-        for part in (slice(1, 1 + TERMS), slice(1 + TERMS, None))
-    )
-    falls = np.minimum(last / np.maximum(midway, np.finfo(float).tiny), 1.0)
-    left = last * falls * falls if analytic else last
-    return found[..., 0], left, np.abs(value) @ terms[:, 0]
+    last = np.abs(found[..., 1:]).max(axis=-1)
+    return found[..., 0], last, np.abs(value) @ terms[:, 0]
 
 
 @cache
 def _rule(nodes: int) -> tuple[Array, Array]:
-    """Places in [-1, 1]; and the weights, then those of the terms midway, and of the last."""
+    """Places in [-1, 1]; and the weights, then those of the last terms."""
     node, weight = rule(nodes)
     series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)
-    midway = range(nodes // 2 - TERMS, nodes // 2)
-    kept = [series[:, i] for i in (*midway, *range(nodes - TERMS, nodes))]
-    return read_only((node, weight[:, None] * np.column_stack([np.ones(nodes), *kept])))
+    sums = weight[:, None] * np.column_stack([np.ones(nodes), series[:, -TERMS:]])
+    return read_only((node, sums))

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 BLOCK = 2048  # rows sampled at a time: so many lie in the processor's cache
 DEEPEST = 60  # halvings: a row is NARROW by then
+SIZED = 4  # halvings: shorter rows lie near a pole, and tell no size of a function
 ENDED = 1e-5  # share of a size that a series may leave where an extreme is looked for
 BEYOND = 0.15  # of the range of samples: by so much an extreme between them may pass it
 UNSURE = 16.0  # times the last terms: what a series that has not ended may leave
@@ -125,10 +126,12 @@ class _Search:
         for rows in first:
             np.add.at(self.cutter.width, rows.design, rows.u[1] - rows.u[0])
         blocks = self._first_blocks(first)
-        for _ in range(DEEPEST):
+        for depth in range(DEEPEST):
             every = [self.cutter.sampled(*block) for block in blocks]
             for found in every:
                 self.greatest.add_samples(found.pieces, found.x)
+            for found in every if depth < SIZED else ():
+                self.greatest.add_sizes(found.pieces)
             again = [rows for found in every for rows in (*found.again, *self._judged(found))]
             if not again:
                 break

@@ -84,7 +84,7 @@ def _walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
     cap = about((x, y), w, inwards + ends[0], ends[1] - ends[0])
     going = about((axis.real, axis.imag), far, start, end - start)
     pieces: list[Segment] = [coming, cap, going]
-    if engagement.motion.symmetric:  # what the roller takes as it leaves mirrors that
+    if engagement.mirrored:  # what the roller takes as it leaves mirrors that
         other = _direction(going.end)
         if other * axis.imag > 0.0:
             between = about((0.0, 0.0), sizes.rim, other, -2.0 * other)

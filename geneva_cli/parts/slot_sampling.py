@@ -34,16 +34,16 @@ def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Arr
     engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)
     ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
-    if not engagement.motion.symmetric:
+    if not engagement.mirrored:
         ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
     found = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, fewest)
-    return np.concatenate((found[:-1], -found[::-1])) if engagement.motion.symmetric else found
+    return np.concatenate((found[:-1], -found[::-1])) if engagement.mirrored else found
 
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
     """Where a flank stops and turns back, the roller being as large as the curve is sharp.
 
-    Of a symmetric motion the first half's.
+    Of a slot with two equal branches the first one's.
     """
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
@@ -54,7 +54,7 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
         return array(at.speed - side * offset * at.turning)
 
     # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
-    step, mirrored = engagement.motion_deg / SURVEY, engagement.motion.symmetric
+    step, mirrored = engagement.motion_deg / SURVEY, engagement.mirrored
     count = (SURVEY + 1) // 2 if mirrored else SURVEY  # of a half that mirrors, one is enough
     grid = engagement.entry_deg + step * (np.arange(count, dtype=np.float64) + 0.5)
     at = pitch(engagement, grid)

@@ -13,7 +13,7 @@ from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.beside import beside
-from geneva_cli.study.quantity_names import whole_name
+from geneva_cli.study.quantities import whole_name
 
 QUANTITIES = tuple(OF_NAME)  # what may be drawn of a design
 FAMILY = 12  # curves of a panel that can be told apart by eye

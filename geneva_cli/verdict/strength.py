@@ -1,96 +1,214 @@
-"""Strength of a whole design: what parts and loads give together, and what is missing."""
+"""Strength and life of a single design: its values, and the keys that those missing need."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
 
 from geneva_cli.analysis.loads.summary import PARALLEL
-from geneva_cli.analysis.strength import lock, shafts
-from geneva_cli.verdict.life import Life
-from geneva_cli.verdict.lock_sizes import lock_of
+from geneva_cli.analysis.strength import horn, lock, shafts
+from geneva_cli.parts.sizes import sized
+from geneva_cli.verdict.quantities.designs import single
+from geneva_cli.verdict.quantities.groups import REPORT, only
+from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.strength.lock import LockUnderTorque
     from geneva_cli.machine.mechanism import Mechanism
 
-LOCK = ("lock_stress_max_MPa", "lock_deflection_max_deg", "lock_horn_stress_MPa")
+WIDTH = "face_width_mm in [size]"
+LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
+# The groups by the names of their tables, and by the whole names of their quantities.
+GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
+LIFE = tuple(name.removeprefix("life.") for name in GROUPS if name.startswith("life."))
+
+# What must be there, and how to say it.
+Key: TypeAlias = tuple[bool, str]
+Keys: TypeAlias = Iterator[Sequence[Key]]
 
 
-class Strength(Life):
-    """The values of ``Life``, and those of the lock and of both shafts."""
+class Strength:
+    """The strength and life of one design; a value is computed when it is first used."""
 
-    @cached_property
-    def lock(self) -> lock.LockUnderTorque | None:
-        """The lock under the torque that it holds in the dwell."""
-        for name in LOCK:
-            self._cut(name)
-        if self._sized is None or not self._sized[1].lock:
-            return None
-        held = bool(lock.held_torque_Nm(self.mechanism))
-        lacks = [self._lacks(n, self._wide, (held, "dwell_torque_Nm in [load]")) for n in LOCK]
-        if any(lacks):
-            return None
-        return lock.lock(self.mechanism, self._sized[1].half_width, lock_of(*self._sized))
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self.spec = mechanism.spec
+        self.design = single(mechanism)
+        self.load = under_load(self.design)
 
-    @cached_property
-    def lock_stress_max_MPa(self) -> float | None:
-        """The greatest stress between disc and recess: on the recess's end, or as the arcs lie."""
-        found = self.lock
-        if found is None or self._sharp("lock_stress_max_MPa", found):
-            return None
-        return max(found.contact_stress_MPa or 0.0, found.pressure_MPa)
-
-    @cached_property
-    def lock_deflection_deg(self) -> float | None:
-        """How far the wheel gives in its lock, its play included."""
-        found = self.lock
-        if found is None or self._sharp("lock_deflection_max_deg", found):
-            return None
-        return found.deflection_deg
-
-    def _sharp(self, name: str, found: LockUnderTorque) -> bool:
-        """Whether the lock bears on a sharp edge, whose stress has no bound."""
-        rounds = (
-            "lock_edge_mm in [size]"
-            if found.on == "corner"
-            else "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
-        )
-        return self._lacks(name, (found.approach_deg is not None, rounds))
+    def __getitem__(self, name: str) -> float | None:
+        """A value by its whole name, as ``strength.pin.stress_MPa``; None where it is not known."""
+        table, _, own = name.rpartition(".")
+        columns = (GROUPS.get(name) or GROUPS[table]).columns(self.design)
+        return only(columns.get(own))
 
     @cached_property
-    def wheel_shaft(self) -> shafts.Turned | None:
-        """The wheel's shaft, where it is parallel to the crank's; None of others."""
-        return self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft), shafts.on_wheel)
+    def life(self) -> dict[str, float | None]:
+        """The values of ``LIFE``, by these names."""
+        return {name: self[f"life.{name}"] for name in LIFE}
+
+    def cautions(self) -> list[str]:
+        """What a stress that is known leaves out."""
+        sizes = self.load.lock_sizes
+        if sizes is None or self["strength.horn.stress_MPa"] is None:
+            return []
+        recess = sizes.lock.recess
+        stout = float(horn.stoutness(self.mechanism, sizes.half_width, recess)[0])
+        if stout <= horn.THICK:
+            return []
+        return [
+            f"horn_stress_MPa is that of a slender beam, and this wheel's horns are {stout:.3g} "
+            f"times as thick at the mouth as their recess's radius ({recess:.4g} mm): it is "
+            "7 % too small at half of that radius, and more beyond"
+        ]
+
+    def reason(self, name: str) -> str | None:
+        """The keys that a value of ``REASONS`` needs, in words.
+
+        None for one that is known, or that a machine does not have, as a horn's without a lock.
+        """
+        for keys in REASONS[name](self):
+            missing = [words for there, words in keys if not there]
+            if missing:  # without a load nothing else helps
+                return LOAD if LOAD in missing else " and ".join(missing)
+        return None
+
+    def missing(self, among: Sequence[str]) -> list[str]:
+        """The keys that would give the values of ``among`` that are not known, in words."""
+        by_key: dict[str, list[str]] = {}
+        for name in among:
+            keys = self.reason(name)
+            if keys:
+                by_key.setdefault(keys, []).append(name)
+        if LOAD in by_key:  # nearly all
+            by_key[LOAD] = ["forces", "stresses", "life"]
+        return [
+            f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
+            for keys, names in by_key.items()
+        ]
+
+    @property
+    def _wide(self) -> Key:
+        return self.spec.size.face_width_mm is not None, WIDTH
+
+    @property
+    def _loaded(self) -> Key:
+        return self.spec.is_loaded, LOAD
+
+    @property
+    def _bounded(self) -> Key:
+        return math.isfinite(self.load.force_N[0]), "a force with a bound: see the warnings"
+
+    def _cut(self) -> Sequence[Key]:
+        """What a value needs that is computed from the parts."""
+        if not self.spec.is_flat:
+            return [(False, "a wheel that is drawn as a flat outline")]
+        return [(self._has_parts, "parts that can be cut: see `geneva check`")]
 
     @cached_property
-    def crank_shaft(self) -> shafts.Turned | None:
-        """The shaft of the crank, likewise."""
-        on = shafts.on_driven_crank if self.spec.drive.CRANKED else shafts.on_crank
-        return self._shaft("crank", shafts.crank_shaft(self.spec.shaft), on)
+    def _has_parts(self) -> bool:
+        return self.load.lock_sizes is not None or sized(self.mechanism) is not None
 
-    def _shaft(
-        self, which: str, ends: shafts.GivenShaft, loaded: shafts.On
-    ) -> shafts.Turned | None:
-        """On a sphere the force's moment does not follow from an overhang."""
-        name = f"{which}_shaft_stress_MPa"
-        if self._lacks(name, (self.spec.wheel.FLAT, PARALLEL)):
-            return None
+    def _pin(self) -> Keys:
+        yield self._wide, self._loaded
+        yield [self._bounded]
+
+    def _horn(self) -> Keys:
+        yield self._cut()
+        if self.load.lock_sizes is not None:
+            yield from self._pin()
+
+    def _lock(self) -> Keys:
+        yield self._cut()
+        if self.load.lock_sizes is not None:
+            held = bool(lock.held_torque_Nm(self.mechanism))
+            yield self._wide, (held, "dwell_torque_Nm in [load]")
+
+    def _contact(self) -> Keys:
+        """Of a lock that bears on a sharp edge the stress has no bound."""
+        yield from self._lock()
+        found = self.load.lock
+        if found is not None and found.approach_deg is not None:
+            rounds = (
+                "lock_edge_mm in [size]"
+                if found.on == "corner"
+                else "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
+            )
+            yield [(not np.isnan(found.approach_deg), rounds)]
+
+    def _wheel_shaft(self) -> Keys:
+        yield from self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft))
+
+    def _crank_shaft(self) -> Keys:
+        yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
+
+    def _shaft(self, which: str, ends: shafts.GivenShaft) -> Keys:
+        yield [(self.spec.wheel.FLAT, PARALLEL)]
+        if self.spec.is_loaded:
+            yield [self._bounded]
         placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")
         thick = (ends.diameter_mm is not None, f"{which}_diameter_mm in [shaft]")
-        self._lacks(name, placed, thick, self._loaded)
-        if not self.spec.is_loaded or not self._bounded(name):
-            return None
-        return shafts.shaft(self.mechanism, ends, loaded)
+        yield placed, thick, self._loaded
+
+    def _rated(self) -> Keys:
+        if self.spec.is_loaded:
+            yield [self._bounded]
+        rated = self.spec.material_roller.dynamic_capacity_N is not None
+        yield (rated, "dynamic_capacity_N in [material.roller]"), self._loaded
+
+    def _bearing(self) -> Keys:
+        yield [self._loaded]
+        yield [self._bounded]
+
+    def _friction(self) -> Keys:
+        yield (bool(self.spec.load.friction), "friction in [load]"), self._loaded
+
+    def _pressure_speed(self) -> Keys:
+        yield self._wide, self._loaded
+        bounded = math.isfinite(self.load.pv_W_m2[0])
+        yield [(bounded, "a stress with a bound: see the warnings")]
+
+    def _wear(self) -> Keys:
+        worn = self.spec.material_wheel.wear_mm3_Nm is not None
+        rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
+        yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._wide, self._loaded
+        yield [self._bounded]
 
 
-def margin(value: float | None, allowed: float | None) -> float | None:
-    """How far a value may still grow, as a share of it: 0 where it is what is allowed.
-
-    >>> margin(80.0, 120.0)
-    0.5
-    """
-    return None if not value or allowed is None else allowed / value - 1.0
+# What each value needs, step by step, under its name in checks and in ``life``.
+REASONS: dict[str, Callable[[Strength], Keys]] = {
+    "pin_stress_MPa": Strength._pin,
+    "horn_stress_MPa": Strength._horn,
+    "lock_stress_max_MPa": Strength._contact,
+    "lock_deflection_max_deg": Strength._contact,
+    "lock_horn_stress_MPa": Strength._lock,
+    "wheel_shaft_stress_MPa": Strength._wheel_shaft,
+    "crank_shaft_stress_MPa": Strength._crank_shaft,
+    "roller_life_min_h": Strength._rated,
+    "roller_life_turns": Strength._rated,
+    "roller_life_motions": Strength._rated,
+    "roller_life_h": Strength._rated,
+    "equivalent_force_N": Strength._bearing,
+    "friction_work_J": Strength._friction,
+    "pv_max_W_m2": Strength._pressure_speed,
+    "slot_wear_mm_per_million": Strength._wear,
+    "slot_wear_max_mm_per_million": Strength._wear,
+}
+# Those of ``life``, in the order in which `geneva loads` says what they need.
+OF_LIFE = (
+    "roller_life_turns",
+    "roller_life_motions",
+    "roller_life_h",
+    "equivalent_force_N",
+    "horn_stress_MPa",
+    "friction_work_J",
+    "pv_max_W_m2",
+    "pin_stress_MPa",
+    "slot_wear_mm_per_million",
+)
 
 
 @lru_cache(maxsize=16)

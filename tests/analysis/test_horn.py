@@ -14,6 +14,7 @@ from geneva_cli import load as read
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.analysis.strength.horn import horn, horns, product, stoutness
 from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.sizes import sized
 from geneva_cli.spec.tables import Load, Size
 
 LOAD = Load(torque_Nm=10.0)
@@ -88,7 +89,7 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     along the horn where it is most stressed. The elements' walls are points of the slot's wall.
     """
     design = read(str(repo.DESIGNS / f"{name}.toml"))
-    sizes = design.strength.sizes
+    _, sizes = sized(design.mechanism)
     side = horns(design.mechanism, sizes.half_width, sizes.recess)[0]
     wall = side.wall(side.mouth_deg * np.linspace(1.0, 1e-3, 1500))[0][:, 0]
     h = float(side.stoutness[0]) * sizes.recess
@@ -100,10 +101,10 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     wall = np.column_stack(([-0.15 * h, wall[1, 0]], wall))
     s, pulled, _ = along(wall, sizes.recess, opening, fine)
     inside = (s > 0.8 * h) & (s < 0.75 * wall[0].max())
-    found = design.strength.horn
-    assert found.at_deg == side.mouth_deg
+    assert design.strength["strength.horn.at_deg"] == side.mouth_deg
     at = state(design.mechanism, side.engagement, side.mouth_deg)
-    per_newton = found.stress_MPa * design.spec.size.face_width_mm / at.pin_force_N
+    wide = design.spec.size.face_width_mm
+    per_newton = design.strength["strength.horn.stress_MPa"] * wide / at.pin_force_N
     assert pulled[inside].max() == pytest.approx(per_newton, rel=0.02)
 
 

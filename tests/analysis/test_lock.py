@@ -63,7 +63,7 @@ def test_the_play_is_that_of_the_parts(name, on):
     """The parts turned against each other find it by bisection of outlines: to 3e-6 of it."""
     design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.lock_clearance_mm", 0.2)
     design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
-    found = strength(design.mechanism).lock
+    found = strength(design.mechanism).load.lock
     assert found.on == on
     assert Proof(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
 

@@ -27,11 +27,10 @@ from geneva_cli.parts.catalogue import PARTS
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import batch, survey
-from geneva_cli.study.fields import ALL
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synthesis.table import NAMES as SYNTH
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
-from geneva_cli.verdict.report import parts, tolerances
+from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.tolerance.tables import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
@@ -91,9 +90,9 @@ def test_every_part_has_an_entry_and_no_entry_names_none():
 def quantities() -> set[str]:
     """The fields and columns of all commands, as whole as the program has them."""
     proof = load(str(repo.DESIGNS / "turret.toml")).proof
-    quick = [section for section in ALL if not section.makes_parts]  # the rest have lists of names
-    out = {name for section in quick for name in section.values(proof)}
-    out |= {*parts.NAMES, *(f"tolerance.{name}" for name in tolerances.NAMES)}
+    quick = [group for group in groups.GROUPS if not group.makes_parts]
+    out = {*groups.values(quick, proof)}
+    out |= {*groups.own_names("parts"), *groups.own_names("tolerance"), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
     of_loads = {f"{q}.{s}" for q in summary.SHOWN for s in summary.Summary._fields}

@@ -10,11 +10,12 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
-from geneva_cli.study.fields import ALL, pick
-from geneva_cli.study.quantity_names import SECTIONS, WORDS, section_of, whole_name
+from geneva_cli.study.fields import pick
+from geneva_cli.study.quantities import WORDS, group_of, whole_name
 from geneva_cli.study.survey import NAMES as TABLE
 from geneva_cli.study.synthesis.rows import Candidate
 from geneva_cli.table import Table
+from geneva_cli.verdict.quantities.groups import GROUPS
 
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
@@ -37,14 +38,15 @@ def geneva(*words: str) -> str:
 
 
 @pytest.mark.parametrize("name", ["tolerances", "press-curved", "unequal-steps", "spherical-z6"])
-def test_every_section_has_the_names_that_are_listed(name):
+def test_every_group_has_the_names_that_are_listed(name):
     proof = load(str(repo.DESIGNS / f"{name}.toml")).proof
-    for section in ALL:
-        if section.by == "verdict.report.parts_list:parts_list_tables":
+    for group in GROUPS:
+        if group.table == "parts_list":
             continue  # tables alone
-        values = section.values(proof)
-        assert {*values} - LISTS == {*SECTIONS[section.by]}
-        assert not [n for n in SECTIONS[section.by] if isinstance(values[n], (tuple, Table))]
+        values = group.values(proof)
+        same = [one for one in GROUPS if one.alone == group.alone] if group.alone else [group]
+        assert {*values} - LISTS == {name for one in same for name in one.names}
+        assert not [n for n in group.names if isinstance(values[n], (tuple, Table))]
         assert {n for n, value in values.items() if isinstance(value, str)} <= WORDS
 
 
@@ -121,4 +123,4 @@ def test_keys_and_checks_give_way():
     assert whole_name("branches_apart_mm") == "checks.branches_apart_mm"
     assert whole_name("checks.acceleration_max") == "checks.acceleration_max"
     assert whole_name("pin_force_N_max") == whole_name("pin_force_N.max") == "loads.pin_force_N.max"
-    assert all(whole_name(name) == name for name in section_of())
+    assert all(whole_name(name) == name for name in group_of())

@@ -20,7 +20,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, setting
-from geneva_cli.analysis.loads.groups_many import is_analytic, parts
+from geneva_cli.analysis.loads.groups_many import parts
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.loaded_many import (
     Loaded,
@@ -72,13 +72,13 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
     """The sums, in the order of the period, of the works between places of the mean."""
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
-    given, analytic, end = setting(mechanism), is_analytic(mechanism.spec), None
+    given, end = setting(mechanism), None
     each, returned = [0.0 * mean], np.zeros(len(mean))
     for engagement in mechanism.engagements:
         if end is not None:
             dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
             each.append(-mean * dwell)
-        works, back = _works(engagement, given, mean, bounded, analytic)
+        works, back = _works(engagement, given, mean, bounded)
         each.append(works)
         returned += back
         end = engagement.mid_deg + engagement.exit_deg
@@ -88,7 +88,7 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
 
 
 def _works(
-    engagement: Engagement, given: Setting, mean: Array, bounded: Mask, analytic: bool
+    engagement: Engagement, given: Setting, mean: Array, bounded: Mask
 ) -> tuple[Array, Array]:
     """Works less the mean's in joules, a row a design with zeros at its end; and what returns."""
     n = len(mean)
@@ -108,7 +108,7 @@ def _works(
 
     asked = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = integrals_many(rows, a, b, design, asked, True, analytic, apart=True) * DEGREE
+        each = integrals_many(rows, a, b, design, asked, True, apart=True) * DEGREE
     first = np.searchsorted(design, np.arange(n))
     number = np.arange(len(design)) - first[design]
     works = np.zeros((n, int(number.max()) + 1))

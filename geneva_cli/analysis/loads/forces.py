@@ -227,3 +227,17 @@ class Forces(Generic[V]):
         if self.given.hertz is None or self.edge is None:
             return None
         return self.force * self.at.touches * self.given.hertz / self.edge
+
+
+def pressed(held: V | None, edge: V | None) -> V | None:
+    """What the contact stress needs to have a bound: the lesser of the two that are known."""
+    return edge if held is None or edge is None else lesser(held, edge)
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])

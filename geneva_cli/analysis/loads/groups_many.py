@@ -11,15 +11,9 @@ from geneva_cli.analysis.loads.loaded_many import Machine
 from geneva_cli.machine.many import taken
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.arrays import Array, Number, Whole
 
 GROUP = 4096  # designs whose stretches are found together
-
-
-def is_analytic(spec: Spec) -> bool:
-    """Whether loads are analytic within their stretches: points have knots."""
-    return spec.drive.ANALYTIC and (spec.motion is None or spec.motion.law.ANALYTIC)
 
 
 def of_groups(

@@ -34,7 +34,7 @@ def is_balanced(load: Loaded) -> bool:
     return load.mirrored and alone and not engagement.slot.curved
 
 
-def squares(load: Loaded, n: int, analytic: bool) -> Array:
+def squares(load: Loaded, n: int) -> Array:
     """The integrals of the squares by the angle in radians, of ``is_balanced`` designs: (names, n).
 
     Infinite where friction holds the wheel.
@@ -65,5 +65,5 @@ def squares(load: Loaded, n: int, analytic: bool) -> Array:
         return total * rate
 
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, spread(a, w), spread(b, w), design, bounded, analytic=analytic)
+        total = integrals_many(rows, spread(a, w), spread(b, w), design, bounded)
     return np.where(bounded, total * DEGREE, np.inf)

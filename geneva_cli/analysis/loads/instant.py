@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Generic
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact, valued
-from geneva_cli.analysis.loads.forces import Forces, Row, Setting, Worked, value
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.analysis.loads.forces import Forces, Row, Setting, Worked, pressed, value
 from geneva_cli.numerics.jet import Jet, Number, V, sqrt
 
 if TYPE_CHECKING:
@@ -166,13 +165,13 @@ class Instant(Generic[V]):
     def stress(self) -> Row[V]:
         """The square of the contact stress, likewise."""
         assert self.stress_squared is not None  # there is a face width
-        return Row(self.stress_squared, self._pressed)
+        return Row(self.stress_squared, pressed(self.held, self.edge))
 
     @property
     def pressure_speed(self) -> Row[V]:
         """The square of p v, the greatest Hertz pressure times the sliding, likewise; W²/m⁴."""
         pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
-        return Row(pv, self._pressed)
+        return Row(pv, pressed(self.held, self.edge))
 
     @property
     def guide(self) -> Row[V]:
@@ -189,13 +188,6 @@ class Instant(Generic[V]):
     def shaft(self) -> Row[V]:
         """The input's torque, which friction may leave without a bound."""
         return Row(self.input_torque_Nm, self.held)
-
-    @property
-    def _pressed(self) -> V | None:
-        """What the contact stress needs to have a bound: the lesser of ``grip`` and ``edge``."""
-        if self.held is None or self.edge is None:
-            return self.edge
-        return lesser(self.grip, self.edge)
 
     @cached_property
     def _rubs(self) -> V:
@@ -222,15 +214,6 @@ class Instant(Generic[V]):
         )
         force = self.forces.force
         return force * force * (x * x + y * y)
-
-
-def lesser(a: V, b: V) -> V:
-    """The lesser of two jets, or of their values, element by element."""
-    first = value(a) < value(b)
-    if not isinstance(a, Jet) or not isinstance(b, Jet):
-        out: V = choose(first, a, b)
-        return out
-    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
 
 
 def _root(square: V) -> V:

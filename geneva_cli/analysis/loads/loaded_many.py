@@ -93,9 +93,8 @@ class Loaded:
         held = own or any(name in REACTIONS for name in names)
         self.reactions = held and engagement.reactions is not None
         self.spins = own or "slides" in self.kinds or any(name in SLIDING for name in names)
-        motion, slot = engagement.motion, engagement.slot
-        radial = all_true(slot.offset == 0.0) and (not slot.curved or has_mirrored_path(engagement))
-        self.mirrored = radial and motion.symmetric and not self.reactions
+        radial = all_true(engagement.slot.offset == 0.0)
+        self.mirrored = radial and engagement.mirrored and not self.reactions
         # of the block of designs that is sampled: which, their machine, and places and contact
         self.kept: tuple[slice | None, Any] = (None, None)
         self.last: list[tuple[Array, Contact[Jet]]] = []
@@ -110,10 +109,12 @@ class Loaded:
         """Whether the second half of the motion has no greater sizes than the first.
 
         Without friction nor a torque, or nor an inertia, forces are as great in both, and what
-        the input gives is no less than what it gets back.
+        the input gives is no less than what it gets back. A torque alone presses on one wall of a
+        curved slot all the way, whose two halves bend differently.
         """
-        given = self.machine[1]
-        alone = all_true(given.resists_Nm == 0.0) or all_true(given.inertia_Nm == 0.0)
+        engagement, given, _ = self.machine
+        alone = all_true(given.inertia_Nm == 0.0) and not engagement.slot.curved
+        alone = alone or all_true(given.resists_Nm == 0.0)
         return self.mirrored and alone and not given.rubs
 
     def at(self, x: Array, which: Which, order: int) -> At:
@@ -197,7 +198,11 @@ class Loaded:
             for k in orders:
                 values[k][i] = row.value.c[k]
             if row.room is not None:
-                lost = np.broadcast_to(row.room.c[0] <= ZERO, shape)
+                room = row.room.c[0]
+                lost = room <= ZERO
+                for kind in self.rooms:  # where it is known to end, a rounding may be left of it
+                    lost = lost | ((found.signs[kind] < 0.0) & (room == found.jets[kind].c[0]))
+                lost = np.broadcast_to(lost, shape)
                 if lost.any():
                     values[0][i] = np.where(lost, np.inf * row.way, values[0][i])
                     for k in orders[1:]:
@@ -229,17 +234,6 @@ class Look(NamedTuple):
     signs: list[Array]
     jets: list[Jet]
     instant: Instant[Jet]
-
-
-def has_mirrored_path(engagement: Engagement) -> bool:
-    """Whether the roller's way out, of all designs, is the mirror image of its way in."""
-    for share in (0.3, 0.7):
-        at = share * engagement.exit_deg
-        (x, y), (u, v) = engagement.path(at, 0), engagement.path(-at, 0)
-        off = np.abs(x.c[0] - u.c[0]) + np.abs(y.c[0] + v.c[0])
-        if np.any(off > ZERO):
-            return False
-    return True
 
 
 def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:

@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
-from geneva_cli.analysis.loads.forces import Forces, Greatest, Row, Setting, setting, sliding
+from geneva_cli.analysis.loads.forces import (
+    Forces,
+    Greatest,
+    Row,
+    Setting,
+    pressed,
+    setting,
+    sliding,
+)
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
@@ -103,7 +111,7 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
             Row(slope * slope),
         ]
         if found.square is not None:
-            out.append(Row(found.square, found.edge))
+            out.append(Row(found.square, pressed(grip, found.edge)))
         return out
 
     torque, force, driving, driven, slope, *square = maxima(engagement, given, rows)
@@ -116,7 +124,7 @@ def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
         "torque_Nm": torque,
         "pin_force_N": force,
         "input_torque_Nm": Greatest(*greatest_at(shafts)),
-        "contact_stress_MPa": force if square and math.isinf(force.max) else stress,
+        "contact_stress_MPa": stress,
         "pressure_deg": pressure,
     }
 

@@ -21,15 +21,14 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import is_analytic, of_groups
+from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
-from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS
+from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, outermost
 from geneva_cli.analysis.loads.stretches_many import spans_of
 from geneva_cli.analysis.loads.summary import ends_told
 from geneva_cli.analysis.peaks_many import PeakOfMany, greater
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.roots import TIE
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
@@ -87,22 +86,22 @@ def summaries_of_many(
 
     Extremes are within some units in the last place of a quantity's greatest size of those of one
     design; means, and roots of the mean square, within 1e-12 of that size: both are sums of what
-    quadrature leaves of 1e-13, over stretches that may cancel. ``told`` says which of the two are
+    quadrature leaves of 2e-13, over stretches that may cancel. ``told`` says which of the two are
     asked for; of ``REACTIONS`` there are no means. One that is not told is None.
     """
     lent, sources = sources_of(mechanism, names)
-    best: dict[str, SummaryOfMany] = {}
+    each: dict[str, list[Array]] = {name: [] for name in sources}
     whole: Array | None = None
     for found, at_deg, total in _over_all(mechanism, sources, sized=False, told=told):
         (most, low), (most_at, low_at) = np.split(found, 2), np.split(at_deg, 2)
         for i, name in enumerate(sources):
-            here = SummaryOfMany(most[i], most_at[i], -low[i], low_at[i])
-            best[name] = _outer(best[name], here) if name in best else here
+            each[name].append(np.stack((most[i], most_at[i], -low[i], low_at[i])))
         if total is not None:
             whole = total if whole is None else whole + total
     means = {} if whole is None else means_from(mechanism, sources, whole, "mean" in told)
-    for name in sources:
-        one = best[name]
+    best: dict[str, SummaryOfMany] = {}
+    for name, rows in each.items():
+        one = SummaryOfMany(*outermost(np.stack(rows)))
         most, least = ends_told(name, one.max, one.min)
         one = one._replace(max=most, min=least)
         best[name] = one._replace(**means[name]._asdict()) if name in means else one
@@ -118,11 +117,11 @@ def _over_all(
     own: Mapping[str, Wanted] = NONE,
 ) -> list[tuple[Array, Array, Array | None]]:
     """For each engagement the greatest values, their input angles as shown, and the integrals."""
-    given, analytic = setting(mechanism), is_analytic(mechanism.spec)
+    given = setting(mechanism)
     out = []
     for engagement in mechanism.engagements:
         every = machine(engagement, given, names, own)
-        most, x, whole = _of(every, names, sized, told, analytic)
+        most, x, whole = _of(every, names, sized, told)
         places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
         shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
         out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, whole))
@@ -130,20 +129,18 @@ def _over_all(
 
 
 def _of(
-    every: Machine, names: Sequence[str], sized: bool, told: Collection[str], analytic: bool
+    every: Machine, names: Sequence[str], sized: bool, told: Collection[str]
 ) -> tuple[Array, Array, Array | None]:
     """The same for one engagement, at its own input angles."""
 
     def found(some: Machine, n: int) -> tuple[Array, Array, Array]:
-        return _group(Loaded(some, names), n, sized, told, analytic)
+        return _group(Loaded(some, names), n, sized, told)
 
     most, x, whole = of_groups(every, found)
     return most, x, whole if told else None
 
 
-def _group(
-    load: Loaded, n: int, sized: bool, told: Collection[str], analytic: bool
-) -> tuple[Array, Array, Array]:
+def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Array, Array, Array]:
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
@@ -153,16 +150,4 @@ def _group(
         return found.most, found.x, found.most
     pieces = found.stretches
     bounded = np.asarray(np.isfinite(found.most).reshape(2, -1, n).all(axis=0))
-    return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told, analytic)
-
-
-def _outer(one: SummaryOfMany, other: SummaryOfMany) -> SummaryOfMany:
-    """The greater maximum and the lesser minimum; of two that are one, where the first is."""
-    more = other.max > one.max + np.where(np.isfinite(one.max), TIE * np.abs(one.max), 0.0)
-    less = other.min < one.min - np.where(np.isfinite(one.min), TIE * np.abs(one.min), 0.0)
-    return SummaryOfMany(
-        np.maximum(one.max, other.max),
-        np.where(more, other.max_at_deg, one.max_at_deg),
-        np.minimum(one.min, other.min),
-        np.where(less, other.min_at_deg, one.min_at_deg),
-    )
+    return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told)

@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import NEAR, mirrored
 from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import is_analytic, of_groups
+from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.inertia_many import is_balanced, squares
 from geneva_cli.analysis.loads.loaded_many import (
     NONE,
@@ -64,12 +64,12 @@ def means_of_many(
     >>> means_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
     array([ 26.8019, 107.2078])
     """
-    given, analytic = setting(mechanism), is_analytic(mechanism.spec)
+    given = setting(mechanism)
     lent, sources = sources_of(mechanism, names)
     every = [machine(engagement, given, sources, NONE) for engagement in mechanism.engagements]
 
     def found(some: Machine, n: int) -> tuple[Array]:
-        return (_sums_of(Loaded(some, sources), n, "mean" in told, analytic),)
+        return (_sums_of(Loaded(some, sources), n, "mean" in told),)
 
     sums = sum(of_groups(one, found)[0] for one in every)
     means = means_from(mechanism, sources, np.asarray(sums), "mean" in told)
@@ -104,20 +104,18 @@ def means_from(
     return out
 
 
-def _sums_of(load: Loaded, n: int, plain: bool, analytic: bool) -> Array:
+def _sums_of(load: Loaded, n: int, plain: bool) -> Array:
     """The integrals without a search for extremes: the designs are but cut where signs change."""
     if is_balanced(load) and not plain:
-        return squares(load, n, analytic)
+        return squares(load, n)
     spans, only = spans_of(load.machine[0], n), Signs(load)
     pieces = search(only, spans, n, False, w=load.spread).stretches
     with np.errstate(all="ignore"):
         bounded = load.bounded(pieces, n)
-    return sums(load, pieces, bounded, n, plain, analytic)
+    return sums(load, pieces, bounded, n, plain)
 
 
-def sums(
-    load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool, analytic: bool
-) -> Array:
+def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
     """The integrals by the angle in radians of the squares, and of the quantities where ``plain``:
     infinite of those that are not ``bounded``, (names, n).
 
@@ -157,7 +155,7 @@ def sums(
         asked = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
         poles = 0.5 * np.pi * w
-        total = integrals_many(by_spread, *ends, design, asked, rooted, analytic, poles=poles)
+        total = integrals_many(by_spread, *ends, design, asked, rooted, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]

@@ -24,15 +24,14 @@ from geneva_cli.numerics.arrays import rows_of
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots_many import roots_many
 from geneva_cli.numerics.scan import Scan, hopeful
+from geneva_cli.numerics.ties import first_greatest, usual
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
-TIE = 1e-12  # two peaks nearer than this are one that occurs twice: the earlier is meant
-# So are values that differ by less of their greatest size: a length is looked for as its square,
-# and where that is 0 some units in the last place of the length are left, squared.
-NOUGHT = 1e-28
+CROWDED = 0.02  # share of a stretch that is its end
+NOUGHT = 1e-28  # of a quantity's size, squared: so small a greatest value is 0
 
 
 def maxima(
@@ -67,6 +66,9 @@ def looked(
 
     # no two changes of sign of a room are stepped over: between them there is no bound
     found = scanned(sampled, [(p.start, p.end) for p in pieces], signed).first(len(first))
+    # samples crowd at the ends of stretches, where loads are often 0: those tell nothing of a size
+    start, end = np.array([piece[:2] for piece in pieces]).T[:, found.span]
+    even = np.minimum(found.x - start, end - found.x) >= CROWDED * (end - start)
     middle = _middle(engagement, given, rows)
     tops = _tops(engagement, found, rows, signs)
     brinks: dict[int, float] = {}
@@ -86,8 +88,8 @@ def looked(
             out.append(Greatest(math.inf, min([brink, *endless])))
         else:
             places = [*middle[i], *tops[i], *_ends(found, i)]
-            value = found.value[i]
-            size = float(np.abs(value[np.isfinite(value)]).max(initial=0.0))
+            low, high = usual(found.value[i : i + 1, even])
+            size = max(-float(low[0]), float(high[0]), 0.0)
             out.append(_greatest(places, engagement, least, size))
     return out, found
 
@@ -138,15 +140,12 @@ def _tops(
 def _greatest(
     places: list[tuple[float, float]], engagement: Engagement, least: float, size: float
 ) -> Greatest:
-    """The first of the greatest of some values, which come to ``size``."""
-    most = max(value for _, value in places)
+    """The first of the greatest of some values, of a function of this size."""
+    x, value = np.array(sorted(places)).T[..., None]
+    most, first = (float(one[0]) for one in first_greatest(value, x, np.array([size])))
     most = 0.0 if abs(most) <= NOUGHT * size else most
     if not most > least:
         return Greatest(least, engagement.entry_deg)
-    if math.isinf(most):
-        return Greatest(most, 0.0)
-    tie = max(TIE * abs(most), NOUGHT * size)
-    first = min(x for x, value in places if value >= most - tie)
     return Greatest(most, at_break(first, engagement))
 
 

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+import numpy as np
+
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
 from geneva_cli.analysis.loads.forces import Row
-from geneva_cli.numerics.roots import greatest_at
+from geneva_cli.numerics.ties import first_greatest
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
 
 FORCE = "pin_force_N"
 STRESS = "contact_stress_MPa"
@@ -60,6 +67,16 @@ def ends_of_each(cycle: Cycle, name: str) -> list[Extremes]:
 
 def _of_all(each: list[Extremes]) -> Extremes:
     """The greatest maximum and the least minimum, of equal ones the first."""
-    most, most_at_deg = greatest_at([(one.max, one.max_at_deg) for one in each])
-    least, least_at_deg = greatest_at([(-one.min, one.min_at_deg) for one in each])
-    return Extremes(most, most_at_deg, -least, least_at_deg)
+    return Extremes(*map(float, outermost(np.array(each))))
+
+
+def outermost(each: Array) -> Array:
+    """The extremes of all engagements of those of each, (engagements, 4, ...): of equal ones the
+    first.
+    """
+    most, most_at_deg, least, least_at_deg = np.moveaxis(each, 1, 0)
+    both = np.concatenate((most, least))
+    size = np.where(np.isfinite(both), np.abs(both), 0.0).max(axis=0)
+    sides = first_greatest(most, most_at_deg, size), first_greatest(-least, least_at_deg, size)
+    (most, most_at_deg), (least, least_at_deg) = sides
+    return np.stack((most, most_at_deg, -least, least_at_deg))

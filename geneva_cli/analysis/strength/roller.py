@@ -109,8 +109,7 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
     every_one = np.full(n, True)
     asked = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        # a law of points has knots at which its higher derivatives jump
-        total = integrals_many(rows, a, b, design, asked, ends=True, analytic=False) * DEGREE
+        total = integrals_many(rows, a, b, design, asked, ends=True) * DEGREE
     return np.where(asked, total, np.inf)
 
 

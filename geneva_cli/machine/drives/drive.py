@@ -77,8 +77,6 @@ class Drive(SpecTable, kw_only=True):
     LOCKS: ClassVar[bool] = True
     # whether its roller is carried on a crank, which a plain drive could turn as well
     CRANKED: ClassVar[bool] = False
-    # whether what it does is analytic between its breaks; what a spline gives is not
-    ANALYTIC: ClassVar[bool] = True
     # whether it is a pair of noncircular gears, which have pitch curves
     GEARED: ClassVar[bool] = False
     # whether it has other gears, of pitch circles

@@ -53,7 +53,6 @@ class NoncircularGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
-    ANALYTIC: ClassVar[bool] = False  # a ratio of points is a spline
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "the side-crank's ratio, as gears"] = None
     ratio: Annotated[
         Points | None,
@@ -165,7 +164,7 @@ class Since(NamedTuple):
 def _through(crank: Pieces, crank_deg: float) -> About:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
-    return About(math.degrees(phi + turns * math.tau), Since(_since(crank, phi)))
+    return About(math.degrees(phi + turns * math.tau), Since(_since(crank, phi)), even=False)
 
 
 def _since(crank: Pieces, phi: float) -> Pieces:

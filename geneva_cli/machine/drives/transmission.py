@@ -41,6 +41,8 @@ class About(NamedTuple):
     # input angle since then, radians, and order -> sin d and 1 - cos d of the crank's angle d
     # since then, with their derivatives by the input angle
     advance: Displacement
+    # whether the crank may run the same before and after: not where its ratio is anyone's
+    even: bool = True
 
 
 def same(tau: Number, order: int) -> tuple[Jet, Jet]:
@@ -120,6 +122,7 @@ class Transmission(Drive, kw_only=True):
             motion = Classic(path, place.step.b, *closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
+            motion.mirrored = motion.mirrored and here.even
         body = wheel.body(place, here.advance)
         body = body or self.turning(place.crank_deg, -wheel.SIGN)
         mid = here.input_deg
@@ -157,7 +160,7 @@ class Transmission(Drive, kw_only=True):
         ratio = self._ratio(wheel, motion, motion_deg)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         anchor = self._anchor(pose, 0.0)
-        L, path = spec.given_distance_mm, MiddlePath(anchor)
+        L, path = spec.given_distance_mm, MiddlePath(anchor, self.about(0.0).even)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = self.turning(0.0, -wheel.SIGN)
         engagement = path_and_motion.engagement(

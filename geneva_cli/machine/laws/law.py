@@ -19,6 +19,7 @@ from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import SpecTable, fields
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Truth
     from geneva_cli.numerics.spline import Doubt
 
 
@@ -43,8 +44,8 @@ class Law(SpecTable):
         return ()
 
     @property
-    def symmetric(self) -> bool:
-        """Whether the second half mirrors the first.
+    def symmetric(self) -> Truth:
+        """Whether the second half mirrors the first; of a batch the answer of each design.
 
         >>> Cycloidal().symmetric, SineGroup(0.1).symmetric
         (True, False)
@@ -150,16 +151,18 @@ class Law(SpecTable):
 
     @cached_property
     def half_way(self) -> float:
-        """The share of the motion time after which the wheel is half-way: 1/2 if it is symmetric.
+        """The share of the motion time after which the wheel is half-way.
+
+        1/2 of a symmetric law by definition: its value there may be rounded to beside 1/2.
 
         >>> Cycloidal().half_way
         0.5
         """
-        even = self(0.5, 0).c[0] == 0.5
+        even = self.symmetric
         if all_true(even):
             return 0.5
         first, last = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
-        return boundary(lambda u: self(u, 0).c[0] < 0.5, first, last)
+        return boundary(lambda u: self(u, 0).c[0] <= 0.5, first, last)
 
     def __call__(self, u: Number, order: int = 3) -> Jet:
         """The law at a number or an array of u in 0..1, with its derivatives by u."""

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 
 from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
-from geneva_cli.numerics.arrays import all_true, library
+from geneva_cli.numerics.arrays import Truth, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos
 from geneva_cli.spec.rules import Range
 
@@ -185,9 +185,9 @@ class SineGroup(Law):
     lambda_: Annotated[float, Range(-10.0, 10.0), "shape of the sine-group law"] = 0.0
 
     @property
-    def symmetric(self) -> bool:
+    def symmetric(self) -> Truth:
         """Only without a tilt."""
-        return all_true(self.lambda_ == 0.0)
+        return self.lambda_ == 0.0
 
     def first(self, u: Number, order: int) -> Jet:
         """The share s in closed form, from its velocity."""

@@ -18,7 +18,7 @@ from typing import Annotated, ClassVar
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.numerics.arrays import all_true, scalar
+from geneva_cli.numerics.arrays import Truth, scalar
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import OneOf, Range
 
@@ -68,9 +68,9 @@ class Tuned(Law):
         return law
 
     @property
-    def symmetric(self) -> bool:
+    def symmetric(self) -> Truth:
         """Without damping, as its law."""
-        return self._y.symmetric and all_true(self.damping_ratio == 0.0)
+        return self._y.symmetric & (self.damping_ratio == 0.0)
 
     @property
     def tuned_to(self) -> float:

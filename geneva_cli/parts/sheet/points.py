@@ -38,7 +38,7 @@ def tables(found: Outlines, tolerance: float) -> list[Block]:
         if not engagement.slot.curved:
             continue
         count = sum(1 for one, _ in assembly.slots if one is engagement)
-        symmetric = engagement.motion.symmetric
+        symmetric = engagement.mirrored
 
         def centre(x: Array, of: object = engagement) -> Array:
             px, py = engagement.slot(x, 0)  # noqa: B023

@@ -36,7 +36,8 @@ def curved_walls(
     pieces = chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement)
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
-        if other < i and _mirrors(pieces[other], piece, SAME * assembly.L):
+        both = other < i and engagement.mirrored
+        if both and _mirrors(pieces[other], piece, SAME * assembly.L):
             found.append([mirrored(segment) for segment in reversed(found[other])])
         else:
             found.append(_segments(piece, half, curves))

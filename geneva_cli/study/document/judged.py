@@ -9,7 +9,7 @@ from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose
 from geneva_cli.study.document.left import Left
 from geneva_cli.study.document.sources import sources
-from geneva_cli.verdict.life import LIFE
+from geneva_cli.verdict.strength import OF_LIFE
 
 WORDS = {True: "passes", False: BAD, None: "not proved"}
 HEADS = (
@@ -52,7 +52,7 @@ def said(design: Design, left: Left) -> Iterator[Block]:
     """Warnings, what is not known and would be by which key, and sources."""
     cautions = tuple(left.one("warnings"))
     of_loads = design.loads_page.to_dict()["warnings"]  # the keys that sizing needs among them
-    known = {*cautions, *design.life.missing(LIFE)}  # these, and more, are the report's own
+    known = {*cautions, *design.strength.missing(OF_LIFE)}  # these, and more, are the report's own
     unknown = dict.fromkeys(missing(design.cycle))
     unknown |= dict.fromkeys(text for text in of_loads if text not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeGuard
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.study.quantity_names import WORDS
+from geneva_cli.study.quantities import WORDS
 
 _FORM = re.compile(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*")
 MUST_BE = {"<=": "at most", ">=": "at least"}

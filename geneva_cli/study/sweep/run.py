@@ -17,7 +17,8 @@ from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.sweep import batch, columns
+from geneva_cli.study.quantities import in_batch
+from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
 
@@ -82,12 +83,12 @@ class Sweep(NamedTuple):
         """How many designs are worked on before their rows are there."""
         if self.together:
             return BLOCK
-        return FEW if any(s.makes_parts for s in self.pick.sections) else TASK
+        return FEW if any(s.makes_parts for s in self.pick.groups) else TASK
 
     @property
     def together(self) -> bool:
         """Whether the quantities are known for arrays of designs."""
-        return bool(self.pick.names) and columns.in_arrays(self.pick.names)
+        return bool(self.pick.names) and in_batch(self.pick.names)
 
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()

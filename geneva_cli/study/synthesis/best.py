@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
-from geneva_cli.study.sweep.columns import in_arrays
+from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.together import numbers
@@ -116,7 +116,7 @@ class Places:
     def __init__(self, families: Sequence[Family], wish: Wish, patient: bool = False) -> None:
         self.families, self.bounds = families, known_bounds(wish)
         self.patient = patient  # also about places that no step nearby makes keep the bounds
-        least = wish.sort if wish.sort and in_arrays([wish.sort.lstrip("-")]) else ""
+        least = wish.sort if wish.sort and in_batch([wish.sort.lstrip("-")]) else ""
         self.nearest = wish.any_motion and not least
         self.peak = wish.peak
         self.least, self.sign = least.lstrip("-") or self.peak, -1.0 if least[:1] == "-" else 1.0

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from geneva_cli.study.sweep.columns import in_arrays, is_motion
+from geneva_cli.study.quantities import in_batch, is_motion
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.wish import Wish
 
 
 def known_bounds(wish: Wish) -> list[Constraint]:
     """The bounds on quantities that ``together`` knows."""
-    return [b for b in wish.limits if in_arrays([b.name])]
+    return [b for b in wish.limits if in_batch([b.name])]
 
 
 def of_motion(wish: Wish) -> Wish | None:

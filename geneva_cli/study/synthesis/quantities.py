@@ -12,7 +12,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.sweep.columns import in_arrays
+from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.sweep.constraints import (
     Constraint,
     is_number,
@@ -72,7 +72,7 @@ def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | N
     """The quantities of these names of each row; None for one of which they are not known of many
     machines together.
     """
-    if not (names and in_arrays(names)):
+    if not (names and in_batch(names)):
         return [None] * len(found)
     return [*map(_cells, numbers([row.spec for row in found], names))]
 

@@ -13,7 +13,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.sweep.columns import in_arrays
+from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.sweep.constraints import Constraint, is_number
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.bounds import known_bounds
@@ -132,7 +132,7 @@ def _known_together(wish: Wish) -> bool:
     """Whether what the wish sorts by and its bounds are known of many machines together. Where not,
     of each family several machines are asked for them, and the best of these is shown.
     """
-    return in_arrays(wish.named)
+    return in_batch(wish.named)
 
 
 def _parts(

@@ -2,101 +2,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
 
-if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
-    from geneva_cli.verdict.strength import Strength
-
-# a value, and its input angle where it is of one place; None for what is not known
-Found: TypeAlias = tuple[float | None, float | None]
-
 
 class Bound(NamedTuple):
-    """A part's limit in the spec, and how its value is found."""
+    """A limit of the spec, and the quantity that is held to it, by its whole name."""
 
-    limit: Callable[[Spec], float | None]
-    found: Callable[[Strength], Found]
+    limit: str  # table.key
+    quantity: str
+    place: str = ""  # the quantity that says at which input angle it is
     must_be: str = "at most"
 
 
-class _Placed(Protocol):
-    """A stress at an input angle."""
-
-    @property
-    def stress_MPa(self) -> float | None: ...
-    @property
-    def at_deg(self) -> float | None: ...
-
-
-def _placed(found: _Placed | None) -> Found:
-    return (found.stress_MPa, found.at_deg) if found else (None, None)
-
-
 BOUNDS = {
-    # contact stress times sliding speed
-    "pv_max_W_m2": Bound(lambda s: s.limits.pv_max_W_m2, lambda of: (of.pv_max_W_m2, None)),
+    "pv_max_W_m2": Bound("limits.pv_max_W_m2", "life.pv_max_W_m2"),
     # L10
     "roller_life_min_h": Bound(
-        lambda s: s.limits.roller_life_min_h,
-        lambda of: (of.roller.hours if of.roller else None, None),
-        "at least",
+        "limits.roller_life_min_h", "life.roller_life_h", must_be="at least"
     ),
     # Archard's depth
     "slot_wear_max_mm_per_million": Bound(
-        lambda s: s.limits.slot_wear_max_mm_per_million, lambda of: (of.wear_mm, None)
+        "limits.slot_wear_max_mm_per_million", "life.slot_wear_mm_per_million"
     ),
-    # the pin's equivalent stress
-    "pin_stress_MPa": Bound(
-        lambda s: s.material_roller.stress_max_MPa, lambda of: (of.pin_stress_MPa, None)
-    ),
-    # the horn's bending stress under the roller
+    "pin_stress_MPa": Bound("material.roller.stress_max_MPa", "strength.pin.stress_MPa"),
+    # under the roller
     "horn_stress_MPa": Bound(
-        lambda s: s.material_wheel.stress_max_MPa, lambda of: _placed(of.horn)
+        "material.wheel.stress_max_MPa", "strength.horn.stress_MPa", "strength.horn.at_deg"
     ),
-    # the same under the torque that the lock holds
-    "lock_horn_stress_MPa": Bound(
-        lambda s: s.material_wheel.stress_max_MPa,
-        lambda of: (of.lock.horn_stress_MPa if of.lock else None, None),
-    ),
+    # under the torque that the lock holds
+    "lock_horn_stress_MPa": Bound("material.wheel.stress_max_MPa", "strength.lock.horn_stress_MPa"),
     # between disc and recess: on the recess's end, or as the arcs lie
-    "lock_stress_max_MPa": Bound(
-        lambda s: s.limits.lock_stress_max_MPa, lambda of: (of.lock_stress_max_MPa, None)
-    ),
+    "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa"),
     # of the wheel: the lock's play, the contact's approach and the horn's bending
     "lock_deflection_max_deg": Bound(
-        lambda s: s.limits.lock_deflection_max_deg, lambda of: (of.lock_deflection_deg, None)
+        "limits.lock_deflection_max_deg", "strength.lock.deflection_deg"
     ),
-    # the shafts' shear stresses, by the ASME code
+    # shear stresses, by the ASME code
     "wheel_shaft_stress_MPa": Bound(
-        lambda s: s.shaft.shear_stress_max_MPa, lambda of: _placed(of.wheel_shaft)
+        "shaft.shear_stress_max_MPa",
+        "strength.wheel_shaft.stress_MPa",
+        "strength.wheel_shaft.at_deg",
     ),
     "crank_shaft_stress_MPa": Bound(
-        lambda s: s.shaft.shear_stress_max_MPa, lambda of: _placed(of.crank_shaft)
+        "shaft.shear_stress_max_MPa",
+        "strength.crank_shaft.stress_MPa",
+        "strength.crank_shaft.at_deg",
     ),
 }
 
 
 def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
-    """A value held to its limit; none without a limit, or of what the machine has not.
+    """A value held to its limit; None without a limit, or of what the machine does not have.
 
-    It cannot be told where a key is missing.
+    It is not proved where a key is missing.
     """
     bound = BOUNDS[name]
-    limit = bound.limit(mechanism.spec)
+    table, _, key = bound.limit.rpartition(".")
+    limit = mechanism.spec.table(table)[key]
     if limit is None:
         return None
     # A spec that says nothing of what its parts may bear is checked without NumPy.
     from geneva_cli.verdict.strength import strength
 
     of = strength(mechanism)
-    value, at_deg = bound.found(of)
+    value = of[bound.quantity]
     if value is not None:
+        at_deg = of[bound.place] if bound.place else None
         return compared(name, value, bound.must_be, limit, at_deg)
-    if name not in of.needs:
+    reason = of.reason(name)
+    if reason is None:
         return None
-    return Check(name, None, bound.must_be, limit, None, f"not known: it needs {of.needs[name]}")
+    return Check(name, None, bound.must_be, limit, None, f"not known: it needs {reason}")

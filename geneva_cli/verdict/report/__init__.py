@@ -1,6 +1,6 @@
 """One page on a design, for a person: words, timing, peaks, loads, sizes, cautions.
 
-A section is one file, or a function in a file, and one line in ``sections``.
+A section is a group of quantities in ``verdict.quantities.groups``, and its function.
 """
 
 from __future__ import annotations
@@ -18,11 +18,12 @@ from geneva_cli.verdict.carried_cautions import carried_cautions
 from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.cycle_cautions import cycle_cautions
-from geneva_cli.verdict.life import life
 from geneva_cli.verdict.load_cautions import load_cautions
-from geneva_cli.verdict.report.sections import SECTIONS
+from geneva_cli.verdict.quantities.groups import REPORT
+from geneva_cli.verdict.quantities.groups import values as values_of
 from geneva_cli.verdict.report.values import Values
 from geneva_cli.verdict.report.words import words
+from geneva_cli.verdict.strength import strength
 from geneva_cli.verdict.turn_cautions import turn_cautions
 
 
@@ -50,7 +51,7 @@ def report(
         *load_cautions(mechanism),
         *cycle_cautions(cycle, summaries(cycle)),
         *carried_cautions(mechanism, known_wheel_body(mechanism)),
-        *life(mechanism).cautions(),
+        *strength(mechanism).cautions(),
         *turn_cautions(proof),
     )
     passes = all_pass(rows)
@@ -62,9 +63,7 @@ def report(
         "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
-    for section in SECTIONS:
-        values |= section.values(proof)
-    values["warnings"] = warnings
+    values |= values_of(REPORT, proof) | {"warnings": warnings}
     return Report(record_table(values, title, words(mechanism)), passes, warnings)
 
 

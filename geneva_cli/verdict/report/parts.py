@@ -4,25 +4,8 @@ from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.proof import Proof
+from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.report.values import Values
-
-NAMES = [
-    f"parts.{name}"
-    for name in (
-        "none",
-        "rim_radius_mm",
-        "slot_end_radius_mm",
-        "lock_radius_mm",
-        "recess_radius_mm",
-        "relief",
-        "horn_mm",
-        "wheel_bore_mm",
-        "crank_bore_mm",
-        "smallest_gap_mm",
-        "smallest_gap_at_deg",
-        "dwell_play_deg",
-    )
-]
 
 
 def parts(proof: Proof) -> Values:
@@ -30,7 +13,7 @@ def parts(proof: Proof) -> Values:
 
     Of a sphere what a turn shows, and the horn: its sizes are angles, in the list of parts.
     """
-    values: Values = dict.fromkeys(NAMES)
+    values: Values = dict.fromkeys(own_names("parts"))
     if not proof.mechanism.spec.has_parts:
         return values
     try:

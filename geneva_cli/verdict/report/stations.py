@@ -1,8 +1,9 @@
-"""Timing and peaks, engagement by engagement."""
+"""Timing and peaks: what all engagements share, the greatest, and a row for each."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.peaks import Peaks, placed, worst
@@ -11,25 +12,42 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.proof import Proof
 from geneva_cli.table import rows_table
+from geneva_cli.verdict.quantities.motion import peak_values
 from geneva_cli.verdict.report.values import Numbers, Values
+
+SAME = 1e-12  # share of a value by which rounding may make it differ between engagements
+
+
+def timing(proof: Proof) -> Values:
+    """The timing that all engagements share; None of what they do not."""
+    mechanism = proof.mechanism
+    each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
+    return {name: _shared([one[name] for one in each]) for name in each[0]}
+
+
+def _shared(values: Sequence[float | None]) -> float | None:
+    """The value that all engagements share, but for rounding; None where they do not."""
+    known = [value for value in values if value is not None]
+    if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=SAME):
+        return None
+    return known[0]
+
+
+def peaks(proof: Proof) -> Values:
+    """The greatest peaks over all engagements."""
+    return {**_peaks(proof.mechanism, worst(proof.mechanism))}
 
 
 def stations(proof: Proof) -> Values:
-    """Where engagements differ, what they share and their worst, then each."""
+    """A row for each engagement, where they differ."""
     mechanism = proof.mechanism
+    if len(mechanism.engagements) == 1:
+        return {"stations": None}
     each = [
         _timing(mechanism, i) | _peaks(mechanism, placed(mechanism, s))
         for i, s in enumerate(mechanism.engagements)
     ]
-    if len(each) == 1:
-        return {**each[0], "stations": None}
-    shared: Numbers = {}
-    for name in each[0]:
-        low, high = min(found := [e[name] or 0.0 for e in each]), max(found)
-        same = all(e[name] is not None for e in each) and math.isclose(low, high, rel_tol=1e-12)
-        shared[name] = each[0][name] if same else None
-    rows = rows_table(tuple(each[0]), [tuple(e.values()) for e in each])
-    return {**shared, **_peaks(mechanism, worst(mechanism)), "stations": rows}
+    return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
 
 
 def _timing(mechanism: Mechanism, i: int) -> Numbers:
@@ -48,24 +66,10 @@ def _timing(mechanism: Mechanism, i: int) -> Numbers:
 
 
 def _peaks(mechanism: Mechanism, found: Peaks) -> Numbers:
-    w = omega(mechanism.spec.drive.n_rpm)
-    values: Numbers = {}
-    rows = (
-        ("velocity", found.velocity, w, "rad_s"),
-        ("acceleration", found.acceleration, w**2, "rad_s2"),
-        ("jerk", found.jerk, w**3, "rad_s3"),
-        ("power", found.power, w**3, "rad2_s3"),
-    )
-    for name, peak, scale, unit in rows:
-        values[f"{name}.max"] = peak.max
-        values[f"{name}.at_deg"] = peak.at_deg
-        values[f"{name}.max_{unit}"] = peak.max * scale
-        if name == "acceleration":
-            entry = found.ends.acceleration_entry
-            values[f"{name}.entry"] = entry
-            values[f"{name}.exit"] = found.ends.acceleration_exit
-            values[f"{name}.entry_{unit}"] = entry * scale
-        if name == "jerk":
-            values[f"{name}.entry"] = found.ends.jerk_entry
-            values[f"{name}.exit"] = found.ends.jerk_exit
-    return values
+    w, ends = omega(mechanism.spec.drive.n_rpm), found.ends
+    return {
+        **peak_values("velocity", w, found.velocity, ()),
+        **peak_values("acceleration", w, found.acceleration, ends[:2]),
+        **peak_values("jerk", w, found.jerk, ends[2:]),
+        **peak_values("power", w, found.power, ()),
+    }

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.timing import Timing, timing
-from geneva_cli.study.sweep.columns import RATES
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.verdict.quantities.groups import RATES
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array

@@ -26,7 +26,8 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.study.sweep.columns import columns, in_arrays, is_motion
+from geneva_cli.study.quantities import in_batch, is_motion
+from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
@@ -94,7 +95,7 @@ class _Search:
         self.motions = [span for span in spans if span]
         self.bounds = known_bounds(wish)
         least = wish.sort.lstrip("-")
-        self.least = least if least and in_arrays([least]) else wish.peak
+        self.least = least if least and in_batch([least]) else wish.peak
         self.sign = -1.0 if self.least == least and wish.sort.startswith("-") else 1.0
         self.nearest = wish.any_motion and not least
 

@@ -1,0 +1,123 @@
+"""The names of a design's quantities: which there are, and what a name that is typed stands for.
+
+Every command that takes a quantity resolves its name here, without making a machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, Group
+
+SHOWN_MAX = 5  # candidates in a message
+
+# Names of columns and keys that neither the whole name nor its end spells.
+SYNONYMS = {
+    "acceleration_max_deg": "acceleration.at_deg",
+    "drive": "drive.kind",
+    "n_rpm": "inputs.drive.n_rpm",
+}
+# Quantities that are words, which have no order.
+WORDS = frozenset(
+    {
+        *("wheel.gearing", "drive.kind", "motion.law", "sizes.clearances_from", "checks.failed"),
+        *("inputs.wheel.held_by", "inputs.size.process", "inputs.size.pin_held"),
+        *("inputs.load.friction_at", "vibration.none", "parts.none", "parts.relief"),
+    }
+)
+
+
+@cache
+def group_of() -> Mapping[str, Group]:
+    """The group of each quantity, by its whole name."""
+    return {name: group for group in GROUPS for name in group.names}
+
+
+@cache
+def _batched() -> frozenset[str]:
+    """The quantities that are known of a batch."""
+    return frozenset(name for group in GROUPS for name in group.batched)
+
+
+def in_batch(names: Iterable[str]) -> bool:
+    """Whether all these quantities can be computed for a batch of designs.
+
+    >>> in_batch(["timing.dwell_s", "jerk.max"]), in_batch(["sizes.ratio"])
+    (True, False)
+    """
+    return all(name in _batched() for name in names)
+
+
+def is_motion(name: str) -> bool:
+    """Whether a quantity follows from the wheel's motion alone."""
+    return name.partition(".")[0] in ("timing", *RATES)
+
+
+def whole_name(asked: str, option: str = "--pick") -> str:
+    """The whole name of a quantity; ``option`` is what asks for it.
+
+    A whole name may be written with underscores, as a column of ``table`` and ``synth``, or
+    shortened to its end. A key of the spec is named whole, and a check gives way to a quantity of
+    its name. Raises GenevaError for a name that is none, with the nearest one, and for one that
+    may be several, with these.
+
+    >>> whole_name("acceleration_max"), whole_name("dwell_s")
+    ('acceleration.max', 'timing.dwell_s')
+    """
+    if asked in group_of():
+        return asked
+    for found in _readings(asked):
+        if len(found) > 1:
+            more = len(found) - SHOWN_MAX
+            those = [*found[:SHOWN_MAX], *([f"{more} others"] if more > 0 else [])]
+            raise GenevaError(f"{option} {cut(asked)}: it may be {' or '.join(those)}; say which")
+        if found:
+            return found[0]
+    raise GenevaError(
+        f"{option} {cut(asked)}: no quantity of a design{_nearest(asked)}; `geneva compare` "
+        "shows all that are quick, and check names stand behind checks."
+    )
+
+
+def _readings(asked: str) -> Iterator[list[str]]:
+    """What a name that is no whole name may mean, the nearest reading first."""
+    yield [SYNONYMS[asked]] if asked in SYNONYMS else []
+    others = [name for name in group_of() if not name.startswith(INPUTS)]
+    quantities = [name for name in others if not name.startswith(CHECKS)]
+    yield [name for name in quantities if _spelled(name) == asked]
+    for names in (quantities, others):
+        yield [name for name in names if name.endswith(f".{asked}")]
+        yield [name for name in names if asked in {_spelled(end) for end in _ends(name)}]
+
+
+def _spelled(name: str) -> str:
+    """A name with underscores, as the columns of ``table`` and ``synth`` have it."""
+    return name.replace(".", "_")
+
+
+def _ends(name: str) -> list[str]:
+    """The name without its first parts, the longest first.
+
+    >>> _ends("loads.pin_force_N.max")
+    ['pin_force_N.max', 'max']
+    """
+    parts = name.split(".")
+    return [".".join(parts[i:]) for i in range(1, len(parts))]
+
+
+def _nearest(asked: str) -> str:
+    """`` (did you mean "..."?)``: by a whole name, or by the end of one, as dwell for dwell_s.
+
+    A whole name behind a word too many, as velocity.max in peaks.velocity.max, comes first, and a
+    key of the spec by its own name.
+    """
+    known = group_of()
+    behind = [name for name in known if asked.endswith(f".{name}")]
+    keys = [name for name in known if name.startswith(INPUTS) and name.endswith(f".{asked}")]
+    if behind or keys:
+        best = max(behind or keys, key=len)
+        return nearest(best, [best])
+    ends = [end for name in known if not name.startswith(INPUTS) for end in _ends(name)]
+    return nearest(asked, dict.fromkeys([*known, *ends]))

@@ -1,0 +1,1 @@
+"""The quantities of a design: which there are, and the functions that compute them."""

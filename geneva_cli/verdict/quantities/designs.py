@@ -1,0 +1,63 @@
+"""The designs whose quantities are computed: the m designs of a machine, or a single one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
+
+import numpy as np
+
+from geneva_cli.analysis.loads.forces import Setting, setting
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Number
+    from geneva_cli.numerics.jet import Array
+
+T = TypeVar("T")
+# Values by the names of quantities, (m,) each, or one number for all designs.
+Columns: TypeAlias = "Mapping[str, Number | None]"
+
+
+class Designs:
+    """The m designs of a machine, and what several quantities need: (m,) each, computed once.
+
+    A value is infinite where a design has none, and NaN where only the design built alone can tell.
+    """
+
+    def __init__(self, machine: Mechanism, names: Collection[str] = ()) -> None:
+        self.machine = machine
+        self.spec = machine.spec
+        self.names = names  # of all quantities that are requested
+        self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
+        self._kept: dict[object, object] = {}
+
+    def requested(self, table: str) -> set[str]:
+        """The names of requested quantities of a table, without its name."""
+        start = f"{table}."
+        return {name.removeprefix(start) for name in self.names if name.startswith(start)}
+
+    def once(self, compute: Callable[[Designs], T]) -> T:
+        """What a function of these designs gives, computed once."""
+        if compute not in self._kept:
+            self._kept[compute] = compute(self)
+        found: T = self._kept[compute]  # type: ignore[assignment]
+        return found
+
+    @cached_property
+    def given(self) -> Setting:
+        """What the loads depend on besides the motion."""
+        return setting(self.machine)
+
+    @cached_property
+    def loaded(self) -> Array:
+        """1 where something resists the wheel, else NaN."""
+        loaded = self.given.inertia_Nm + self.given.resists_Nm > 0.0
+        return np.ravel(np.where(loaded, 1.0, np.nan))
+
+
+@lru_cache(maxsize=16)
+def single(mechanism: Mechanism) -> Designs:
+    """A machine as a batch of one, kept while it is checked, advised on and reported."""
+    return Designs(mechanism)

@@ -1,0 +1,59 @@
+"""What disturbs designs: the swing of the load, blows of the roller, and tolerances."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.blows import Blows, entry_blows, reversal_blows
+from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
+from geneva_cli.analysis.loads.carried import inertia_kgm2
+from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
+from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Number
+    from geneva_cli.verdict.quantities.designs import Columns, Designs
+
+
+def vibration(of: Designs) -> Columns:
+    """The swing of a load on its elastic shaft."""
+    found = vibrations_of_many(of.machine, of.requested("vibration"))
+    if found is None:
+        return dict.fromkeys(Vibrations._fields)
+    # without damping there is no steady state; without a period ratio the design says why
+    steady = np.where(np.isnan(found.steady_share), found.period_ratio + np.inf, found.steady_share)
+    return found._replace(steady_share=steady)._asdict()
+
+
+def entry(of: Designs) -> Columns:
+    """The blow at entry where R/L is wrong."""
+    return _blow(entry_blows(of.machine))
+
+
+def reversal(of: Designs) -> Columns:
+    """The blow where the roller changes sides, and the drag that would keep it on one."""
+    coasts = np.ravel(inertia_kgm2(of.spec)) > 0.0
+    drag = np.where(coasts, np.ravel(lasting_drag_Nm(of.machine)), np.inf)
+    return {**_blow(reversal_blows(of.machine)), "drag_Nm": drag}
+
+
+def _blow(found: Blows) -> Columns:
+    return {name: np.where(np.isnan(row), np.inf, row) for name, row in found._asdict().items()}
+
+
+def tolerances(of: Designs) -> Columns:
+    """The worst that tolerances do to the motion, and to the velocity at entry.
+
+    The jump at entry is known together of designs with tolerances, none of which is too wide.
+    """
+    plays = motion_plays(of.machine)
+    if plays is None:
+        return dict.fromkeys(("motion_play.worst_deg", "motion_play.rss_deg", "entry_jump.worst"))
+    out: dict[str, Number | None] = {f"motion_play.{n}": v for n, v in plays._asdict().items()}
+    if "entry_jump.worst" in of.requested("tolerance"):
+        jumps = entry_jumps_worst(of.machine, used(of.machine))
+        known = np.isfinite(plays.worst_deg)
+        out["entry_jump.worst"] = None if jumps is None else np.where(known, jumps, np.nan)
+    return out

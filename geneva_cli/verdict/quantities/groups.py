@@ -1,0 +1,299 @@
+"""The registry of quantities: every one by its whole name, and the functions that compute it.
+
+A new quantity is a name in one group here, and a value of the group's function.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.spec.load_named import load_named
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
+from geneva_cli.verdict.checks.registry import every_check
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Number
+    from geneva_cli.parts.proof import Proof
+    from geneva_cli.verdict.quantities.designs import Columns, Designs
+    from geneva_cli.verdict.report.values import Values
+
+INPUTS, CHECKS = "inputs.", "checks."  # how names of a spec's keys and of checks begin
+ECHOED = {  # keys that the numbers of a report rest on, besides the machine's own shape
+    "wheel": ("held_by",),
+    "drive": ("n_rpm",),
+    "size": (
+        "process",
+        "slot_clearance_mm",
+        "lock_clearance_mm",
+        "press_fit_mm",
+        "face_width_mm",
+        "pin_held",
+        "pin_gap_mm",
+        "lock_edge_mm",
+    ),
+    "load": tuple(key.key for key in fields(Load)),
+    "shaft": tuple(key.key for key in fields(Shaft)),
+    "material.wheel": tuple(key.key for key in fields(WheelMaterial)),
+    "material.roller": tuple(key.key for key in fields(RollerMaterial)),
+    "limits": tuple(key.key for key in fields(Limits)),
+}
+# Of each peak: the power of the input's speed that makes a rate of its invariant, and the rate.
+RATES = {
+    "velocity": (1, "rad_s"),
+    "acceleration": (2, "rad_s2"),
+    "jerk": (3, "rad_s3"),
+    "power": (3, "rad2_s3"),
+}
+
+
+class Group(NamedTuple):
+    """Quantities that are computed together.
+
+    ``alone`` computes them for the machine of a Proof and ``batch`` for Designs, each as
+    module:function of this room, imported when it is used. Without ``alone`` a single design is a
+    batch of one, and what ``batch`` leaves out no design has. Groups may share a function. An
+    ``alone`` may give lists and tables besides.
+    """
+
+    table: str  # what the whole names begin with; nothing where several tables are one group
+    own: tuple[str, ...]
+    alone: str = ""
+    batch: str = ""
+    one_by_one: tuple[str, ...] = ()  # those of ``own`` that ``batch`` does not compute
+    makes_parts: bool = False  # it makes the machine's parts or turns them, which may take seconds
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The whole names."""
+        return tuple(map(self._whole, self.own))
+
+    @property
+    def batched(self) -> tuple[str, ...]:
+        """The whole names of those that are known of a batch."""
+        names = [name for name in self.own if self.batch and name not in self.one_by_one]
+        return tuple(map(self._whole, names))
+
+    def values(self, proof: Proof) -> Values:
+        """The values of a single design; None of one that it does not have."""
+        found: Values
+        if self.alone:
+            found = load_named(f"verdict.{self.alone}")(proof)
+            return found
+        from geneva_cli.verdict.quantities.designs import single
+
+        columns = self.columns(single(proof.mechanism))
+        return {self._whole(name): only(columns[name]) for name in self.own}
+
+    def columns(self, of: Designs) -> Columns:
+        """The values of a batch by the names without the table; None of what no design has.
+
+        A name is left out where these designs have no such values together, and each must be built
+        alone.
+        """
+        compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
+        found = of.once(compute)
+        return found if self.alone else {**dict.fromkeys(self.own), **found}
+
+    def _whole(self, name: str) -> str:
+        return f"{self.table}.{name}" if self.table else name
+
+
+def only(column: Number | None) -> float | None:
+    """The value of the one design of a batch; None where there is none."""
+    value = column if column is None or isinstance(column, int | float) else column.item()
+    return value if value is not None and math.isfinite(value) else None
+
+
+def own_names(table: str) -> tuple[str, ...]:
+    """The whole names of a table's quantities.
+
+    >>> own_names("strength.pin")[:2]
+    ('strength.pin.diameter_mm', 'strength.pin.bending_MPa')
+    """
+    return tuple(name for group in GROUPS if group.table == table for name in group.names)
+
+
+def values(groups: Iterable[Group], proof: Proof) -> Values:
+    """The values of several groups of a single design, in their order."""
+    out: Values = {}
+    called = set()
+    for group in groups:
+        if group.alone not in called:
+            out |= group.values(proof)
+        called |= {group.alone} - {""}
+    return out
+
+
+def _product(of: str, names: str) -> tuple[str, ...]:
+    """Each of some names behind each prefix, as texts of words.
+
+    >>> _product("jerk power", "max at_deg")
+    ('jerk.max', 'jerk.at_deg', 'power.max', 'power.at_deg')
+    """
+    return tuple(f"{prefix}.{name}" for prefix in of.split() for name in names.split())
+
+
+def _group(
+    table: str, names: str, alone: str = "", batch: str = "", makes_parts: bool = False
+) -> Group:
+    """A group whose names are words of a text."""
+    return Group(table, tuple(names.split()), alone, batch, makes_parts=makes_parts)
+
+
+MACHINE = _group(
+    "", "wheel.z wheel.gearing drive.kind drive.rollers motion.law", "quantities.single:machine"
+)
+# Those of a report, in the order shown.
+REPORT = (
+    Group(
+        "inputs",
+        tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
+        "report.inputs:inputs",
+    ),
+    _group(
+        "timing",
+        "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s shortest_motion_s k_r",
+        "report.stations:timing",
+        "motion:timing",
+    )._replace(one_by_one=("shortest_motion_s", "k_r")),
+    Group(
+        "",
+        (
+            *_product("velocity", "max at_deg max_rad_s"),
+            *_product("acceleration", "max at_deg max_rad_s2 entry exit entry_rad_s2"),
+            *_product("jerk", "max at_deg max_rad_s3 entry exit"),
+            *_product("power", "max at_deg max_rad2_s3"),
+        ),
+        "report.stations:peaks",
+        "motion:peaks",
+    ),
+    _group("", "", "report.stations:stations"),
+    Group(
+        "loads",
+        (
+            *_product("torque_Nm pin_force_N input_torque_Nm contact_stress_MPa", "max at_deg"),
+            "kinetic_power_W",
+        ),
+        "report.loads:greatest_loads",
+        "loads:greatest",
+    ),
+    Group(
+        "cycle",
+        _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
+        "report.cycle:cycle",
+    ),
+    _group("shock.entry", "at_deg jump force_N moment_Nms", batch="disturbances:entry"),
+    _group(
+        "shock.reversal", "at_deg jump force_N moment_Nms drag_Nm", batch="disturbances:reversal"
+    ),
+    _group("slot", "positively_driven", "report.slot:slot"),
+    _group("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", batch="motion:slot"),
+    _group(
+        "vibration",
+        "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
+        "residual_share_worst steady_share dynamic_factor windup_deg",
+        "report.vibration:vibration",
+        "disturbances:vibration",
+    )._replace(one_by_one=("none",)),
+    _group(
+        "sizes",
+        "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
+        "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
+        "slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm "
+        "pressure_angle_max_deg rollers_max",
+        "report.sizes:sizes",
+    ),
+    _group(
+        "parts",
+        "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
+        "wheel_bore_mm crank_bore_mm smallest_gap_mm smallest_gap_at_deg dwell_play_deg",
+        "report.parts:parts",
+        makes_parts=True,
+    ),
+    _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
+    Group(
+        "tolerance",
+        (
+            *_product("dwell_position motion_play", "worst_deg rss_deg p997_deg"),
+            *_product("entry_jump", "mean worst mouth_worst"),
+            *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
+        ),
+        "report.tolerances:tolerances",
+        "disturbances:tolerances",
+        (
+            *_product("dwell_position", "worst_deg rss_deg p997_deg"),
+            *("motion_play.p997_deg", "entry_jump.mean", "entry_jump.mouth_worst"),
+            *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
+        ),
+        makes_parts=True,
+    ),
+    _group(
+        "strength.pin",
+        "diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm",
+        batch="strength:pin",
+    ),
+    _group(
+        "strength.horn",
+        "stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin",
+        batch="strength:horn",
+    ),
+    _group(
+        "strength.lock",
+        "torque_Nm force_N contact_stress_MPa pressure_MPa allowed_MPa margin horn_stress_MPa "
+        "play_deg approach_deg bending_deg deflection_deg",
+        batch="strength:lock",
+    ),
+    *(
+        _group(
+            f"strength.{shaft}",
+            "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm "
+            "twist_deg",
+            batch=f"strength:{shaft}",
+        )
+        for shaft in ("wheel_shaft", "crank_shaft")
+    ),
+    _group(
+        "life",
+        "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
+        batch="strength:wear",
+    ),
+    _group("life", "pv_max_W_m2", batch="strength:pressure_speed"),
+    _group("life", "pin_stress_MPa horn_stress_MPa", batch="strength:bending"),
+    _group(
+        "life",
+        "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
+        batch="strength:wear",
+    ),
+    _group("strength", "", "report.needs:needs"),
+)
+# Those that a study knows besides.
+STUDY = (
+    Group(
+        "loads",
+        _product(
+            "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
+            "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 guide_force_N "
+            "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N",
+            "min min_at_deg mean rms",
+        ),
+        "quantities.single:cycle",
+        "loads:summaries",
+    ),
+    _group(
+        "sizing",
+        "inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
+        "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
+        "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
+        "coasting_speed_share input_torque_ratio",
+        "quantities.single:bought",
+        "loads:sizing",
+    ),
+    Group(
+        "checks", (*every_check(), "passes", "failed"), "quantities.single:judged", makes_parts=True
+    ),
+)
+# All of them: those that make parts come last.
+GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

@@ -1,0 +1,79 @@
+"""Loads of designs: greatest sizes, least values and means, and what must be bought."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.loads import kinetic_power_W
+from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
+from geneva_cli.analysis.loads.means_many import means_of_many
+from geneva_cli.analysis.loads.quantities import known_quantities
+from geneva_cli.analysis.loads.sizing_many import sizings_of_many
+from geneva_cli.analysis.loads.summary import shares
+from geneva_cli.analysis.peaks_many import worst_of_many
+from geneva_cli.numerics.arrays import parameter
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Number
+    from geneva_cli.verdict.quantities.designs import Columns, Designs
+
+# Loads of which a report has the greatest size, and their names in the cycle.
+SIZED = {
+    "torque_Nm": "wheel_torque_Nm",
+    "pin_force_N": "pin_force_N",
+    "input_torque_Nm": "input_torque_Nm",
+    "contact_stress_MPa": "contact_stress_MPa",
+}
+MEANS = {"mean", "rms"}  # of each quantity of the cycle, beside its least value
+
+
+def greatest(of: Designs) -> Columns:
+    """The greatest sizes of loads and their input angles; infinite of one that no design has."""
+    known, requested = known_quantities(Cycle(of.machine)), of.requested("loads")
+    names = [name for name in SIZED if {f"{name}.max", f"{name}.at_deg"} & requested]
+    sought = [SIZED[name] for name in names if SIZED[name] in known]
+    found = greatest_of_many(of.machine, sought) if sought else {}
+    out: dict[str, Number | None] = {}
+    for name in names:
+        most, at_deg = found.get(SIZED[name], (np.inf, np.inf))
+        out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
+    if "kinetic_power_W" in requested:
+        power = worst_of_many(of.machine, ["power"])["power"].max
+        kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
+        out["kinetic_power_W"] = np.where(np.ravel(of.given.inertia_Nm) > 0.0, kinetic, np.nan)
+    return out
+
+
+def summaries(of: Designs) -> Columns:
+    """Least values, means and root mean squares of those loads that all these designs have."""
+    cycle = Cycle(of.machine)
+    sources = {n: source for n, (source, share, _) in shares(cycle).items() if share is not None}
+    known = known_quantities(cycle)
+    ends: dict[str, list[str]] = {}
+    for name in of.requested("loads"):
+        load, _, end = name.rpartition(".")
+        if end not in ("max", "at_deg") and sources.get(load, load) in known:
+            ends.setdefault(load, []).append(end)
+    if not ends:
+        return {}
+    out: dict[str, Number | None] = {}
+    told = {end for some in ends.values() for end in some}
+    sums = summaries_of_many if told - MEANS else means_of_many
+    for load, one in sums(of.machine, list(ends), told & MEANS).items():
+        found = one._asdict()
+        out |= {f"{load}.{end}": found[end] for end in ends[load]}
+    loaded = np.isfinite(of.loaded)
+    # reactions have no means
+    return {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
+
+
+def sizing(of: Designs) -> Columns:
+    """Motor, flywheel and the makers' form; None of what needs keys that no design has."""
+    requested = of.requested("sizing")
+    out: dict[str, Number | None] = dict.fromkeys(requested)
+    for name, row in sizings_of_many(of.machine, requested).items():
+        out[name] = np.where(np.isnan(row), np.inf, row) * of.loaded
+    return out

@@ -1,0 +1,85 @@
+"""Timing and peaks of designs, and where a curved slot does not drive its wheel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
+from geneva_cli.analysis.positive_drive import positive_drives
+from geneva_cli.analysis.timing import timings
+from geneva_cli.numerics.angles import omega
+from geneva_cli.verdict.quantities.groups import RATES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from geneva_cli.machine.engagement import Motion
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Array, N, Number
+    from geneva_cli.verdict.quantities.designs import Columns, Designs
+
+ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
+
+
+def timing(of: Designs) -> Columns:
+    """The timing of machines whose engagements are alike; nothing of others."""
+    first, *others = timings(of.machine)
+    return {} if others else first._asdict()
+
+
+def peaks(of: Designs) -> Columns:
+    """The greatest velocity, acceleration, jerk and power, and their sizes at the ends."""
+    requested = [name for name in QUANTITIES if of.requested(name)]
+    w = np.ravel(omega(of.spec.drive.n_rpm))
+    out: dict[str, Number | None] = {}
+    for name, peak in worst_of_many(of.machine, requested).items():
+        ends = _ends(of.machine, ENDS[name]) if name in ENDS else ()
+        out |= peak_values(name, w, tuple(peak), ends)
+    return out
+
+
+def peak_values(name: str, w: N, peak: Sequence[N], ends: Sequence[N]) -> dict[str, N]:
+    """The quantities of a peak, by their whole names.
+
+    ``w`` is the input's speed, ``peak`` the greatest size and its input angle, ``ends`` the sizes
+    just after entry and just before exit, where they are told.
+
+    >>> peak_values("velocity", 2.0, (1.0, 0.0), ())
+    {'velocity.max': 1.0, 'velocity.at_deg': 0.0, 'velocity.max_rad_s': 2.0}
+    """
+    power, unit = RATES[name]
+    scale = w**power
+    most, at_deg = peak
+    out = {f"{name}.max": most, f"{name}.at_deg": at_deg, f"{name}.max_{unit}": most * scale}
+    if ends:
+        out[f"{name}.entry"], out[f"{name}.exit"] = ends
+    if name == "acceleration":
+        out[f"{name}.entry_{unit}"] = ends[0] * scale
+    return out
+
+
+def _ends(machine: Mechanism, order: int) -> list[Array]:
+    """The greatest sizes of a derivative just after an entry, and just before an exit."""
+    motions = [e.motion for e in machine.engagements]
+    return [
+        np.max(np.broadcast_arrays(*(_size(m, m.entry_deg, order) for m in motions)), axis=0),
+        np.max(np.broadcast_arrays(*(_size(m, m.exit_deg, order) for m in motions)), axis=0),
+    ]
+
+
+def _size(motion: Motion, at_deg: Number, order: int) -> Array:
+    return np.ravel(abs(motion(at_deg, order).arrays()[order]))
+
+
+def slot(of: Designs) -> Columns:
+    """Where the wall that must push is cut away, and the distance of the slot's two branches."""
+    found = positive_drives(of.machine)
+    if found is None:
+        return {}
+    return {
+        "not_driven_share": found.share,
+        "branch_gap_mm": found.gap_mm,
+        "branch_gap_at_deg": found.gap_at_deg,
+    }

@@ -1,0 +1,49 @@
+"""Quantities of a single design that its report leaves out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geneva_cli.analysis.loads.cycle import cycle_of
+from geneva_cli.analysis.loads.sizing import WHEEL, sizing
+from geneva_cli.analysis.loads.summary import summaries
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.registry import every_check
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.proof import Proof
+    from geneva_cli.verdict.report.values import Values
+
+
+def machine(proof: Proof) -> Values:
+    """The kind of machine."""
+    spec = proof.mechanism.spec
+    return {
+        "wheel.z": spec.wheel.z,
+        "wheel.gearing": spec.wheel.NAME,
+        "drive.kind": spec.drive.NAME,
+        "drive.rollers": spec.drive.rollers,
+        "motion.law": spec.motion.law.NAME if spec.motion else None,
+    }
+
+
+def judged(proof: Proof) -> Values:
+    """The value of each check, None of those that do not apply, and whether all pass."""
+    rows = checks(proof.mechanism, proof)
+    values: Values = {f"checks.{name}": None for name in every_check()}
+    values |= {f"checks.{c.name}": c.value for c in rows}
+    failed = [c.name for c in rows if c.passes is False]
+    return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
+
+
+def cycle(proof: Proof) -> Values:
+    """Least values, means and root mean squares of the loads."""
+    names = ("min", "min_at_deg", "mean", "rms")
+    found = {load: one._asdict() for load, one in summaries(cycle_of(proof.mechanism)).items()}
+    return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
+
+
+def bought(proof: Proof) -> Values:
+    """Motor, flywheel and the makers' form; the wheel's own inertia is that of its parts."""
+    found, _ = sizing(cycle_of(proof.mechanism))
+    return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL}

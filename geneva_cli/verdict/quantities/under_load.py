@@ -1,0 +1,120 @@
+"""Designs under their loads: what strength and life need of the cycle, the parts and the roller."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.analysis.loads.cycle import cycle_of
+from geneva_cli.analysis.loads.many import greatest_of_many
+from geneva_cli.analysis.loads.quantities import FORCE, PV, ends_of
+from geneva_cli.analysis.strength import lock, roller, shafts
+from geneva_cli.parts.sizes import sized
+from geneva_cli.verdict.lock_sizes import LockSizes, lock_of, lock_sizes_of_many
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.strength.lock import LockUnderTorque
+    from geneva_cli.analysis.strength.roller import Passage
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.verdict.quantities.designs import Designs
+
+
+class UnderLoad:
+    """The m designs of a machine under their loads: (m,) each, computed once."""
+
+    def __init__(self, of: Designs) -> None:
+        self.machine = of.machine
+        self.loaded = of.loaded
+
+    @cached_property
+    def force_N(self) -> Array:
+        """The greatest force on a roller."""
+        return greatest_of_many(self.machine, [FORCE])[FORCE].max * self.loaded
+
+    @cached_property
+    def pv_W_m2(self) -> Array:
+        """The greatest contact pressure times sliding speed; it needs a face width."""
+        return greatest_of_many(self.machine, [PV])[PV].max * self.loaded
+
+    @cached_property
+    def passages(self) -> Sequence[Passage]:
+        """The passage of each engagement of a period."""
+        return roller.passages(self.machine)
+
+    @cached_property
+    def roller_passages(self) -> Sequence[Passage]:
+        """The passages of each roller; an engagement has two where one starts and one stops it."""
+        paired = any(one.paired for one in self.machine.engagements)
+        return roller.by_roller(self.machine) if paired else self.passages
+
+    @cached_property
+    def lock_sizes(self) -> LockSizes | None:
+        """The sizes of horn and lock, (m, 1); None where no design has a lock."""
+        return lock_sizes_of_many(self.machine)
+
+    @cached_property
+    def lock(self) -> LockUnderTorque | None:
+        """The lock under the torque that it holds in the dwell; None where no design has one."""
+        sizes = self.lock_sizes
+        return sizes and lock.lock_of_many(self.machine, sizes.half_width, sizes.lock)
+
+    def shaft(self, ends: shafts.GivenShaft, loaded: shafts.On) -> shafts.Turned | None:
+        """A shaft under its cycle; None without an overhang or a load."""
+        return shafts.shaft_of_many(self.machine, ends, loaded)
+
+
+class SingleUnderLoad(UnderLoad):
+    """A single design, m = 1: its loads are those of its cycle, which keeps them."""
+
+    @cached_property
+    def force_N(self) -> Array:
+        """The greatest force on a roller."""
+        if np.isnan(self.loaded[0]):
+            return self.loaded
+        (found,) = ends_of(cycle_of(self.machine), FORCE)
+        return np.array([max(found.max, -found.min)])
+
+    @cached_property
+    def pv_W_m2(self) -> Array:
+        """The greatest contact pressure times sliding speed; it needs a face width."""
+        if np.isnan(self.loaded[0]):
+            return self.loaded
+        (square,) = ends_of(cycle_of(self.machine), PV)
+        return np.sqrt([square.max])
+
+    @cached_property
+    def passages(self) -> Sequence[Passage]:
+        """The passage of each engagement of a period."""
+        return self._bounded(roller.passages(self.machine))
+
+    @cached_property
+    def roller_passages(self) -> Sequence[Passage]:
+        """The passages of each roller."""
+        return self._bounded(roller.by_roller(self.machine))
+
+    def _bounded(self, every: Sequence[Passage]) -> Sequence[Passage]:
+        """The passages, their work and load infinite where nothing bounds the force."""
+        if not math.isinf(self.force_N[0]):
+            return every
+        return [one._replace(work=math.inf, load=math.inf) for one in every]
+
+    @cached_property
+    def lock_sizes(self) -> LockSizes | None:
+        """The sizes of horn and lock; None without a lock."""
+        found = sized(self.machine)
+        if found is None or not found[1].lock:
+            return None
+        return LockSizes(found[1].half_width, lock_of(*found))
+
+    def shaft(self, ends: shafts.GivenShaft, loaded: shafts.On) -> shafts.Turned | None:
+        """A shaft under its cycle; None without an overhang or a load."""
+        return shafts.shaft(self.machine, ends, loaded)
+
+
+def under_load(of: Designs) -> UnderLoad:
+    """The designs under their loads."""
+    return of.once(SingleUnderLoad if of.single else UnderLoad)
