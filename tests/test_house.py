@@ -188,11 +188,7 @@ CORE = {"numerics", "machine", "curves", "analysis", "parts"}
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
     "analysis.loads.loaded_many": {"self.kept"},
-    "numerics.signed_many": {"_look", "_look_within", "_sign_end"},
-    "numerics.crossings": {"about"},
-    "numerics.turns_many": {"at", "column", "picked", "look"},
-    # one number, or as many as there are values
-    "numerics.cells": {"number", "taken", "add", "self.known"},
+    "numerics.pieces": {"at", "column", "rows", "look", "_turn"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "machine.registry": {"_found"},

@@ -33,9 +33,9 @@ from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.external import External
+from geneva_cli.numerics.chebyshev import POINTS
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.quadrature_many import NODES
-from geneva_cli.numerics.signed_many import by_cells, places
 from geneva_cli.spec.tables import Load
 
 if TYPE_CHECKING:
@@ -185,8 +185,7 @@ def _together(asked: Asked, machine: Mechanism) -> Array:
 def _places(asked: Asked, machine: Mechanism, count: int) -> int:
     """How many places of a motion the formulas are worked out at, in the mean of the designs."""
     spans = spans_of(machine.engagements[0], count)
-    sampled = sum((cells + 1) * float(there.mean()) for _, cells, there in by_cells(spans))
-    return round(sampled * asked.sized + NODES * len(spans) * asked.summed)
+    return len(spans) * (len(POINTS) * asked.sized + NODES * asked.summed)
 
 
 def _formulas(asked: Asked, mechanism: Mechanism, count: int) -> Array:
@@ -207,14 +206,13 @@ def _formulas(asked: Asked, mechanism: Mechanism, count: int) -> Array:
 
 
 def _sampled(load: Loaded, n: int) -> Array:
-    """The greatest of samples that have slopes too."""
+    """The greatest of samples."""
     spans = spans_of(load.machine[0], n)
     spans = spans[: len(spans) // 2] if load.repeats else spans
     most = np.zeros((load.wanted, n))
-    for number, cells, there in by_cells(spans):
-        if not there.any():
-            continue
-        _, (value, _) = load.look(load.at(places(*spans[number], cells), slice(0, n), 1))
+    for a, b in spans:
+        x = np.asfortranarray(0.5 * (a + b) + 0.5 * (b - a) * POINTS)
+        _, (value,) = load.look(load.at(x, slice(0, n), 0))
         most = np.maximum(most, np.abs(value[load.signs :]).max(axis=2))
     squared = [name in SQUARED for name in load.names]
     most[squared] = np.sqrt(most[squared])

@@ -14,7 +14,7 @@ from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
-from geneva_cli.numerics.signed_many import BLOCK
+from geneva_cli.numerics.search import BLOCK
 from geneva_cli.spec.tables import Load
 
 ULP = 2.0**-52
@@ -68,7 +68,8 @@ def test_means_as_one_by_one(name):
         for load, alone_ in means_of_many(found.machine, names, told).items():
             assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
             if "mean" in told:
-                assert np.array_equal(alone_.mean, together[load].mean)
+                # without a search the cuts are had from other rows, and by another rounding
+                assert alone_.mean == pytest.approx(together[load].mean, rel=1e-14)
             else:
                 assert alone_.mean is None
 

@@ -18,7 +18,6 @@ from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import NAMES, sizings_of_many
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import horn, lock, roller, shafts
-from geneva_cli.analysis.strength.roller_many import by_roller_of_many, passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
@@ -252,8 +251,8 @@ def test_locks(name):
 @pytest.mark.parametrize("name", KINDS)
 def test_rollers(name):
     machine, each = designs(name)
-    ways = passages_of_many(machine)
-    life = roller.lives(machine, by_roller_of_many(machine, ways))
+    ways = roller.passages(machine)
+    life = roller.lives(machine, roller.by_roller(machine))
     worn = roller.wears_mm(machine, ways)
     for i, one in each:
         for way, passage in zip(ways, roller.passages(one), strict=True):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics.quadrature import rule
-from geneva_cli.numerics.signed_many import CELLS, places, spread_places
 from geneva_cli.numerics.spread import gathered, spread
 
 
@@ -33,17 +32,3 @@ def test_twenty_places_tell_a_pole():
     gathered_ = total(0.0, spread(1.0, w), lambda u: gathered(u, w))
     assert gathered_ == pytest.approx(true, rel=1e-14)
     assert abs(even / true - 1.0) > 1e-12
-
-
-def test_samples_are_spread_from_end_to_end():
-    """The ends are the spans' own, mirrored ones mirrored, and no cell is wider than a quarter."""
-    a, b = np.array([[-70.0], [-70.0], [-10.0]]), np.array([[-5e-324], [-0.007], [50.0]])
-    w = np.array([[20.0], [1e-4], [1e9]])
-    x = spread_places(a, b, w)
-    assert x.shape == (3, CELLS + 1)
-    assert np.array_equal(x[:, [0, -1]], np.hstack((a, b)))
-    assert np.array_equal(spread_places(-b, -a, w), -x[:, ::-1])
-    steps = np.diff(x, axis=1) / (b - a)
-    assert (steps > 0.0).all()
-    assert steps.max() < 0.25
-    assert x[2] == pytest.approx(places(a, b)[2], rel=1e-12)  # w is large

@@ -82,13 +82,9 @@ def column(at: Contact[Jet], number: int) -> Contact[Jet]:
     return _changed(at, of)
 
 
-def picked(at: Contact[Jet], row: Whole, column: Whole) -> Contact[Jet]:
-    """The contact at some of the places (n, k), by the numbers of design and place: (m, 1)."""
-
-    def of(c: Array) -> Array:
-        return c[row if len(c) > 1 else 0, column if c.shape[-1] > 1 else 0, None]
-
-    return _changed(at, of)
+def rows(at: Contact[Jet], which: Whole) -> Contact[Jet]:
+    """The contact of some of the designs, at all its places."""
+    return _changed(at, lambda c: c[which] if len(c) > 1 else c)
 
 
 def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]:

@@ -27,14 +27,14 @@ from geneva_cli.analysis.loads.loaded_many import (
     look,
     machine,
 )
-from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of, to_mid_motion
+from geneva_cli.analysis.loads.stretches_many import spans_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature_many import integrals_many
-from geneva_cli.numerics.signed_many import search
+from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
@@ -96,7 +96,7 @@ def _works(
     load = Loaded(every, UNEVEN, ("feeds", "wanted"))
     spans = spans_of(engagement, n)
     found = search(load, spans, n, True, load.at_mid_motion(n))
-    whole = to_mid_motion(engagement, stretches_of(load, spans, found.cuts), n)
+    whole = to_mid_motion(engagement, found.stretches, n)
     design, _, (a, b), positive = whole
     signs = np.where(positive, 1.0, -1.0)
 

@@ -15,11 +15,11 @@ from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look
 from geneva_cli.analysis.loads.means import square_of
 from geneva_cli.analysis.loads.stretches import ZERO
-from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of
+from geneva_cli.analysis.loads.stretches_many import spans_of
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
 from geneva_cli.numerics.quadrature_many import integrals_many
-from geneva_cli.numerics.signed_many import search
+from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def squares(load: Loaded, n: int) -> Array:
     rolling = Loaded((engagement, given._replace(friction=0.0), wanted), load.names)
     spans, torque = spans_of(engagement, n), Signs(rolling)
     half = spans[: len(spans) // 2]
-    pieces = stretches_of(rolling, half, search(torque, half, n, False, w=load.spread).cuts)
+    pieces = search(torque, half, n, False, w=load.spread).stretches
     design, (a, b), w = pieces.design, pieces.x, load.spread[pieces.design, 0]
     signs = np.full((load.signs, len(design), 1), np.nan)
     signs[: rolling.signs, :, 0] = np.where(pieces.positive, 1.0, -1.0)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored, picked
+from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored, rows
 from geneva_cli.analysis.loads.cycle import Quantity
 from geneva_cli.analysis.loads.forces import Row, Setting, Worked, gain, sliding, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant
@@ -28,9 +28,9 @@ from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.cells import Cuts
-    from geneva_cli.numerics.extrema_many import Which
     from geneva_cli.numerics.jet import Array, Number
+    from geneva_cli.numerics.pieces import Which
+    from geneva_cli.numerics.search import Stretches
 
 # Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
@@ -83,9 +83,11 @@ class Loaded:
     def __init__(self, machine: Machine, names: Sequence[str], more: Sequence[str] = ()) -> None:
         self.machine = engagement, given, _ = machine
         self.names = names
+        self.n = machine[1].designs
         # p v is 0 where the sliding is, in a notch that may lie beside a pole
         self.kinds = kinds(engagement, given, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
+        self.poled: Sequence[int] = [i for i, kind in enumerate(self.kinds) if kind == "edge"]
         self.rooms: Sequence[int] = [i for i, kind in enumerate(self.kinds) if kind in ROOMS]
         own = any(name not in QUANTITIES for name in names)
         held = own or any(name in REACTIONS for name in names)
@@ -100,7 +102,7 @@ class Loaded:
     @cached_property
     def spread(self) -> Array:
         """How wide all happens about mid-motion, as of ``spread_deg``: (n, 1)."""
-        return np.broadcast_to(spread_deg(*self.machine[:2]), (self.machine[1].designs, 1))
+        return np.broadcast_to(spread_deg(*self.machine[:2]), (self.n, 1))
 
     @property
     def repeats(self) -> bool:
@@ -117,6 +119,9 @@ class Loaded:
 
     def at(self, x: Array, which: Which, order: int) -> At:
         """Setting, contact, shape and what is wanted of some designs."""
+        if self.n == 1:
+            engagement, given, wanted = self.machine
+            return given, self._contact(engagement, x, order), x.shape, wanted
         if not isinstance(which, slice):
             engagement, given, wanted = taken(self.machine, which)
             return given, self._contact(engagement, x, order), x.shape, wanted
@@ -125,7 +130,7 @@ class Loaded:
         engagement, given, wanted = self.kept[1]
         if not self.mirrored:
             return given, self._contact(engagement, x, order), x.shape, wanted
-        for other, found in self.last if order == 1 else ():
+        for other, found in self.last if order == 0 else ():
             if np.array_equal(other, -x[:, ::-1]):
                 return given, mirrored(found), x.shape, wanted
         self.last.append((x, self._contact(engagement, x, order)))
@@ -144,7 +149,7 @@ class Loaded:
 
         return at_mid_motion(engagement, given, rows, n) if engagement.slot.curved else []
 
-    def bounded(self, pieces: Cuts, n: int) -> Mask:
+    def bounded(self, pieces: Stretches, n: int) -> Mask:
         """Whether each quantity of n designs is bounded, whose signs are known in all pieces of
         their motion: (names, n).
         """
@@ -165,11 +170,12 @@ class Loaded:
         given, found, shape, wanted = at
         return given, column(found, number), (*shape[:-1], 1), wanted
 
-    def picked(self, at: At, row: Whole, column: Whole) -> At:
-        """The same at some of the places, by the numbers of design and place: (m, 1)."""
-        given, found, _, wanted = at
-        given, wanted = taken((given, wanted), row)
-        return given, picked(found, row, column), (len(row), 1), wanted
+    def rows(self, at: At, which: Whole) -> At:
+        """The same of some of the designs, by their numbers among those that it is of."""
+        given, found, shape, wanted = at
+        if self.n > 1:
+            given, wanted = taken((given, wanted), which)
+        return given, rows(found, which), (len(which), *shape[1:]), wanted
 
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
@@ -212,7 +218,8 @@ class Signs:
 
     def __init__(self, load: Loaded) -> None:
         self.load, self.signs = load, load.signs
-        self.at, self.column, self.picked = load.at, load.column, load.picked
+        self.at, self.column, self.rows = load.at, load.column, load.rows
+        self.poled = load.poled
 
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None

@@ -25,11 +25,11 @@ from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, outermost
-from geneva_cli.analysis.loads.stretches_many import spans_of, stretches_of
+from geneva_cli.analysis.loads.stretches_many import spans_of
 from geneva_cli.analysis.loads.summary import ends_told
 from geneva_cli.analysis.peaks_many import PeakOfMany, greater
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.signed_many import search
+from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -93,10 +93,9 @@ def summaries_of_many(
     each: dict[str, list[Array]] = {name: [] for name in sources}
     whole: Array | None = None
     for found, at_deg, total in _over_all(mechanism, sources, sized=False, told=told):
+        (most, low), (most_at, low_at) = np.split(found, 2), np.split(at_deg, 2)
         for i, name in enumerate(sources):
-            j = 2 * i + 1  # of the least
-            ends = (found[j - 1], at_deg[j - 1], -found[j], at_deg[j])
-            each[name].append(np.stack(ends))
+            each[name].append(np.stack((most[i], most_at[i], -low[i], low_at[i])))
         if total is not None:
             whole = total if whole is None else whole + total
     means = {} if whole is None else means_from(mechanism, sources, whole, "mean" in told)
@@ -146,9 +145,9 @@ def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Ar
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
     known = load.at_mid_motion(n)
-    found = search(load, spans, n, sized, known, load.spread, cuts=bool(told))
+    found = search(load, spans, n, sized, known, load.spread)
     if not told:
         return found.most, found.x, found.most
-    pieces = stretches_of(load, spans, found.cuts)
-    bounded = np.asarray(np.isfinite(found.most).reshape(-1, 2, n).all(axis=1))
+    pieces = found.stretches
+    bounded = np.asarray(np.isfinite(found.most).reshape(2, -1, n).all(axis=0))
     return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told)

@@ -24,19 +24,19 @@ from geneva_cli.analysis.loads.loaded_many import (
 )
 from geneva_cli.analysis.loads.means import NOUGHT, square_of
 from geneva_cli.analysis.loads.quantities import SQUARED
-from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of, stretches_of
+from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of
 from geneva_cli.analysis.loads.summary import shares
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.quadrature_many import integrals_many
-from geneva_cli.numerics.signed_many import no_cuts, search
+from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
-    from geneva_cli.numerics.cells import Cuts
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.search import Stretches
 
 
 class MeansOfMany(NamedTuple):
@@ -109,14 +109,13 @@ def _sums_of(load: Loaded, n: int, plain: bool) -> Array:
     if is_balanced(load) and not plain:
         return squares(load, n)
     spans, only = spans_of(load.machine[0], n), Signs(load)
-    cuts = search(only, spans, n, False, w=load.spread).cuts if load.signs else no_cuts()
-    pieces = stretches_of(load, spans, cuts)
+    pieces = search(only, spans, n, False, w=load.spread).stretches
     with np.errstate(all="ignore"):
         bounded = load.bounded(pieces, n)
     return sums(load, pieces, bounded, n, plain)
 
 
-def sums(load: Loaded, pieces: Cuts, bounded: Mask, n: int, plain: bool) -> Array:
+def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
     """The integrals by the angle in radians of the squares, and of the quantities where ``plain``:
     infinite of those that are not ``bounded``, (names, n).
 

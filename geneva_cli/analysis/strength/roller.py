@@ -6,7 +6,8 @@ turns by |v_s|/r per second lives as under the constant force (ISO 281, roller b
 
     P = (∫ N^p |v_s| dt / ∫ |v_s| dt)^(1/p),  p = 10/3,  L10 = 10^6 (C/P)^p revolutions.
 
-Integrals are cut where torque, sliding or the motion change, and so to the last digits.
+Motions are cut where torque, sliding or the way along the slot change their signs, or the motion
+breaks, and integrated between to the last digits.
 """
 
 from __future__ import annotations
@@ -19,9 +20,14 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import Forces, setting, sliding
-from geneva_cli.analysis.loads.stretches import Signs, whole
-from geneva_cli.numerics.arrays import all_true, only_of, parameter
-from geneva_cli.numerics.quadrature import integrals
+from geneva_cli.analysis.loads.groups_many import of_groups
+from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, machine
+from geneva_cli.analysis.loads.stretches_many import spans_of, to_mid_motion
+from geneva_cli.machine.many import taken
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,6 +41,7 @@ if TYPE_CHECKING:
 
 EXPONENT = 10.0 / 3.0  # p, of line contact
 RATED = 1e6  # revolutions that C is rated for
+FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integrals
 
 
 class Passage(NamedTuple):
@@ -70,19 +77,40 @@ def passage(engagement: Engagement, given: Setting, half: float = 0.0) -> Passag
     >>> round(passage(m.engagements[0], setting(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
     0.146410161514
     """
-    pieces = whole(engagement, given)
-    pieces = [p for p in pieces if half == 0.0 or half * (p.start + p.end) > 0.0]
-    if turns_back(engagement):
-        signs = Signs(engagement, [piece[:2] for piece in pieces], [lambda at: at.along])
-        pieces = signs.cut(pieces, lambda piece: 0, "feeds")
-    drives, slides = (np.array(s) for s in list(zip(*pieces, strict=True))[2:4])
+    return Passage(*(array(x).item() for x in passage_of_many(engagement, given, half)))
 
-    def rows(x: Array, span: Whole) -> list[Array]:
-        at = contact(engagement, x, reactions=False)
-        return passing(given, at, drives[span], slides[span])
 
-    radian = math.radians(1.0)  # the integrals are by degrees
-    return Passage(*(radian * sum_ for sum_ in integrals(rows, [(p.start, p.end) for p in pieces])))
+def passage_of_many(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
+    """The same integrals of m designs: (m,) each."""
+    every = machine(engagement, given, FORCE, NONE)
+    (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
+    return Passage(*map(parameter, rows))
+
+
+def _integrals(every: Machine, n: int, half: float) -> Array:
+    """The integrals of n designs, a row each; infinite where the force has no bound."""
+    engagement = every[0]
+    load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
+    found = search(load, spans_of(engagement, n), n, True, load.at_mid_motion(n), load.spread)
+    design, _, (a, b), positive = to_mid_motion(engagement, found.stretches, n)
+    own = np.flatnonzero(half * (a + b) >= 0.0)
+    design, a, b, positive = design[own], a[own], b[own], positive[:, own]
+    signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
+
+    def rows(x: Array, which: Whole) -> Array:
+        some, given, _ = taken(every, design[which]) if n > 1 else every
+        drives, slides = (
+            signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
+        )
+        found = passing(given, contact(some, x, reactions=False), drives, slides)
+        return np.stack(np.broadcast_arrays(*found))
+
+    bounded = np.isfinite(found.most[0])
+    every_one = np.full(n, True)
+    asked = np.stack((every_one, every_one, bounded, bounded))
+    with np.errstate(all="ignore"):
+        total = integrals_many(rows, a, b, design, asked, ends=True) * DEGREE
+    return np.where(asked, total, np.inf)
 
 
 def turns_back(engagement: Engagement) -> bool:
@@ -110,19 +138,20 @@ def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) ->
 
 
 def passages(mechanism: Mechanism) -> list[Passage]:
-    """The passage of each engagement of a period."""
-    given = setting(mechanism)
-    return [passage(engagement, given) for engagement in mechanism.engagements]
+    """The passage of each engagement of a period: of m designs (m,) each."""
+    return [_passage(mechanism, engagement, 0.0) for engagement in mechanism.engagements]
 
 
 def by_roller(mechanism: Mechanism) -> list[Passage]:
     """The same of each roller: an engagement takes two where one starts the wheel, one stops it."""
-    given = setting(mechanism)
-    return [
-        passage(engagement, given, half)
-        for engagement in mechanism.engagements
-        for half in halves(engagement)
-    ]
+    each = [(one, half) for one in mechanism.engagements for half in halves(one)]
+    return [_passage(mechanism, *of) for of in each]
+
+
+def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> Passage:
+    """The passage of a machine's engagement; of a single design it is kept."""
+    single = isinstance(mechanism.design, int)
+    return (passage if single else passage_of_many)(engagement, setting(mechanism), half)
 
 
 def halves(engagement: Engagement) -> tuple[float, ...]:

@@ -19,12 +19,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import Row, setting
+from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.many import greatest_of_many
-from geneva_cli.analysis.loads.peaks import maxima
 from geneva_cli.numerics.arrays import only_of, parameter
-from geneva_cli.numerics.roots import greatest_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -131,22 +129,11 @@ def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
 
     Moments are infinite where the force has no bound.
     """
-    if ends.overhang_mm is None or not mechanism.spec.is_loaded:
+    found = shaft_of_many(mechanism, ends, loaded)
+    if found is None:
         return None
-    wanted, known = _wanted(mechanism, ends, loaded).values(), setting(mechanism)
-
-    def rows(at: Contact[Jet], *signs: Number) -> list[Row[Jet]]:
-        i = Instant(known, at, *signs)
-        return [one(i, at) for one in wanted]
-
-    every, most = [], 0.0
-    for engagement in mechanism.engagements:
-        (size, at_deg), turned = maxima(engagement, known, rows)
-        every.append((size, mechanism.shown_deg(engagement.mid_deg + at_deg)))
-        most = max(most, turned.max)
-    both, at_deg = greatest_at(every)
-    moment, _, *rest = only_of(_turned(mechanism, ends, np.array([both]), at_deg, most))
-    assert moment is not None
+    moment, at_deg, *rest = only_of(found)
+    assert moment is not None and at_deg is not None
     return Turned(moment, at_deg, *rest)
 
 

@@ -20,7 +20,6 @@ from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.loads.stretches import stretches
 from geneva_cli.analysis.strength import horn, roller, shafts
-from geneva_cli.analysis.strength.roller_many import passages_of_many
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import motion_plays, used
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
@@ -122,7 +121,7 @@ ANSWERS = (
     Answer(
         "equivalent force of a roller",
         _force,
-        lambda machine: roller.lives(machine, passages_of_many(machine)).equivalent_force_N,
+        lambda machine: roller.lives(machine, roller.passages(machine)).equivalent_force_N,
     ),
     Answer(
         "motor and flywheel",

@@ -13,7 +13,6 @@ from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.quantities import FORCE, PV, ends_of
 from geneva_cli.analysis.strength import lock, roller, shafts
-from geneva_cli.analysis.strength.roller_many import by_roller_of_many, passages_of_many
 from geneva_cli.parts.sizes import sized
 from geneva_cli.verdict.lock_sizes import LockSizes, lock_of, lock_sizes_of_many
 
@@ -44,12 +43,13 @@ class UnderLoad:
     @cached_property
     def passages(self) -> Sequence[Passage]:
         """The passage of each engagement of a period."""
-        return passages_of_many(self.machine)
+        return roller.passages(self.machine)
 
     @cached_property
     def roller_passages(self) -> Sequence[Passage]:
         """The passages of each roller; an engagement has two where one starts and one stops it."""
-        return by_roller_of_many(self.machine, list(self.passages))
+        paired = any(one.paired for one in self.machine.engagements)
+        return roller.by_roller(self.machine) if paired else self.passages
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:

@@ -1,0 +1,111 @@
+"""Chebyshev series of functions that are sampled at the Chebyshev points of [-1, 1].
+
+A smooth function is its series to the last digits once the terms have fallen to rounding; the size
+of the last terms says how much is left. Each function is a row of values at ``POINTS``.
+
+    >>> values = np.exp(POINTS)[None]
+    >>> bool(abs(at(series(values), np.array([0.3]))[0] - np.exp(0.3)) < 1e-14)
+    True
+    >>> float(remainder(values)[0]) < 1e-14
+    True
+
+(L. N. Trefethen, "Approximation Theory and Approximation Practice", SIAM 2013.)
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
+
+DEGREE = 16  # of the series: most loads between their cuts have ended by then
+CELLS = 32  # of the grid on which signs are compared: two for each point
+LAST = 3  # terms taken together: of an even or odd function every other one is 0
+STEPS = 5  # of Newton's, on a series from a secant of the grid: then the function itself is asked
+MIDDLE = DEGREE // 2
+
+_order = np.arange(DEGREE + 1)
+
+
+def _even_spread(cells: int) -> Array:
+    """Places -cos(pi k / cells), mirrored to the last bit."""
+    half = np.cos(np.pi * np.arange(cells // 2) / cells)
+    return np.concatenate((-half, [0.0], half[::-1]))
+
+
+def _terms(t: Array) -> Array:
+    """The Chebyshev polynomials at places of any shape: (terms, ...)."""
+    out = np.empty((DEGREE + 1, *t.shape))
+    out[0], out[1] = 1.0, t
+    for m in (1, 2, 4, 8):  # T(m + n) = 2 T(m) T(n) - T(m - n)
+        out[m + 1 : 2 * m + 1] = 2.0 * out[m] * out[1 : m + 1] - out[:m][::-1]
+    return out
+
+
+def _to_series() -> Array:
+    """The matrix from values at the points, a row, to the terms of the series."""
+    # the discrete cosine transform of the second kind of points: ends count half
+    weight = np.where((_order == 0) | (_order == DEGREE), 0.5, 1.0)
+    cosines = np.cos(np.pi * np.outer(DEGREE - _order, _order) / DEGREE)
+    return np.asarray(2.0 / DEGREE * weight[:, None] * cosines * weight)
+
+
+def _to_slopes() -> Array:
+    """The matrix from the terms of a series, a row, to those of its derivative."""
+    rows, columns = np.meshgrid(_order, _order, indexing="ij")
+    odd = (rows > columns) & ((rows - columns) % 2 == 1)
+    return np.where(odd, 2.0 * rows, 0.0) * np.where(columns == 0, 0.5, 1.0)
+
+
+POINTS = _even_spread(DEGREE)
+GRID = _even_spread(CELLS)
+_SERIES = _to_series()
+_SLOPES = _to_slopes()
+_ON_GRID = _SERIES @ _terms(GRID)
+_SLOPES_ON_GRID = _SERIES @ _SLOPES @ _terms(GRID)
+
+
+def series(values: Array) -> Array:
+    """The terms of the series of values (m, points): (terms, m)."""
+    return np.asarray(_SERIES.T @ values.T)
+
+
+def slopes(terms: Array) -> Array:
+    """The terms of the derivatives of series (terms, m)."""
+    return np.asarray(_SLOPES.T @ terms)
+
+
+def remainder(values: Array) -> Array:
+    """The greatest of the last terms: about what the series leaves of the function."""
+    found: Array = np.abs(values @ _SERIES[:, -LAST:]).max(axis=-1)
+    return found
+
+
+def on_grid(values: Array) -> tuple[Array, Array]:
+    """Values and slopes of the series at ``GRID``."""
+    return values @ _ON_GRID, values @ _SLOPES_ON_GRID
+
+
+def end_slopes(values: Array) -> tuple[Array, Array]:
+    """Slopes of the series at -1 and at 1."""
+    return values @ _SLOPES_ON_GRID[:, 0], values @ _SLOPES_ON_GRID[:, -1]
+
+
+def at(terms: Array, t: Array) -> Array:
+    """Series (terms, m) at a place each: (m,)."""
+    return np.asarray(np.einsum("km,km->m", terms, _terms(t)))
+
+
+def root(terms: Array, low: Array, high: Array, start: Array) -> Array:
+    """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ."""
+    rate, rises, t = slopes(terms), at(terms, high) > 0.0, start
+    for _ in range(STEPS):
+        value = at(terms, t)
+        below = (value < 0.0) == rises
+        low, high = np.where(below, t, low), np.where(below, high, t)
+        new = t - value / at(rate, t)
+        t = np.where((low <= new) & (new <= high), new, 0.5 * (low + high))
+    return t

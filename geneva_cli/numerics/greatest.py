@@ -1,0 +1,99 @@
+"""The greatest values of functions of many designs as they come to light, and where."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.numerics.ties import bar, usual
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Mask, Whole
+    from geneva_cli.numerics.pieces import Pieces
+
+
+class Greatest:
+    """The greatest values of functions of n designs, and the first places that have them.
+
+    Where ``sized`` their greatest sizes; else their greatest values, and the greatest of minus the
+    functions. Values that differ by no more than rounding are one that occurs twice: its earlier
+    place counts.
+    """
+
+    def __init__(self, functions: int, n: int, sized: bool) -> None:
+        self.ways = (1.0,) if sized else (1.0, -1.0)
+        self.sized = sized
+        self.most = np.full((len(self.ways), functions, n), -np.inf)
+        self.size = np.zeros((functions, n))  # of samples, without those near poles
+        self.sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
+        self.known: list[tuple[int, int, Whole, Array, Array]] = []
+
+    def _side(self, way: float, value: Array) -> Array:
+        return np.abs(value) if self.sized else way * value
+
+    def add(self, number: int, design: Whole, x: Array, value: Array) -> None:
+        """Ends and extremes of a function: values at places, (m,) each."""
+        for side, way in enumerate(self.ways):
+            own = self._side(way, value)
+            np.fmax.at(self.most[side, number], design, own)
+            self.known.append((side, number, design, x, own))
+
+    def add_samples(self, pieces: Pieces, x: Array) -> None:
+        """Samples of pieces at places (m, k), of which each has those within."""
+        design, (a, b), every = pieces.rows.design, pieces.rows.x, np.arange(len(x))
+        outside = (x < a[:, None]) | (x > b[:, None])
+        first = outside.argmin(axis=1)
+        for number, value in enumerate(pieces.value):
+            for side, way in enumerate(self.ways):
+                own = np.where(outside, -np.inf, self._side(way, value))
+                best = own.argmax(axis=1)
+                top, most = own[every, best], self.most[side, number]
+                np.fmax.at(most, design, top)
+                here = top == most[design]
+                self.sample[side, number, design[here]] = x[every, best][here]
+                endless = np.flatnonzero(top == np.inf)
+                if len(endless):  # from the piece's start on, if its first sample is
+                    place = np.where(best == first, a, x[every, best])
+                    known = side, number, design[endless], place[endless], top[endless]
+                    self.known.append(known)
+
+    def add_sizes(self, pieces: Pieces) -> None:
+        """Sizes of functions by samples of whole spans, once it is known which have no bound."""
+        design = pieces.rows.design
+        for number, value in enumerate(pieces.value):
+            endless = np.isinf(self.most[:, number]).any(axis=0)[design]
+            # cut at a pole, a piece has one end of any size
+            size = np.abs(value)
+            top = size >= size.max(axis=1, keepdims=True)
+            low, high = usual(np.where(top & endless[:, None], np.inf, value))
+            np.fmax.at(self.size[number], design, np.fmax(-low, high))
+
+    def least(self, side: int) -> Array:
+        """What a value must come to, to be one of the greatest: (functions, n)."""
+        return bar(self.most[side], self.size)
+
+    def may_pass(self, design: Whole, low: Array, high: Array) -> Mask:
+        """Whether functions between ``low`` and ``high`` may have one of the greatest values:
+        (functions, m). Nothing passes what has no bound.
+        """
+        number = np.arange(len(low))[:, None]
+        return self.may_be(number, design, low, high)
+
+    def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
+        """Likewise of functions by their numbers, of a design each."""
+        out = np.full(np.shape(low), False)
+        for side, way in enumerate(self.ways):
+            reach = np.maximum(high, -low) if self.sized else high if way > 0.0 else -low
+            bar = self.least(side)[number, design]
+            out |= ~(reach < bar) & (bar < np.inf)
+        return out
+
+    def places(self) -> Array:
+        """The first places of the greatest values."""
+        first = np.full(self.most.shape, np.nan)
+        least = [self.least(side) for side in range(len(self.ways))]
+        for side, number, design, x, value in self.known:
+            near = value >= least[side][number, design]
+            np.fmin.at(first[side, number], design[near], x[near])
+        return np.where(np.isnan(first), self.sample, first)

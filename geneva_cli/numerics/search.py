@@ -1,0 +1,342 @@
+"""Greatest and least values of functions of many designs, and where their signs change.
+
+Functions are smooth only while some others keep their signs: a load jumps where the roller's
+sliding turns round, and has a kink where its torque does. Each design's spans are sampled at
+Chebyshev points and cut where signs change (``pieces``). The series of what is between say where
+a function may pass what is known of it; there the function itself is asked, by Newton's steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics import chebyshev
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
+from geneva_cli.numerics.greatest import Greatest
+from geneva_cli.numerics.pieces import (
+    SAFE,
+    STEPS,
+    Cutter,
+    Functions,
+    Places,
+    Rows,
+    Sampled,
+    rows_joined,
+)
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Mask, Whole
+    from geneva_cli.numerics.pieces import Some, Which
+
+BLOCK = 2048  # rows sampled at a time: so many lie in the processor's cache
+DEEPEST = 60  # halvings: a row is NARROW by then
+SIZED = 4  # halvings: shorter rows lie near a pole, and tell no size of a function
+ENDED = 1e-5  # share of a size that a series may leave where an extreme is looked for
+BEYOND = 0.15  # of the range of samples: by so much an extreme between them may pass it
+UNSURE = 16.0  # times the last terms: what a series that has not ended may leave
+TAME = 4.0  # times: a product that ranges over less is beside a pole its own limit, nearly
+LEVEL = 1e-13  # share of a size: a function that ranges over no more has no extreme within
+FLAT = 1e-3  # share of a size, over a piece: so flat a slope at its end a series does not tell
+BESIDE = 0.1  # share of a piece, of which 16 degrees tell that to the last digits
+NEAREST = 0.1  # of half a piece: cells crowd at its ends, where a series knows its turns no better
+CLOSE = 1e-5  # share of where a turn may be: after so short a step, a top's value is rounding
+
+
+class Stretches(NamedTuple):
+    """The parts of designs' spans on which no sign changes, in order of design and place."""
+
+    design: Whole
+    span: Whole
+    x: Array  # both ends: (2, m)
+    positive: Mask  # (signs, m)
+
+
+class Found(NamedTuple):
+    """Greatest values of n designs and where, a row a quantity, as of ``Greatest``."""
+
+    most: Array
+    x: Array
+    stretches: Stretches
+
+
+class Curves(NamedTuple):
+    """Functions on a piece each that may have one of the greatest values there."""
+
+    number: Whole  # of the function: (m,)
+    rows: Rows  # the pieces
+    sign: Array  # (signs, m)
+    part: Array  # both ends of the piece, as shares of the row that was sampled: (2, m)
+    value: Array  # at the Chebyshev points of that row: (m, points)
+    left: Array  # what the series may leave
+
+    def take(self, which: Some) -> Curves:
+        """Some of them, by a mask or their numbers."""
+        number, rows, sign, part, value, left = self
+        some = number[which], rows.take(which), sign[:, which], part[:, which]
+        return Curves(*some, value[which], left[which])
+
+    @property
+    def within(self) -> Mask:
+        """Which of the points lie in the piece: (m, points)."""
+        return np.asarray((self.part[0][:, None] <= POINTS) & (self.part[1][:, None] >= POINTS))
+
+
+def search(
+    f: Functions,
+    spans: Sequence[tuple[Array, Array]],
+    n: int,
+    sized: bool,
+    known: Sequence[tuple[int, Array, Array]] = (),
+    w: Array | None = None,
+) -> Found:
+    """Of n designs over their spans, one after the other: (n, 1) the ends of each.
+
+    A span that ends before it begins is none. ``known`` are values that no span reaches: a wanted
+    function's number, and of each design the place and the value, NaN where there is none.
+    ``sized`` is as of ``Greatest``. Samples are spread about 0 by ``w`` (n, 1), or even.
+    """
+    with np.errstate(all="ignore"):
+        found = _Search(f, n, sized, w)
+        for number, x, value in known:
+            design = np.flatnonzero(~np.isnan(value))
+            found.greatest.add(number, design, x[design], value[design])
+        found.sample(spans)
+        found.refine()
+        most, x = found.greatest.most, found.greatest.places()
+        stretches = _stretches(rows_joined(found.rows), np.concatenate(found.signs, axis=1))
+        return Found(most.reshape(-1, n), x.reshape(-1, n), stretches)
+
+
+class _Search:
+    def __init__(self, f: Functions, n: int, sized: bool, w: Array | None) -> None:
+        self.f, self.n, self.places = f, n, Places(w)
+        self.greatest = Greatest(f.wanted, n, sized)
+        self.cutter = Cutter(f, self.places, n)
+        self.rows: list[Rows] = []  # the pieces on which no sign changes
+        self.signs: list[Array] = []
+        self.curves: list[Curves] = []
+
+    def sample(self, spans: Sequence[tuple[Array, Array]]) -> None:
+        """Sample the spans until every function's series has ended where that matters."""
+        first = [self._rows(number, *ends) for number, ends in enumerate(spans)]
+        for rows in first:
+            np.add.at(self.cutter.width, rows.design, rows.u[1] - rows.u[0])
+        blocks = self._first_blocks(first)
+        for depth in range(DEEPEST):
+            every = [self.cutter.sampled(*block) for block in blocks]
+            for found in every:
+                self.greatest.add_samples(found.pieces, found.x)
+            for found in every if depth < SIZED else ():
+                self.greatest.add_sizes(found.pieces)
+            again = [rows for found in every for rows in (*found.again, *self._judged(found))]
+            if not again:
+                break
+            blocks = _blocks(rows_joined(again))
+
+    def _rows(self, number: int, a: Array, b: Array) -> Rows:
+        """The rows of a span: one of each design that has it."""
+        design = np.flatnonzero((b > a)[:, 0])
+        x = np.stack((a[design, 0], b[design, 0]))
+        u = np.stack([self.places.spread(end, design) for end in x])
+        return Rows(design, np.full(len(design), number), u, x, np.full(x.shape, True))
+
+    def _first_blocks(self, every: Sequence[Rows]) -> list[tuple[Rows, Which]]:
+        """The spans of a block of designs after each other: mirrored ones are worked out once."""
+        if self.n * len(every) <= BLOCK:
+            return _blocks(rows_joined(every))
+        out: list[tuple[Rows, Which]] = []
+        for i in range(0, self.n, BLOCK):
+            part = slice(i, min(i + BLOCK, self.n))
+            for rows in every:
+                some = rows.take((rows.design >= part.start) & (rows.design < part.stop))
+                if len(some.design):
+                    full = len(some.design) == part.stop - part.start
+                    out.append((some, part if full else some.design))
+        return out
+
+    def _judged(self, found: Sampled) -> list[Rows]:
+        """Keep pieces whose series tell all that matters; what is to be sampled of the others."""
+        pieces = found.pieces
+        low, high = pieces.value.min(axis=2), pieces.value.max(axis=2)
+        left = chebyshev.remainder(pieces.value)
+        more = BEYOND * (high - low) + UNSURE * left
+        may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
+        may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
+        number, own = np.nonzero(may)
+        value = pieces.value[number, own]
+        rows, sign, part = pieces.rows.take(own), pieces.sign[:, own], pieces.part[:, own]
+        curves = Curves(number, rows, sign, part, value, left[number, own])
+        miss = np.full(len(pieces.rows.design), False)
+        miss[own[self._unsettled(curves, found.room[own], found.x[own])]] = True
+        miss &= ~self.cutter.is_narrow(pieces.rows)
+        self.curves.append(curves.take(~miss[own]))
+        self.rows.append(pieces.rows.take(~miss))
+        self.signs.append(pieces.sign[:, ~miss])
+        whole = pieces.whole
+        out = [pieces.rows.take(miss & ~whole), *self.places.halves(pieces.rows.take(miss & whole))]
+        return [rows for rows in out if len(rows.design)]
+
+    def _unsettled(self, curves: Curves, room: Array, x: Array) -> Whole:
+        """The numbers of curves whose series have not ended, and which may pass what is known."""
+        size = np.where(curves.within, np.abs(curves.value), 0.0).max(axis=1, initial=0.0)
+        ended = (curves.left < np.inf) & (curves.left <= ENDED * size)
+        some = np.flatnonzero(~ended)
+        curves, more = curves.take(some), UNSURE * curves.left[some]
+        low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more
+        whole = (curves.part[0] == -1.0) & (curves.part[1] == 1.0)
+        for weight in (room[some], room[some] ** 2, np.abs(x[some]), x[some] ** 2):
+            least = _least_size(curves.value, weight)
+            told = whole & (least > 0.0)
+            rises, falls = curves.value[:, MIDDLE] > 0.0, curves.value[:, MIDDLE] < 0.0
+            low = np.where(told & rises & ~(least <= low), least, low)
+            high = np.where(told & falls & ~(-least >= high), -least, high)
+        may = self.greatest.may_be(curves.number, curves.rows.design, low, high)
+        return some[may]
+
+    def refine(self) -> None:
+        """Ends and extremes of functions that may be the greatest, by the functions themselves."""
+        curves = _joined(self.curves)
+        curves = _joined([curves, *[self._ends(curves, end) for end in (0, 1)]])
+        turns = [self._turns(curves, way) for way in (1.0, -1.0)]
+        self._refine(curves, *(np.concatenate(one) for one in zip(*turns, strict=True)))
+
+    def _ends(self, curves: Curves, end: int) -> Curves:
+        """Take the limits at one end of pieces where they may be the greatest.
+
+        Returns what is beside those ends, sampled anew, at which functions are so flat that the
+        series of a whole piece does not tell which way they go.
+        """
+        terms = chebyshev.series(curves.value)
+        value, more = chebyshev.at(terms, curves.part[end]), SAFE * curves.left
+        low, high = value - more, value + more
+        may = self.greatest.may_be(curves.number, curves.rows.design, low, high)
+        curves = curves.take(may & curves.rows.edge[end])
+        x, size = curves.rows.x[end], np.abs(curves.value).max(axis=1, initial=0.0)
+        value, slope = self._jets(x[:, None], curves, 1)[..., 0]
+        self._add(curves, x, value)
+        width = curves.rows.x[1] - curves.rows.x[0]
+        return self._beside(curves.take(np.abs(slope) * width <= FLAT * size), end)
+
+    def _beside(self, curves: Curves, end: int) -> Curves:
+        """The part of pieces beside one end, as a piece of its own."""
+        rows, other = curves.rows, 1 - end
+        u = rows.u.copy()
+        u[other] = u[end] + BESIDE * (u[other] - u[end])
+        rows = rows._replace(u=u, edge=np.full(u.shape, False))
+        x = self.places.gathered(rows.at(POINTS[:, None]).T, rows.design)
+        x = np.clip(x, rows.x[0][:, None], rows.x[1][:, None])
+        rows = rows._replace(x=np.stack((x[:, 0], x[:, -1])))
+        value = self._jets(x, curves, 0)[0]
+        part = np.array([[-1.0], [1.0]]).repeat(len(value), axis=1)
+        return Curves(curves.number, rows, curves.sign, part, value, chebyshev.remainder(value))
+
+    def _add(self, curves: Curves, x: Array, value: Array) -> None:
+        for number in range(self.f.wanted):
+            of = curves.number == number
+            self.greatest.add(number, curves.rows.design[of], x[of], value[of])
+
+    def _turns(self, curves: Curves, way: float) -> tuple[Whole, Array, Array]:
+        """Maxima of ``way`` times functions: the numbers of the curves, places from -1 to 1, and
+        how far from there they are to be looked for.
+        """
+        low, high = curves.value.min(axis=1), curves.value.max(axis=1)
+        more = BEYOND * (high - low)
+        may = high - low > LEVEL * np.maximum(np.abs(low), np.abs(high))
+        may &= self.greatest.may_be(curves.number, curves.rows.design, low - more, high + more)
+        own = np.flatnonzero(may)
+        curves = curves.take(own)
+        side = 0 if way > 0.0 or self.greatest.sized else 1
+        bar = self.greatest.least(side)[curves.number, curves.rows.design]
+        left, cell = SAFE * curves.left, np.diff(GRID)
+        g, d = chebyshev.on_grid(way * curves.value)
+        before, after = d[:, :-1], d[:, 1:]
+        reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
+        may = (before > 0.0) & (after < 0.0) & ~(reach + left[:, None] < bar[:, None])
+        may &= (GRID[1:] > curves.part[0][:, None]) & (GRID[:-1] < curves.part[1][:, None])
+        which, k = np.nonzero(may & (bar < np.inf)[:, None])
+        before, after = before[which, k], after[which, k]
+        terms = chebyshev.series(way * curves.value[which])
+        start = GRID[k] + cell[k] * before / (before - after)
+        t = chebyshev.root(chebyshev.slopes(terms), GRID[k], GRID[k + 1], start)
+        kept = ~(chebyshev.at(terms, t) + left[which] < bar[which])
+        a, b = curves.part[:, which]
+        kept &= (a - cell[k] < t) & (t < b + cell[k])
+        # of the piece's own ends
+        t = np.clip((2.0 * t - a - b) / (b - a), -1.0, 1.0)
+        return own[which[kept]], t[kept], (2.0 * cell[k] / (b - a))[kept]
+
+    def _refine(self, curves: Curves, which: Whole, t: Array, cell: Array) -> None:
+        """Extremes by the functions themselves, from where their series turn."""
+        curves = curves.take(which)
+        rows = curves.rows
+        x = self.places.gathered(rows.at(t), rows.design)
+        near = 0.5 * (rows.x[1] - rows.x[0]) * np.maximum(cell, NEAREST)
+        live, value = np.arange(len(x)), np.empty(len(x))
+        for _ in range(STEPS):
+            if not len(live):
+                break
+            v, slope, bend = self._jets(x[live, None], curves.take(live), 2)[..., 0]
+            step = -slope / bend
+            step = np.where(np.abs(step) <= near[live], step, 0.0)
+            step = np.clip(x[live] + step, *rows.x[:, live]) - x[live]
+            value[live] = v + 0.5 * slope * step
+            x[live] += step
+            live = live[np.abs(step) > CLOSE * near[live]]
+        self._add(curves, x, value)
+
+    def _jets(self, x: Array, curves: Curves, order: int) -> Array:
+        """Value and derivatives by degrees of each curve's function at places (m, k)."""
+        out = np.empty((order + 1, *x.shape))
+        for number in range(self.f.wanted):
+            of = np.flatnonzero(curves.number == number)
+            if len(of):
+                at = self.f.at(x[of], curves.rows.design[of], order)
+                c = self.f.look(at, curves.sign[:, of, None], (number,))[1]
+                out[:, of] = [one[-1] for one in c]
+        scale = np.array([1.0, DEGREE, 2.0 * DEGREE * DEGREE])[: order + 1]
+        out *= scale[:, None, None]
+        return out
+
+
+def _least_size(value: Array, weight: Array) -> Array:
+    """What sizes of functions (m, points) do not come below, by their products with weights; 0
+    where these do not tell it.
+
+    Beside a pole the product hardly changes, and the size is no less than that over the weight.
+    """
+    inner = (value * weight)[:, 1:-1]
+    low, high = inner.min(axis=1), inner.max(axis=1)
+    least = np.where(low > 0.0, low, -high)
+    most = np.where(low > 0.0, high, -low)
+    tame = (least > 0.0) & (most < TAME * least)
+    return np.where(tame, 0.5 * least / weight.max(axis=1), 0.0)
+
+
+def _blocks(rows: Rows) -> list[tuple[Rows, Which]]:
+    starts = range(0, len(rows.design), BLOCK)
+    parts = [rows.take(slice(i, i + BLOCK)) for i in starts]
+    return [(part, part.design) for part in parts]
+
+
+def _joined(parts: Sequence[Curves]) -> Curves:
+    number, rows, *others = zip(*parts, strict=True)
+    sign, part = (np.concatenate(one, axis=1) for one in others[:2])
+    value, left = (np.concatenate(one) for one in others[2:])
+    return Curves(np.concatenate(number), rows_joined(rows), sign, part, value, left)
+
+
+def _stretches(rows: Rows, sign: Array) -> Stretches:
+    """Neighbouring pieces with the same signs as one."""
+    order = np.lexsort((rows.x[0], rows.span, rows.design))
+    design, span, _, (a, b), _ = rows.take(order)
+    positive = sign[:, order] > 0.0
+    first = np.ones(len(design), dtype=bool)
+    first[1:] = (design[1:] != design[:-1]) | (span[1:] != span[:-1])
+    first[1:] |= (positive[:, 1:] != positive[:, :-1]).any(axis=0)
+    last = np.append(first[1:], True)
+    x = np.stack((a[first], b[last]))
+    return Stretches(design[first], span[first], x, positive[:, first])
