@@ -10,7 +10,6 @@ sectors.
 from __future__ import annotations
 
 import math
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -19,16 +18,21 @@ from geneva_cli.curves.belt import belt
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
+from geneva_cli.parts.arm_sizes import (
+    arm_bore,
+    bolts_between,
+    eye_about,
+    half_or,
+    hub_and_eye,
+    pin_hole,
+)
 from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
-from geneva_cli.parts.hole_walls import apart, beyond
+from geneva_cli.parts.hole_walls import least_wall
 from geneva_cli.parts.keyways import bore, key, reach
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import keyway_direction, sectors
-from geneva_cli.parts.sizes import even
 
 LAYER, HOLES = "ARM", "BORE"
-HUB = 1.6  # of the bore: how wide the arm is round it
-EYE = 2.0  # of a hole: how wide the arm is round it, where there is room
 RADII = 400  # at which the locking disc is looked at for its bolts
 
 
@@ -55,47 +59,42 @@ def crank_arm(found: Outlines) -> CrankArm:
     Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no
     arm round the holes.
     """
-    assembly, sizes = found.assembly, found.sizes
-    spec = assembly.given.spec
+    spec = found.assembly.given.spec
     if not spec.drive.ONE_ARM:
         raise GenevaError(
             f'--part arm: kind = "{spec.drive.NAME}" carries its roller on no crank arm; '
             "--part parts lists its links",
             ("drive", "kind"),
         )
-    hole = sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
-    if hole <= 0.0:
-        raise GenevaError(
-            f"--part arm: there is no hole for a pin of pin_mm = {2.0 * sizes.pin:g} with "
-            f"press_fit_mm = {spec.size.allowances.press_fit_mm:g}; the pin must be the larger",
-            ("size", "press_fit_mm" if sizes.pin else "pin_mm"),
-        )
-    centres = roller_centres(assembly)
-    far = max(math.hypot(*c) for c in centres)
-    radius = shaft_bore(found)
-    fitted = key(spec.size.crank_keyway, radius)
-    deep = reach(spec.size.crank_keyway, radius)
-    wall = sizes.wall_min
-    under = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on it
-    hub = _half_or(spec.size.arm_hub_mm, max(even(HUB * radius), deep + wall, under))
+    assembly, sizes = found.assembly, found.sizes
+    centres, hole = roller_centres(assembly), pin_hole(spec.size, sizes.pin)
+    away = [math.hypot(*c) for c in centres]
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
-    most = (
-        assembly.L - far - max(sizes.wheel_bore, sizes.wheel_hub)
-        if assembly.sign > 0.0
-        else math.inf
-    )
-    usual = max(min(EYE * hole, most), hole + wall)
-    eye = _half_or(spec.size.arm_eye_mm, usual)
-    _refuse(found, radius, deep, hub, hole, eye)
-    pins = [Circle(HOLES, c, hole) for c in centres]
-    screwed = bolts(found)
+    passing = assembly.L - max(away) - max(sizes.wheel_bore, sizes.wheel_hub)
+    passing = passing if assembly.sign > 0.0 else math.inf
+    standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
+    radius, wall = shaft_bore(found), sizes.wall_min
+    hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
+    if reach(spec.size.crank_keyway, radius) + hole >= min(away):
+        raise GenevaError(
+            f"arm_bore_mm = {2.0 * radius:g}: the bore runs into the pin's hole; with its keyway "
+            f"it must be below {2.0 * (min(away) - hole):.6g}",
+            ("size", "arm_bore_mm"),
+        )
+    pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(found)
     about = [Circle(LAYER, (0.0, 0.0), hub), *(Circle(LAYER, c, eye) for c in centres)]
-    about += [Circle(LAYER, c.centre, max(EYE * c.radius, c.radius + wall)) for c in screwed]
-    outline = belt(LAYER, about)
-    turned = keyway_direction(assembly)
-    return CrankArm(
-        outline, bore(HOLES, radius, fitted, turned), pins, screwed, hub, eye, most - eye
-    )
+    about += [Circle(LAYER, c.centre, eye_about(c.radius, wall)) for c in screwed]
+    fitted = key(spec.size.crank_keyway, radius)
+    bored = bore(HOLES, radius, fitted, keyway_direction(assembly))
+    return CrankArm(belt(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
+
+
+def shaft_bore(found: Outlines) -> float:
+    """The radius of the shaft's bore, through the disc or ending below the wheel."""
+    spec = found.assembly.given.spec
+    hole = found.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
+    room = min(math.hypot(*c) for c in roller_centres(found.assembly)) - hole
+    return arm_bore(spec, found.sizes.crank_bore, found.assembly.L, room)
 
 
 def bolts(found: Outlines) -> list[Circle]:
@@ -104,17 +103,12 @@ def bolts(found: Outlines) -> list[Circle]:
     Raises GenevaError where there is no disc to fix.
     """
     size = found.assembly.mechanism.spec.size
-    if not size.lock_bolts:
-        return []
-    if not found.crank:
-        raise GenevaError(
-            "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
-        )
-    r = _half_or(size.lock_bolt_mm, found.assembly.L / 80.0)
+    spans = sectors(found.assembly) if found.crank and size.lock_bolts else []
+    widths = [(start, end - start) for start, end in spans]
+    r, directions = bolts_between(size, found.assembly.L, widths)
     made = []
-    for start, end in sectors(found.assembly):
-        at = [start + (end - start) * (k + 0.5) / size.lock_bolts for k in range(size.lock_bolts)]
-        far = _half_or(size.lock_bolt_circle_mm, 0.0) or _widest(found, at)
+    for at in directions:
+        far = half_or(size.lock_bolt_circle_mm, 0.0) or _widest(found, at)
         made += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
     return made
 
@@ -130,59 +124,12 @@ def _widest(found: Outlines, at: list[float]) -> float:
     return float(radii[int(walls.min(axis=1).argmax())])
 
 
-def shaft_bore(found: Outlines) -> float:
-    """The radius of the shaft's bore, through the disc or ending below the wheel."""
-    spec = found.assembly.given.spec
-    if spec.size.arm_bore_mm is not None:
-        return 0.5 * spec.size.arm_bore_mm
-    if found.sizes.crank_bore:
-        return found.sizes.crank_bore
-    if spec.shaft.crank_diameter_mm is not None:
-        return 0.5 * spec.shaft.crank_diameter_mm
-    hole = found.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
-    room = min(math.hypot(*c) for c in roller_centres(found.assembly)) - hole
-    return even(min(found.assembly.L / 20.0, 0.35 * room))
-
-
-def _half_or(diameter: float | None, default: float) -> float:
-    return default if diameter is None else 0.5 * diameter
-
-
-def _refuse(
-    found: Outlines, radius: float, deep: float, hub: float, hole: float, eye: float
-) -> None:
-    """Raise GenevaError, naming the key, for sizes that leave no plate round a hole."""
-    if hub <= deep:
-        raise GenevaError(
-            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, its bore and "
-            "keyway",
-            ("size", "arm_hub_mm"),
-        )
-    if eye <= hole:
-        raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
-            ("size", "arm_eye_mm"),
-        )
-    least = min(math.hypot(*c) for c in roller_centres(found.assembly))
-    if deep + hole >= least:
-        raise GenevaError(
-            f"arm_bore_mm = {2.0 * radius:g}: the bore runs into the pin's hole; with its keyway "
-            f"it must be below {2.0 * (least - hole):.6g}",
-            ("size", "arm_bore_mm"),
-        )
-
-
 def walls(made: CrankArm, found: Outlines) -> float:
     """The least wall round the arm's holes, and round bolts and keyway in the locking disc."""
-    holes = [made.bore, *made.pins, *made.bolts]
-    outline = Polyarc([made.outline])
-    least = [-beyond(outline, hole) for hole in holes]
-    least += [apart(one, two) for one, two in combinations(holes, 2)]
     in_disc: list[Shape] = [*made.bolts]
     if found.sizes.crank_bore:
         in_disc += [s for s in crank_circles(found.assembly, found.sizes) if s.layer == HOLES]
-        least += [apart(in_disc[-1], bolt) for bolt in made.bolts]
-    if found.crank:
-        disc = Polyarc(found.crank)
-        least += [-beyond(disc, hole) for hole in in_disc]
-    return min(least)
+    return min(
+        least_wall([made.bore, *made.pins, *made.bolts], [made.outline]),
+        least_wall(in_disc, found.crank),
+    )

@@ -107,7 +107,7 @@ def gear_wall(plate: Plate) -> float:
     outline = plate.outline
     if isinstance(outline, Circle):
         outline = closed(outline.layer, two_arcs(outline))
-    return least_wall(plate.holes, outline)
+    return least_wall(plate.holes, [outline])
 
 
 def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]:

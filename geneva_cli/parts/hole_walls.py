@@ -15,15 +15,15 @@ from geneva_cli.curves.shapes import Circle, Shape
 FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of the samples of a hole that is no circle
 
 
-def least_wall(holes: Sequence[Shape], outline: Shape | None = None) -> float:
+def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
     """The least wall between holes, and within an outline; negative where they overlap.
 
     >>> least_wall([Circle("", (0.0, 0.0), 2.0), Circle("", (9.0, 0.0), 3.0)])
     4.0
     """
     least = [apart(one, two) for one, two in combinations(holes, 2)]
-    if outline is not None:
-        whole = _boundary([outline])
+    if outline:
+        whole = _boundary(outline)
         least += [-beyond(whole, hole) for hole in holes]
     return min(least, default=math.inf)
 

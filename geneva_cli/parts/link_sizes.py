@@ -15,7 +15,8 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.arm import EYE, HUB, has_arm, shaft_bore
+from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.arm_sizes import HUB, eye_about, half_or, pin_hole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even, pin_radius, thicknesses, wall_min
 
@@ -91,16 +92,10 @@ def link_sizes(
     size, links = spec.size, [link for link in links if not link.radius_mm]
     wall, thick = wall_min(size, L), thicknesses(size, L)
     stands = pin_radius(size, mechanism.roller_radius_mm)
-    roller = stands - 0.5 * size.allowances.press_fit_mm if stands else 0.0
-    if roller < 0.0 or stands > roller == 0.0:
-        raise GenevaError(
-            f"--part links: there is no hole for a pin of pin_mm = {2.0 * stands:g} with "
-            f"press_fit_mm = {size.allowances.press_fit_mm:g}; the pin must be the larger",
-            ("size", "press_fit_mm"),
-        )
+    roller = pin_hole(size, stands) if stands else 0.0
     nearest = min((way for link in links for way in _ways(link)), default=L)
     pin = even(min(L / 40.0, NEAR * nearest)) if size.link_pin_mm is None else size.link_pin_mm / 2
-    eye = max(EYE * pin, pin + wall) if size.link_width_mm is None else 0.5 * size.link_width_mm
+    eye = half_or(size.link_width_mm, eye_about(pin, wall))
     if eye <= pin:
         raise GenevaError(
             f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins in it",
@@ -113,7 +108,7 @@ def link_sizes(
         pin=pin,
         roller_pin=roller,
         eye=eye,
-        roller_eye=max(min(EYE * roller, room), roller + wall) if roller else eye,
+        roller_eye=eye_about(roller, wall, room) if roller else eye,
         shaft=None if size.link_bore_mm is None else 0.5 * size.link_bore_mm,
         crank_shaft=_crank_shaft(mechanism, found),
         thickness=thick.link,

@@ -271,4 +271,4 @@ def _refuse(plate: Plate) -> None:
 
 def link_wall(plate: Plate) -> float:
     """The least wall between the holes of a link, and round them."""
-    return least_wall(plate.holes, plate.outline)
+    return least_wall(plate.holes, [plate.outline])

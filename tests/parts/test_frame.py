@@ -102,7 +102,7 @@ def test_it_is_below_all_that_moves_and_has_walls(name):
     lows = [part["z_low_mm"] for name, part in parts.items() if not name.endswith("shaft")]
     assert own["z_high_mm"] == plate.high == min(lows)
     L = design.mechanism.center_distance_mm
-    assert least_wall(plate.holes, plate.outline) > wall_min(design.spec.size, L)
+    assert least_wall(plate.holes, [plate.outline]) > wall_min(design.spec.size, L)
 
 
 def test_a_guide_is_screwed_on_where_its_own_holes_are():

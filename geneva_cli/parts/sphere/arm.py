@@ -20,16 +20,14 @@ from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_arcs import Arcs
 from geneva_cli.curves.sphere_belt import Cap, belt
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.keyways import ParallelKey, key
-from geneva_cli.parts.sizes import even
-from geneva_cli.parts.sphere.axles import HUB, refuse_wide
+from geneva_cli.parts.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
+from geneva_cli.parts.keyways import ParallelKey, key, reach
+from geneva_cli.parts.sphere.axles import refuse_wide
 from geneva_cli.parts.sphere.crank import locked
 from geneva_cli.parts.sphere.wheel import POLE
 
 if TYPE_CHECKING:
     from geneva_cli.parts.sphere.shells import Shells
-
-EYE = 2.0  # of a hole: how wide the arm is round it, where there is room
 
 
 class CapArm(NamedTuple):
@@ -71,63 +69,42 @@ def crank_arm(found: Shells) -> CapArm:
     spec, ball = found.assembly.given.spec, found.ball
     if not has_arm(found):
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
-    size, wall, under = spec.size, found.sizes.wall_min, ball.arm_span_mm[0]
-    hole = ball.pin_mm - 0.5 * size.allowances.press_fit_mm
-    if hole <= 0.0:
-        raise GenevaError(
-            f"there is no hole for a pin of pin_mm = {2.0 * ball.pin_mm:g} with press_fit_mm = "
-            f"{size.allowances.press_fit_mm:g}; the pin must be the larger",
-            ("size", "press_fit_mm"),
-        )
-    radius = shaft_bore(found, hole)
-    fitted = key(size.crank_keyway, radius)
-    deep = radius + (fitted.in_hub if fitted else 0.0)
-    hub = max(even(HUB * radius), deep + wall)
-    hub = hub if size.arm_hub_mm is None else 0.5 * size.arm_hub_mm
-    eye = (
-        0.5 * size.arm_eye_mm if size.arm_eye_mm else max(min(EYE * hole, most(found)), hole + wall)
-    )
-    _refuse(found, deep, hub, hole, eye)
+    wall, under = found.sizes.wall_min, ball.arm_span_mm[0]
+    hole = pin_hole(spec.size, ball.pin_mm)
+    disc, room = 0.5 * (spec.size.crank_bore_mm or 0.0), ball.radius_mm * ball.arm - hole
+    radius = arm_bore(spec, disc, ball.radius_mm, room)
+    hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(found))
+    _refuse(found, hub, hole, eye)
+    around = hub - reach(spec.size.crank_keyway, radius)  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     screwed = bolts(found)
-    round_hub = RoundHole(POLE, hub + max(hub - deep, wall)).angle(under)
-    cap = max(ball.lock, round_hub)
+    round_hub = RoundHole(POLE, hub + max(around, wall)).angle(under)
+    cap, eye = max(ball.lock, round_hub), eye / ball.radius_mm
     about = [Cap(POLE, cap)]
-    about += [Cap(pin.axis, eye / ball.radius_mm) for pin in pins]
-    about += [Cap(b.axis, max(EYE * b.radius, b.radius + wall) / under) for b in screwed]
-    boundary = belt(about)
+    about += [Cap(pin.axis, eye) for pin in pins]
+    about += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
     middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     made = CapArm(
-        boundary=boundary,
+        boundary=belt(about),
         bore=radius,
-        fitted=fitted,
+        fitted=key(spec.size.crank_keyway, radius),
         keyway=middle,
         hub=hub,
         pins=pins,
         bolts=screwed,
         cap=cap,
-        eye=eye / ball.radius_mm,
+        eye=eye,
         reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in about),
         wall=0.0,
     )
-    return made._replace(wall=min(hub - deep, _walls(made, found)))
+    return made._replace(wall=min(around, _walls(made, found)))
 
 
-def most(found: Shells) -> float:
+def _passing(found: Shells) -> float:
     """The widest half of an eye that passes the wheel's hub, mm along the sphere."""
     ball = found.ball
     aside = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
     return ball.radius_mm * (ball.axes - ball.arm - aside)
-
-
-def shaft_bore(found: Shells, hole: float) -> float:
-    """The radius of the shaft's bore: as on a plane."""
-    spec, ball = found.assembly.given.spec, found.ball
-    for given in (spec.size.arm_bore_mm, spec.size.crank_bore_mm, spec.shaft.crank_diameter_mm):
-        if given:
-            return 0.5 * given
-    room = ball.radius_mm * ball.arm - hole
-    return even(min(ball.radius_mm / 20.0, 0.35 * room))
 
 
 def bolts(found: Shells) -> tuple[RoundHole, ...]:
@@ -136,55 +113,37 @@ def bolts(found: Shells) -> tuple[RoundHole, ...]:
     Raises GenevaError where there are no sectors to fix.
     """
     size, ball = found.assembly.given.spec.size, found.ball
-    if not size.lock_bolts:
-        return ()
-    if not found.crank:
-        raise GenevaError(
-            "lock_bolts: there is no locking sector to fix; remove it", ("size", "lock_bolts")
-        )
-    r = ball.radius_mm / 80.0 if size.lock_bolt_mm is None else 0.5 * size.lock_bolt_mm
+    rims = [sector.boundary[0] for sector in found.crank]
+    widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
+    r, directions = bolts_between(size, ball.radius_mm, widths)
     made = []
-    for sector in found.crank:
+    for sector, at in zip(found.crank, directions, strict=False):
         rim, _, inner, _ = sector.boundary
-        low = math.pi - inner.angle
-        far = 0.5 * (low + rim.angle)
+        far = 0.5 * (math.pi - inner.angle + rim.angle)
         if size.lock_bolt_circle_mm is not None:
             far = math.asin(min(1.0, 0.5 * size.lock_bolt_circle_mm / ball.radius_mm))
-        start = math.atan2(rim.start[1], rim.start[0])
-        for k in range(size.lock_bolts):
-            made.append(RoundHole(place(far, start + rim.sweep * (k + 0.5) / size.lock_bolts), r))
+        made += [RoundHole(place(far, azimuth), r) for azimuth in at]
     return tuple(made)
 
 
-def _refuse(found: Shells, deep: float, hub: float, hole: float, eye: float) -> None:
-    """Raise GenevaError, naming the key, for sizes that leave no arm round a hole."""
+def _refuse(found: Shells, hub: float, hole: float, eye: float) -> None:
+    """Raise GenevaError, naming the key, for an arm that does not fit on its sphere."""
     ball = found.ball
     under, over = ball.arm_span_mm
-    if hub <= deep:
-        raise GenevaError(
-            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, its bore and "
-            "keyway",
-            ("size", "arm_hub_mm"),
-        )
     refuse_wide("arm_hub_mm", hub, under, over)
-    if eye <= hole:
-        raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
-            ("size", "arm_eye_mm"),
-        )
     if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
         raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the arm would reach over half of the sphere; it must be "
-            f"below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
+            f"arm_eye_mm = {2.0 * eye:g}: the arm would reach over half of the sphere; it "
+            f"must be below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
             ("size", "arm_eye_mm"),
         )
     room = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     if hub >= room:
-        key_ = "arm_hub_mm" if found.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
+        name = "arm_hub_mm" if found.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
         raise GenevaError(
-            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm wide, runs into the pin's hole; "
-            f"it must be below {2.0 * room:.6g}",
-            ("size", key_),
+            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm wide, runs into the pin's "
+            f"hole; it must be below {2.0 * room:.6g}",
+            ("size", name),
         )
 
 

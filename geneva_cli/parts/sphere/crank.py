@@ -14,6 +14,8 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.parts.locking_rings import SHARES
+from geneva_cli.parts.reliefs import SAME
 from geneva_cli.parts.sphere.sizes import Ball, NoRoom
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
@@ -22,10 +24,10 @@ if TYPE_CHECKING:
 
 STEPS = 361  # positions of a motion
 EACH = 100  # points of an arc of the wheel's edge
-SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
-POINTED = 0.2  # of the locking sector's angle: it is left out nearer to the axis
-THIN = 0.05  # of it: a ring as thin as this holds nothing
-SAME = 1e-9  # radians
+# Fractions of the locking edge's angle from the crank's axis. The first is larger than on a plane,
+# where it guards against a tip: here it is the inner edge wherever the wheel stays clear of it.
+POINTED = 0.2  # no sector reaches nearer to the axis
+THIN = 0.05  # a ring as thin as this holds nothing
 
 
 def sectors(found: Ball) -> list[Region]:

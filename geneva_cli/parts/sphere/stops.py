@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.sphere_arcs import FLAT, Arcs
-from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, ahead_by
+from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -85,18 +85,12 @@ class WheelCaps:
         ps, qs = np.nonzero((apart > 0.0) & (apart < np.pi))
         away, towards = polar(axis), _azimuth(axis)
         far, d, rho = away[:, qs], apart[ps, qs], self.polar[ps]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            # of the angle between the axes, about z: the squares of sine and cosine of half of it
-            size = np.sin(rho) * np.sin(far)
-            sine = np.sin(0.5 * (d - rho + far)) * np.sin(0.5 * (d + rho - far)) / size
-            cosine = np.sin(0.5 * (rho + far + d)) * np.sin(0.5 * (rho + far - d)) / size
-        n, pair = np.nonzero((sine >= 0.0) & (cosine >= 0.0))
+        (n, pair), h, g = triangles(d, rho, far, np.sin)
         p, q = ps[pair], qs[pair]
-        angle = 2.0 * np.arctan2(np.sqrt(sine[n, pair]), np.sqrt(cosine[n, pair]))
+        angle = 2.0 * np.arctan2(h, g)  # between the axes, about z
         turn = towards[n, q] - WAYS * angle - self.azimuth[p]
-        lead = ahead_by(WAYS * (turn - wheel[n]), self.pitch)
-        on, i = np.nonzero(lead < most)
-        n, p, q, d, turn, lead = n[i], p[i], q[i], d[pair[i]], turn[on, i], lead[on, i]
+        on, i, lead = within(turn - wheel[n], self.pitch, most)
+        n, p, q, d, turn = n[i], p[i], q[i], d[pair[i]], turn[on, i]
         one, other = about(self.caps.axis[p], turn), axis[n, q]
         angle = self.caps.angle[p]
         point = np.sin(d - angle)[:, None] * one + np.sin(angle)[:, None] * other

@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.parts.turn.pieces import Lines, Rounds, lines, reach, rounds
-from geneva_cli.parts.turn.touch import WAYS, Touch, ahead_by, stopped
+from geneva_cli.parts.turn.touch import WAYS, Touch, stopped, triangles, within
 from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
@@ -109,21 +109,14 @@ class Stops:
             low, high = sigma - other.radius, sigma + other.radius
             row, pair = np.nonzero((low[:, qs] <= self.high[ps]) & (high[:, qs] >= self.low[ps]))
             s, r, d = sigma[row, qs[pair]], self.far[ps[pair]], ds[pair]
-            with np.errstate(divide="ignore", invalid="ignore"):
-                # of the angle between the centres, seen from the axis: the squares of sine and
-                # cosine of half of it
-                sine = (d - r + s) * (d + r - s) / (4.0 * r * s)
-                cosine = (r + s - d) * (r + s + d) / (4.0 * r * s)
-            meet = np.flatnonzero((sine >= 0.0) & (cosine >= 0.0))
+            # the angle between the centres, seen from the wheel's axis
+            meet, h, g = triangles(d, r, s, lambda length: length)
             n, pair, s, r, d = row[meet] + block, pair[meet], s[meet], r[meet], d[meet]
-            h, g = np.sqrt(sine[meet]), np.sqrt(cosine[meet])
             p, q, sign = ps[pair], qs[pair], np.where(hollow[pair], WAYS, -WAYS)
             angle = sign * (2.0 * np.arctan2(h, g))
-            lead = ahead_by(
-                WAYS * (towards[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
-            )
-            on, i = np.nonzero(lead < most)
-            angle, lead, sign = angle[on, i], lead[on, i], sign[on, i]
+            turn = towards[n, q] + angle - self.ahead[p] - pose.wheel[n]
+            on, i, lead = within(turn, self.pitch, most)
+            angle, sign = angle[on, i], sign[on, i]
             n, p, q, s, r, d, h, g = n[i], p[i], q[i], s[i], r[i], d[i], h[i], g[i]
             # the direction from the wheel's centre to the other, seen with the other ahead
             x = ((s - r) + 2.0 * r * h * h) / d
@@ -140,7 +133,7 @@ class Stops:
     ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
         """The wheel's lines at convex arcs, and which of them each contact is with."""
         own, other = self.lines, others.rounds
-        ps, qs = np.nonzero((own.off[:, None] == own.off[:, None]) & (other.sense > 0.0))
+        ps, qs = np.nonzero(np.broadcast_to(other.sense > 0.0, (len(own.off), len(other.sense))))
         level = own.off[ps] + other.radius[qs] - close
         away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
         count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
@@ -150,9 +143,10 @@ class Stops:
             n, p, q, s = row + block, ps[pair], qs[pair], sigma[row, pair]
             angle = -WAYS * np.arccos(level[pair] / s)  # from the normal to the arc's centre
             normal, along = towards[n, q] - angle, s * np.sin(angle)
-            lead = ahead_by(WAYS * (normal - own.normal[p] - pose.wheel[n]), self.pitch)
-            on, i = np.nonzero((lead < most) & (along >= own.start[p]) & (along <= own.end[p]))
-            n, p, q, lead, along = n[i], p[i], q[i], lead[on, i], along[on, i]
+            on_line = (along >= own.start[p]) & (along <= own.end[p])
+            turn = normal - own.normal[p] - pose.wheel[n]
+            on, i, lead = within(turn, self.pitch, most, on_line)
+            n, p, q, along = n[i], p[i], q[i], along[on, i]
             good = other.face(q, -1.0 + 0.0 * lead, 0.0 * lead, normal[on, i] - others.turn[n])
             cosine = np.abs(along) / np.hypot(along, own.off[p])
             yield Touch((n + count * on)[good], lead[good], cosine[good]), q[good]
@@ -163,7 +157,7 @@ class Stops:
         # seen from the wheel's axis
         off, shift = edges.off + self.L * np.cos(normal), -self.L * np.sin(normal)
         start, end = edges.start + shift, edges.end + shift
-        ps, qs = np.nonzero((own.sense[:, None] > 0.0) & (edges.off == edges.off))
+        qs, ps = np.nonzero(np.broadcast_to(own.sense > 0.0, (len(edges.off), len(own.sense))))
         level = own.radius[ps] - close
         count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
         for block in range(0, count, step):
@@ -172,10 +166,8 @@ class Stops:
             n, p, q, r = row + block, ps[pair], qs[pair], self.far[ps[pair]]
             angle = WAYS * np.arccos(high[row, pair] / r)  # from the normal to the arc's centre
             along, turn = r * np.sin(angle), self.ahead[p] - angle
-            lead = ahead_by(
-                WAYS * (normal[n, q] + angle - self.ahead[p] - pose.wheel[n]), self.pitch
-            )
-            on, i = np.nonzero((lead < most) & (along >= start[n, q]) & (along <= end[n, q]))
-            n, p, lead, turn = n[i], p[i], lead[on, i], turn[on, i]
-            good = own.face(p, -1.0 + 0.0 * lead, 0.0 * lead, turn)
+            on_line = (along >= start[n, q]) & (along <= end[n, q])
+            on, i, lead = within(normal[n, q] - turn - pose.wheel[n], self.pitch, most, on_line)
+            n, p = n[i], p[i]
+            good = own.face(p, -1.0 + 0.0 * lead, 0.0 * lead, turn[on, i])
             yield Touch((n + count * on)[good], lead[good], 0.0 * lead[good])

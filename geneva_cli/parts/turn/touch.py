@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -33,10 +34,34 @@ class Touch(NamedTuple):
         return Touch(self.row[which], self.lead[which], self.cosine[which])
 
 
-def ahead_by(lead: Array, pitch: float) -> Array:
-    """Angles from 0 up to the pitch, after which a wheel is as before."""
-    found = lead % pitch
-    return np.where(found > pitch - ZERO, 0.0, found)
+def triangles(
+    apart: Array, one: Array, other: Array, measure: Callable[[Array], Array]
+) -> tuple[tuple[NDArray[np.intp], ...], Array, Array]:
+    """Sine and cosine of half the angle between two sides, of those triangles that exist.
+
+    ``apart`` is the third side, ``measure(x)`` is x on a plane and sin x on a sphere. The indices
+    of the triangles come first.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        size = measure(one) * measure(other)
+        sine = measure(0.5 * (apart - one + other)) * measure(0.5 * (apart + one - other)) / size
+        cosine = measure(0.5 * (one + other + apart)) * measure(0.5 * (one + other - apart)) / size
+    exist = np.nonzero((sine >= 0.0) & (cosine >= 0.0))
+    return exist, np.sqrt(sine[exist]), np.sqrt(cosine[exist])
+
+
+def within(
+    turn: Array, pitch: float, most: float, on_line: NDArray[np.bool_] | bool = True
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """Contacts that the wheel reaches, turning by less than ``most`` back (row 0) or on (row 1).
+
+    ``turn`` is where they are, (n,) or (2, n); after a pitch the wheel is as before. ``on_line`` is
+    where they are on what they touch. Returns their rows, columns and how far the wheel turns.
+    """
+    lead = WAYS * turn % pitch
+    lead = np.where(lead > pitch - ZERO, 0.0, lead)
+    row, column = np.nonzero((lead < most) & on_line)
+    return row, column, lead[row, column]
 
 
 def stopped(
