@@ -190,7 +190,7 @@ REPORT = (
         "shock.reversal", "at_deg jump force_N moment_Nms drag_Nm", batch="disturbances:reversal"
     ),
     _group("slot", "positively_driven", "report.slot:slot"),
-    _group("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", batch="motion:slot"),
+    _group("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", batch="loads:slot"),
     _group(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "

@@ -14,6 +14,7 @@ from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
 from geneva_cli.analysis.loads.summary import shares
 from geneva_cli.analysis.peaks_many import worst_of_many
+from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.numerics.arrays import parameter
 
 if TYPE_CHECKING:
@@ -77,3 +78,15 @@ def sizing(of: Designs) -> Columns:
     for name, row in sizings_of_many(of.machine, requested).items():
         out[name] = np.where(np.isnan(row), np.inf, row) * of.loaded
     return out
+
+
+def slot(of: Designs) -> Columns:
+    """Where the wall that must push is cut away, and the distance of the slot's two branches."""
+    found = positive_drives(of.machine)
+    if found is None:
+        return {}
+    return {
+        "not_driven_share": found.share,
+        "branch_gap_mm": found.gap_mm,
+        "branch_gap_at_deg": found.gap_at_deg,
+    }

@@ -1,4 +1,4 @@
-"""Timing and peaks of designs, and where a curved slot does not drive its wheel."""
+"""Timing and peaks of designs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
-from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.analysis.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.quantities.groups import RATES
@@ -71,15 +70,3 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
 
 def _size(motion: Motion, at_deg: Number, order: int) -> Array:
     return np.ravel(abs(motion(at_deg, order).arrays()[order]))
-
-
-def slot(of: Designs) -> Columns:
-    """Where the wall that must push is cut away, and the distance of the slot's two branches."""
-    found = positive_drives(of.machine)
-    if found is None:
-        return {}
-    return {
-        "not_driven_share": found.share,
-        "branch_gap_mm": found.gap_mm,
-        "branch_gap_at_deg": found.gap_at_deg,
-    }
