@@ -60,43 +60,60 @@ def _to_slopes() -> Array:
     return np.where(odd, 2.0 * rows, 0.0) * np.where(columns == 0, 0.5, 1.0)
 
 
+def _product(values: Array, matrix: Array) -> Array:
+    """Return values (..., k) times a matrix (k, n), summed in order.
+
+    BLAS sums in an order that depends on the number of rows and on the processor, so that a design
+    alone would differ from one among others.
+    """
+    first, *others = np.moveaxis(values, -1, 0)
+    out = np.multiply.outer(matrix[0], first)
+    for row, value in zip(matrix[1:], others, strict=True):
+        out += np.multiply.outer(row, value)
+    return np.moveaxis(out, 0, -1)
+
+
 POINTS = _even_spread(DEGREE)
 GRID = _even_spread(CELLS)
 _SERIES = _to_series()
 _SLOPES = _to_slopes()
-_ON_GRID = _SERIES @ _terms(GRID)
-_SLOPES_ON_GRID = _SERIES @ _SLOPES @ _terms(GRID)
+_ON_GRID = _product(_SERIES, _terms(GRID))
+_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _terms(GRID))
 
 
 def series(values: Array) -> Array:
     """The terms of the series of values (m, points): (terms, m)."""
-    return np.asarray(_SERIES.T @ values.T)
+    return np.moveaxis(_product(values, _SERIES), -1, 0)
 
 
 def slopes(terms: Array) -> Array:
     """The terms of the derivatives of series (terms, m)."""
-    return np.asarray(_SLOPES.T @ terms)
+    return np.moveaxis(_product(np.moveaxis(terms, 0, -1), _SLOPES), -1, 0)
 
 
 def remainder(values: Array) -> Array:
     """The greatest of the last terms: about what the series leaves of the function."""
-    found: Array = np.abs(values @ _SERIES[:, -LAST:]).max(axis=-1)
+    found: Array = np.abs(_product(values, _SERIES[:, -LAST:])).max(axis=-1)
     return found
 
 
 def on_grid(values: Array) -> tuple[Array, Array]:
     """Values and slopes of the series at ``GRID``."""
-    return values @ _ON_GRID, values @ _SLOPES_ON_GRID
+    return _product(values, _ON_GRID), _product(values, _SLOPES_ON_GRID)
 
 
 def end_slopes(values: Array) -> tuple[Array, Array]:
     """Slopes of the series at -1 and at 1."""
-    return values @ _SLOPES_ON_GRID[:, 0], values @ _SLOPES_ON_GRID[:, -1]
+    both = _product(values, _SLOPES_ON_GRID[:, [0, -1]])
+    return both[..., 0], both[..., 1]
 
 
 def at(terms: Array, t: Array) -> Array:
     """Series (terms, m) at a place each: (m,)."""
-    return np.asarray(np.einsum("km,km->m", terms, _terms(t)))
+    out = np.zeros(t.shape)
+    for term, polynomial in zip(terms, _terms(t), strict=True):
+        out += term * polynomial
+    return out
 
 
 def root(terms: Array, low: Array, high: Array, start: Array) -> Array:

@@ -4,7 +4,9 @@ import math
 import os
 
 import pytest
+from typer.testing import CliRunner
 
+from geneva_cli.app import app
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import plan
@@ -223,3 +225,17 @@ def test_beside_a_pole_what_wears_has_no_value():
     for one, other in zip(together, alone, strict=True):
         for a, b in zip(one, other, strict=True):
             assert a == b or a == pytest.approx(b, rel=1e-12)
+
+
+def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
+    """Shards promise the bytes of one run: a block here ends with one design alone."""
+    monkeypatch.chdir(tmp_path)
+    spec = '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\nA = 0.3\n[load]\ninertia_kgm2 = 0.5\n'
+    (tmp_path / "spec.toml").write_text(spec + "friction = 0.1\n")
+    picked = "loads.pin_force_N.max,loads.pin_force_N.at_deg,loads.input_torque_Nm.at_deg"
+
+    def last(values):
+        call = ["sweep", "spec.toml", "--vary", f"drive.A={values}", "--pick", picked]
+        return CliRunner().invoke(app, [*call, "--format", "csv"]).stdout.splitlines()[-1]
+
+    assert last("0:0.8:0.0001") == last("0:0.8:0.002")
