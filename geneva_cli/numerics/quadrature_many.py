@@ -55,7 +55,7 @@ def integrals_many(
     n = asked.shape[1]
     into = np.arange(len(a)) if apart else design
     total, size = np.zeros((0, len(a) if apart else n)), np.zeros((0, n))
-    widest = np.zeros(n)
+    unbounded, widest = total != 0.0, np.zeros(n)
     np.maximum.at(widest, design, b - a)
     narrow = b - a <= NARROW * widest[design]
     wide = ~narrow & (b - a > WIDE * (np.inf if poles is None else poles))
@@ -74,17 +74,22 @@ def integrals_many(
         whole, last, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
         if not len(total):
             total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
+            unbounded = np.zeros(total.shape, dtype=bool)
             _add(size, design[of], sizes)
+        lost = ~np.isfinite(sizes)  # a function without a bound there is not halved for ever
+        for own, gone, endless in zip(asked, lost, unbounded, strict=True):
+            own[design[of[gone]]] = False
+            endless[into[of[gone]]] = True
         open_ = (~(last <= LEFT * size[:, design[of]]) & asked[:, design[of]]).any(axis=0)
         _add(total, into[of[~open_]], whole[:, ~open_])
         if not open_.any():
-            return total
+            return np.where(unbounded, np.inf, total)
         middle = 0.5 * (low + high)[open_]
         low, high = np.concatenate((low[open_], middle)), np.concatenate((middle, high[open_]))
         of = np.concatenate((of[open_], of[open_]))
         counts = [(NODES, len(of))]
     total[:, into[of]] = np.inf
-    return total
+    return np.where(unbounded, np.inf, total)
 
 
 def _add(total: Array, design: Whole, rows: Array) -> None:

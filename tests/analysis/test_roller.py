@@ -185,3 +185,15 @@ def test_wear():
 def test_what_is_not_known_is_none():
     assert life(build(CASE.replace(load=Load()))) is None
     assert life(build(CASE)).hours is None
+
+
+def test_a_force_without_a_bound_ends_the_integrals():
+    """Friction alone holds the wheel beside mid-motion: the roller's mean force has no bound."""
+    motion = Motion("cycloidal", alpha0_deg=0.01)
+    spec = Spec(
+        Wheel(6), motion=motion, load=Load(0.5, friction=0.1), size=Size(face_width_mm=10.0)
+    )
+    machine = build(spec)
+    found = passage(machine.engagements[0], setting(machine))
+    assert math.isinf(found.load)
+    assert math.isfinite(found.travel_m) and math.isfinite(found.rolled_m)

@@ -157,7 +157,7 @@ def test_one_point_and_a_constant():
         ([SPEC, SPEC], "given twice"),
         ([SPEC, "-o", "no/such/folder.svg"], "cannot write: No such file or directory"),
         ([SPEC, "-o", "a.gif"], "the extension names no format"),
-        ([SPEC, "--format", "pdf"], "not for standard output"),
+        ([SPEC, "--format", "png"], "not for standard output"),
         ([SPEC, "rows.csv"], "a csv is plotted by itself"),
         (["none.csv", "--x", "a", "--y", "b"], "none.csv: cannot read: No such file"),
         (["rows.csv", "--show", "jerk"], "--show is for specs"),
