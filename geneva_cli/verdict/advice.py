@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
 
 WHOLE = 40  # trials of all checks, for one piece of advice: about a second
-GLANCES = 400  # trials of the failing checks alone
+GLANCES = 100  # trials of the failing checks alone
 LOOKS = 20  # trials between a value that fails and one that passes
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 

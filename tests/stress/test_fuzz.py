@@ -50,7 +50,7 @@ def fuzz(examples):
 
 seeds = st.integers(0, 2**32)
 SLOW = {"bench": ["--quick"]}  # without it a run takes minutes
-SECONDS = 120  # advice on curved parts that fail takes up to 400 looks, some 30 s of CPU
+SECONDS = 120  # advice on curved parts that fail takes some 10 s of CPU
 
 
 @pytest.fixture(autouse=True, scope="module")
