@@ -102,12 +102,6 @@ def on_grid(values: Array) -> tuple[Array, Array]:
     return _product(values, _ON_GRID), _product(values, _SLOPES_ON_GRID)
 
 
-def end_slopes(values: Array) -> tuple[Array, Array]:
-    """Slopes of the series at -1 and at 1."""
-    both = _product(values, _SLOPES_ON_GRID[:, [0, -1]])
-    return both[..., 0], both[..., 1]
-
-
 def at(terms: Array, t: Array) -> Array:
     """Series (terms, m) at a place each: (m,)."""
     out = np.zeros(t.shape)
