@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.proof import Proof
 
 WHOLE = 40  # trials of all checks, for one piece of advice: about a second
-GLANCES = 100  # trials of the failing checks alone
+GLANCES = 150  # trials of the failing checks alone: each of some ten changes takes about twelve
 LOOKS = 20  # trials between a value that fails and one that passes
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 
@@ -129,13 +129,14 @@ class _Search:
         self.turned = any(c.name in TURNED for c in wanted)
         self.may_fail = {c.name for c in adviser.failing} - {c.name for c in wanted}
         self.whole, self.glances = WHOLE, GLANCES
-        self.units = [1.0 for _ in wanted]
-        self.units = [max(abs(x), 1e-300) for x in self._left(self.mechanism.spec)]
+        now = self._left(self.mechanism.spec)
+        self.units = [max(abs(left), 1e-300) for left in now]
+        self.short = min(left / unit for left, unit in zip(now, self.units, strict=True))
 
     def least(self, change: Change) -> str:
         """The least of one key's changes that will do, as a line of the spec; else nothing."""
         now = value_now(self.mechanism, change.table, change.key)
-        bad, short = now, self._glance(change, now)
+        bad, short = now, self.short
         for good in map(_as_written, change.values(now)):
             left = self._glance(change, good)
             if good == now or left < 0.0:
