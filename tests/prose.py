@@ -1,0 +1,183 @@
+"""Measures of the project's English: words a sentence, and how docstrings begin.
+
+``python tests/prose.py [FOLDER or FILE ...]`` prints them with the worst places; without arguments
+it measures the whole package, README and manual.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import statistics
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from repo import ROOT
+
+PACKAGE = ROOT / "geneva_cli"
+# First words that put the subject last, or that need another text to be understood.
+POOR_STARTS = ("What", "Of", "Whether", "How", "Where", "Which", "The same")
+# A sentence ends at a full stop before a capital, a quote or a code word; not after "e.g." or "z."
+_ENDS = re.compile(r"(?<=[.!?])(?<!e\.g\.)(?<!i\.e\.)(?<!cf\.)(?<!No\.)\s+(?=[A-Z`\"'(*\d])")
+_FENCE = re.compile(r"^(```|~~~).*?^\1\s*$", re.MULTILINE | re.DOTALL)
+_ARGUMENTS = re.compile(r"^(Args|Arguments|Parameters|Returns|Raises|Example|Examples):$")
+
+
+class Sentence(NamedTuple):
+    """A sentence, and where it stands."""
+
+    where: str
+    text: str
+
+    @property
+    def words(self) -> int:
+        """Count of words: what has a letter or a digit, between spaces."""
+        return sum(any(c.isalnum() for c in word) for word in self.text.split())
+
+
+class Measures(NamedTuple):
+    """Words a sentence: mean, the number that 90 % do not exceed, and the longest."""
+
+    total: int
+    mean: float
+    nine_tenths: int
+    longest: int
+
+    @classmethod
+    def of(cls, sentences: list[Sentence]) -> Measures:
+        """Measures of some sentences."""
+        words = sorted(s.words for s in sentences) or [0]
+        high = words[min(int(0.9 * len(words)), len(words) - 1)]
+        return cls(len(sentences), statistics.fmean(words), high, words[-1])
+
+
+def split(text: str, where: str) -> Iterator[Sentence]:
+    """Sentences of a plain text, whose paragraphs are apart by empty lines."""
+    for paragraph in re.split(r"\n\s*\n", text):
+        for sentence in _ENDS.split(" ".join(paragraph.split())):
+            if sum(c.isalpha() for c in sentence) > 2:
+                yield Sentence(where, sentence)
+
+
+def page_sentences(path: Path) -> list[Sentence]:
+    """Sentences of a Markdown page, without code, tables, headings and pictures."""
+    text = _FENCE.sub("\n\n", path.read_text(encoding="utf-8"))
+    lines = []
+    for line in text.splitlines():
+        bare = line.strip()
+        if bare.startswith(("#", "|", "![", "<", "    ")) or line.startswith("    "):
+            lines.append("")
+        elif re.match(r"([-*+]|\d+\.)\s", bare):
+            lines += ["", re.sub(r"^([-*+]|\d+\.)\s+", "", bare)]
+        else:
+            lines.append(bare)
+    return list(split("\n".join(lines), str(path.relative_to(ROOT))))
+
+
+class Docstring(NamedTuple):
+    """A docstring and its place."""
+
+    where: str
+    text: str
+
+    @property
+    def poor_start(self) -> bool:
+        """Its first words are among ``POOR_STARTS``."""
+        return re.match(rf"({'|'.join(POOR_STARTS)})\b", self.text) is not None
+
+
+def docstrings(path: Path) -> list[Docstring]:
+    """All docstrings of a Python file."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    result = []
+    for node in ast.walk(tree):
+        if isinstance(node, kinds) and (text := ast.get_docstring(node)):
+            place = f"{path.relative_to(ROOT)}:{getattr(node, 'lineno', 1)}"
+            result.append(Docstring(place, text))
+    return result
+
+
+def docstring_sentences(doc: Docstring) -> list[Sentence]:
+    """Sentences of a docstring, without its examples and the names of its sections."""
+    lines, code = [], False
+    for line in doc.text.splitlines():
+        bare = line.strip()
+        code = bare.startswith((">>>", "...")) or (code and bool(bare))
+        if code or _ARGUMENTS.match(bare) or bare.endswith("::"):
+            lines.append("")
+        elif re.match(r"(\w+|[-*]|``\w+``)( \([^)]*\))?: ", bare):
+            lines += ["", bare]
+        else:
+            lines.append(bare)
+    return list(split("\n".join(lines), doc.where))
+
+
+def messages(path: Path) -> list[Sentence]:
+    """Sentences of what a file says to users: errors it raises, and help of options."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    texts: list[ast.expr] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+            texts += node.exc.args
+        elif isinstance(node, ast.keyword) and node.arg in ("help", "epilog", "short_help"):
+            texts.append(node.value)
+    result: list[Sentence] = []
+    for text in texts:
+        where = f"{path.relative_to(ROOT)}:{text.lineno}"
+        result += split(_literal(text), where)
+    return result
+
+
+def _literal(node: ast.expr) -> str:
+    """Text of a string, with X where a value is filled in."""
+    if isinstance(node, ast.Constant):
+        return node.value if isinstance(node.value, str) else ""
+    if isinstance(node, ast.JoinedStr):
+        return "".join(_literal(v) if isinstance(v, ast.Constant) else "X" for v in node.values)
+    if isinstance(node, ast.BinOp):
+        return _literal(node.left) + _literal(node.right)
+    return ""
+
+
+def files(paths: list[Path], ending: str) -> list[Path]:
+    """Files with an ending among paths and in their folders, sorted."""
+    result = set()
+    for path in paths:
+        result |= set(path.rglob(f"*{ending}")) if path.is_dir() else {path}
+    return sorted(path for path in result if path.name.endswith(ending))
+
+
+def main(names: list[str]) -> None:
+    """Print the measures of files and folders, and the longest sentences."""
+    paths = [Path(name).resolve() for name in names] or [PACKAGE, ROOT / "README.md"]
+    code, pages = files(paths, ".py"), files(paths, ".md")
+    docs = [doc for path in code for doc in docstrings(path)]
+    groups = {
+        "docstrings": [s for doc in docs for s in docstring_sentences(doc)],
+        "messages": [s for path in code for s in messages(path)],
+        "pages": [s for path in pages for s in page_sentences(path)],
+    }
+    print(f"{'':40} {'sentences':>9} {'mean':>6} {'90 %':>5} {'longest':>7}")
+    for name, sentences in groups.items():
+        _show(name, Measures.of(sentences))
+    for path in pages:
+        _show(f"  {path.name}", Measures.of(page_sentences(path)))
+    poor = [doc for doc in docs if doc.poor_start]
+    print(f"{len(poor)} of {len(docs)} docstrings begin with {', '.join(POOR_STARTS)}:")
+    for doc in poor:
+        print(f"  {doc.where}: {doc.text.splitlines()[0]}")
+    longest = sorted((s for group in groups.values() for s in group), key=lambda s: -s.words)
+    print("longest sentences (all above 25 words, at most 100):")
+    for s in [s for s in longest if s.words > 25][:100]:
+        print(f"  {s.words:3} {s.where}: {s.text}")
+
+
+def _show(name: str, m: Measures) -> None:
+    print(f"{name:40} {m.total:9} {m.mean:6.1f} {m.nine_tenths:5} {m.longest:7}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
