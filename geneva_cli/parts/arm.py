@@ -48,32 +48,32 @@ class CrankArm(NamedTuple):
     room: float  # between the arm's end and the wheel's shaft or hub; infinite inside
 
 
-def has_arm(found: Outlines) -> bool:
+def has_arm(parts: Outlines) -> bool:
     """Whether there is an arm: rollers on pins in a crank."""
-    return found.assembly.given.spec.drive.ONE_ARM and found.sizes.pin > 0.0
+    return parts.assembly.given.spec.drive.ONE_ARM and parts.sizes.pin > 0.0
 
 
-def crank_arm(found: Outlines) -> CrankArm:
+def crank_arm(parts: Outlines) -> CrankArm:
     """The arm of a machine.
 
     Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no
     arm round the holes.
     """
-    spec = found.assembly.given.spec
+    spec = parts.assembly.given.spec
     if not spec.drive.ONE_ARM:
         raise GenevaError(
             f'--part arm: kind = "{spec.drive.NAME}" carries its roller on no crank arm; '
             "--part parts lists its links",
             ("drive", "kind"),
         )
-    assembly, sizes = found.assembly, found.sizes
+    assembly, sizes = parts.assembly, parts.sizes
     centres, hole = roller_centres(assembly), pin_hole(spec.size, sizes.pin)
     away = [math.hypot(*c) for c in centres]
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
     passing = assembly.L - max(away) - max(sizes.wheel_bore, sizes.wheel_hub)
     passing = passing if assembly.sign > 0.0 else math.inf
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
-    radius, wall = shaft_bore(found), sizes.wall_min
+    radius, wall = shaft_bore(parts), sizes.wall_min
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
     if reach(spec.size.crank_keyway, radius) + hole >= min(away):
         raise GenevaError(
@@ -81,7 +81,7 @@ def crank_arm(found: Outlines) -> CrankArm:
             f"it must be below {2.0 * (min(away) - hole):.6g}",
             ("size", "arm_bore_mm"),
         )
-    pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(found)
+    pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(parts)
     about = [Circle(LAYER, (0.0, 0.0), hub), *(Circle(LAYER, c, eye) for c in centres)]
     about += [Circle(LAYER, c.centre, eye_about(c.radius, wall)) for c in screwed]
     fitted = key(spec.size.crank_keyway, radius)
@@ -89,47 +89,47 @@ def crank_arm(found: Outlines) -> CrankArm:
     return CrankArm(belt(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
 
 
-def shaft_bore(found: Outlines) -> float:
+def shaft_bore(parts: Outlines) -> float:
     """The radius of the shaft's bore, through the disc or ending below the wheel."""
-    spec = found.assembly.given.spec
-    hole = found.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
-    room = min(math.hypot(*c) for c in roller_centres(found.assembly)) - hole
-    return arm_bore(spec, found.sizes.crank_bore, found.assembly.L, room)
+    spec = parts.assembly.given.spec
+    hole = parts.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
+    room = min(math.hypot(*c) for c in roller_centres(parts.assembly)) - hole
+    return arm_bore(spec, parts.sizes.crank_bore, parts.assembly.L, room)
 
 
-def bolts(found: Outlines) -> list[Circle]:
+def bolts(parts: Outlines) -> list[Circle]:
     """The holes of the bolts that fix the locking disc to the arm, evenly in each of its sectors.
 
     Raises GenevaError where there is no disc to fix.
     """
-    size = found.assembly.mechanism.spec.size
-    spans = sectors(found.assembly) if found.crank and size.lock_bolts else []
+    size = parts.assembly.mechanism.spec.size
+    spans = sectors(parts.assembly) if parts.crank and size.lock_bolts else []
     widths = [(start, end - start) for start, end in spans]
-    r, directions = bolts_between(size, found.assembly.L, widths)
+    r, directions = bolts_between(size, parts.assembly.L, widths)
     made = []
     for at in directions:
-        far = half_or(size.lock_bolt_circle_mm, 0.0) or _widest(found, at)
+        far = half_or(size.lock_bolt_circle_mm, 0.0) or _widest(parts, at)
         made += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
     return made
 
 
-def _widest(found: Outlines, at: list[float]) -> float:
+def _widest(parts: Outlines, at: list[float]) -> float:
     """The radius at which bolts in some directions leave the widest walls in the disc."""
-    radii = np.linspace(0.0, found.sizes.lock, RADII)
+    radii = np.linspace(0.0, parts.sizes.lock, RADII)
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
-    walls = -Polyarc(found.crank).signed(np.column_stack(points)).reshape(RADII, len(at))
-    if found.sizes.crank_bore:
-        walls = np.minimum(walls, radii[:, None] - found.sizes.crank_bore)
+    walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(RADII, len(at))
+    if parts.sizes.crank_bore:
+        walls = np.minimum(walls, radii[:, None] - parts.sizes.crank_bore)
     return float(radii[int(walls.min(axis=1).argmax())])
 
 
-def walls(made: CrankArm, found: Outlines) -> float:
+def walls(made: CrankArm, parts: Outlines) -> float:
     """The least wall round the arm's holes, and round bolts and keyway in the locking disc."""
     in_disc: list[Shape] = [*made.bolts]
-    if found.sizes.crank_bore:
-        in_disc += [s for s in crank_circles(found.assembly, found.sizes) if s.layer == HOLES]
+    if parts.sizes.crank_bore:
+        in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == HOLES]
     return min(
         least_wall([made.bore, *made.pins, *made.bolts], [made.outline]),
-        least_wall(in_disc, found.crank),
+        least_wall(in_disc, parts.crank),
     )

@@ -80,7 +80,7 @@ def _carried(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
 
 
 def built(
-    found: Outlines,
+    parts: Outlines,
     contour: Contour | None = None,
     tolerance: float = TOLERANCE,
     curves: str = "arcs",
@@ -95,18 +95,18 @@ def built(
     Raises GenevaError, naming the key, for sizes that leave no arm, no links, no shafts or no
     groove plate.
     """
-    assembly = found.assembly
+    assembly = parts.assembly
     given, at = assembly.given, np.zeros(1)
-    bars = drawn_links(given, found)
-    arm = crank_arm(found) if has_arm(found) else None
-    proof = Proof(given, found)
-    fixed = groove_plates(found, bars, tolerance, curves, fitted)
+    bars = drawn_links(given, parts)
+    arm = crank_arm(parts) if has_arm(parts) else None
+    proof = Proof(given, parts)
+    fixed = groove_plates(parts, bars, tolerance, curves, fitted)
     first = tuple(first_members(given, bars))
     frame = framed(proof, fixed, bars, first)
     return Built(
-        Member(wheel_part(found, contour or found.wheel), turn=float(assembly.wheel(at)[0])),
+        Member(wheel_part(parts, contour or parts.wheel), turn=float(assembly.wheel(at)[0])),
         Member(
-            crank_group(found, arm, bars.pin_low),
+            crank_group(parts, arm, bars.pin_low),
             (assembly.L, 0.0),
             float(assembly.crank(at)[0]),
         ),

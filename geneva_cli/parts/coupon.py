@@ -38,9 +38,9 @@ DIGITS = {
 }
 
 
-def coupon(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The coupon, its lower left corner the origin, and the roller's disc to its right."""
-    sizes, own = found.sizes, found.sizes.half_width - found.sizes.roller
+    sizes, own = parts.sizes, parts.sizes.half_width - parts.sizes.roller
     r, pin = sizes.roller, sizes.pin
     # the spec's own clearance is among them, to a micrometre
     clearances = sorted({round(own, 3), *CLEARANCES})
@@ -77,7 +77,7 @@ def coupon(found: Outlines, tolerance: float, curves: str) -> Drawing:
             Member(Plate("roller", "ROLLER", disc, bore, 0.0, thick)),
         ),
     )
-    spec = found.assembly.given.spec
+    spec = parts.assembly.given.spec
     title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     return Drawing(f"{title}: fit coupon", (outline, *holes, disc, *bore, *marks), solid=solid)
 

@@ -30,45 +30,45 @@ from geneva_cli.parts.wheel_hub import wheel_hub
 PITCH = "PITCH"
 
 
-def wheel(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def wheel(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The wheel: its axis the origin, the first slot ahead."""
-    contour, *circles = wheel_shapes(found, tolerance, curves)
-    solid = wheel_part(found, contour)
-    return Drawing(_title(found, "wheel"), (contour, *circles), solid=solid)
+    contour, *circles = wheel_shapes(parts, tolerance, curves)
+    solid = wheel_part(parts, contour)
+    return Drawing(_title(parts, "wheel"), (contour, *circles), solid=solid)
 
 
-def crank(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def crank(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The crank: its axis the origin, the first roller ahead; what lies in the wheel's plane."""
-    return Drawing(_title(found, "crank"), tuple(crank_shapes(found)), solid=crank_group(found))
+    return Drawing(_title(parts, "crank"), tuple(crank_shapes(parts)), solid=crank_group(parts))
 
 
-def arm(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def arm(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The crank arm below the wheel's plane: outline, bore, and holes for pins and bolts."""
-    made = crank_arm(found)
+    made = crank_arm(parts)
     return Drawing(
-        _title(found, "arm"),
+        _title(parts, "arm"),
         (made.outline, made.bore, *made.pins, *made.bolts),
-        solid=arm_plate(found, made),
+        solid=arm_plate(parts, made),
     )
 
 
-def slot(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def slot(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The first slot, closed along the rim, and the roller's way in it."""
-    engagement = found.assembly.slots[0][0]
-    walls = _walls(found, engagement, tolerance, curves)
+    engagement = parts.assembly.slots[0][0]
+    walls = _walls(parts, engagement, tolerance, curves)
     start, end = walls.segments[0].start, walls.segments[-1].end
     back = math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])
-    level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * found.assembly.L
+    level = abs(math.hypot(*start) - math.hypot(*end)) < 1e-9 * parts.assembly.L
     rim: Segment = Arc(end, start, math.tan(0.25 * back)) if level else Line(end, start)
-    pitch = pitch_lines(found.assembly, engagement, tolerance, curves)
-    return Drawing(_title(found, "slot"), (closed("WHEEL", [*walls.segments, rim]), *pitch))
+    pitch = pitch_lines(parts.assembly, engagement, tolerance, curves)
+    return Drawing(_title(parts, "slot"), (closed("WHEEL", [*walls.segments, rim]), *pitch))
 
 
-def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def groove(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The fixed groove of a cam-Geneva, both flanks all round, about the crank's axis."""
-    guide = found.assembly.rollers[0][0].groove
+    guide = parts.assembly.rollers[0][0].groove
     if guide is None:
-        kind = found.assembly.given.spec.drive.NAME
+        kind = parts.assembly.given.spec.drive.NAME
         raise GenevaError(
             f'--part groove, groove-plate: kind = "{kind}" has none; kind = "cam" has'
         )
@@ -78,54 +78,54 @@ def groove(found: Outlines, tolerance: float, curves: str) -> Drawing:
     ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
     shapes = []
     for layer, side in (("GROOVE", 1.0), ("GROOVE", -1.0), (PITCH, 0.0)):
-        curve = groove_curve(guide, found.assembly.L, side * found.sizes.half_width)
+        curve = groove_curve(guide, parts.assembly.L, side * parts.sizes.half_width)
         pieces: list[Segment] = []
         for a, b in zip(ends, ends[1:], strict=False):
             pieces += fit.KINDS[curves](curve, a, b, tolerance)
         shapes.append(closed(layer, pieces))
-    return Drawing(_title(found, "groove"), tuple(shapes))
+    return Drawing(_title(parts, "groove"), tuple(shapes))
 
 
-def _title(found: Outlines, part: str) -> str:
-    name = titled(found.assembly.mechanism)
+def _title(parts: Outlines, part: str) -> str:
+    name = titled(parts.assembly.mechanism)
     return f"{name}: {part}" if part else name
 
 
 def wheel_shapes(
-    found: Outlines, tolerance: float, curves: str
+    parts: Outlines, tolerance: float, curves: str
 ) -> tuple[Contour, *tuple[Shape, ...]]:
     """The wheel's outline, and its circles."""
-    assembly, sizes = found.assembly, found.sizes
+    assembly, sizes = parts.assembly, parts.sizes
     hub = wheel_hub(assembly, sizes)
     circles = [*wheel_circles(assembly, sizes), *([hub.outline] if hub else [])]
-    return (_outline(found, tolerance, curves), *circles)
+    return (_outline(parts, tolerance, curves), *circles)
 
 
-def _outline(found: Outlines, tolerance: float, curves: str) -> Contour:
+def _outline(parts: Outlines, tolerance: float, curves: str) -> Contour:
     """The wheel's outline, with the walls of its slots as they are asked for."""
-    if _as_turned(found, tolerance, curves):
-        return found.wheel
-    walls = {slot: _walls(found, slot, tolerance, curves) for slot in found.slots}
-    return wheel_contour(found.assembly, found.sizes, walls)
+    if _as_turned(parts, tolerance, curves):
+        return parts.wheel
+    walls = {slot: _walls(parts, slot, tolerance, curves) for slot in parts.slots}
+    return wheel_contour(parts.assembly, parts.sizes, walls)
 
 
-def _walls(found: Outlines, slot: Engagement, tolerance: float, curves: str) -> Contour:
+def _walls(parts: Outlines, slot: Engagement, tolerance: float, curves: str) -> Contour:
     """The walls of a slot: those of the full turn, unless other curves, or finer, are asked for."""
-    if _as_turned(found, tolerance, curves):
-        return found.slots[slot]
-    return slot_walls(found.assembly, found.sizes, slot, tolerance, curves)
+    if _as_turned(parts, tolerance, curves):
+        return parts.slots[slot]
+    return slot_walls(parts.assembly, parts.sizes, slot, tolerance, curves)
 
 
-def _as_turned(found: Outlines, tolerance: float, curves: str) -> bool:
+def _as_turned(parts: Outlines, tolerance: float, curves: str) -> bool:
     """Whether curved walls are asked for as they were fitted for the full turn."""
-    return curves == "arcs" and tolerance == found.fine
+    return curves == "arcs" and tolerance == parts.fine
 
 
-def crank_shapes(found: Outlines) -> list[Shape]:
+def crank_shapes(parts: Outlines) -> list[Shape]:
     """The locking disc, or its sectors, with their holes, and the rollers."""
-    hub = crank_hub(found)
-    circles = [*crank_circles(found.assembly, found.sizes), *([hub.outline] if hub else [])]
-    return [*found.crank, *circles, *bolts(found)]
+    hub = crank_hub(parts)
+    circles = [*crank_circles(parts.assembly, parts.sizes), *([hub.outline] if hub else [])]
+    return [*parts.crank, *circles, *bolts(parts)]
 
 
 def pitch_lines(

@@ -96,7 +96,7 @@ def framed(
 
 
 def groove_plates(
-    found: Outlines,
+    parts: Outlines,
     bars: Links,
     tolerance: float = TOLERANCE,
     curves: str = "arcs",
@@ -106,8 +106,8 @@ def groove_plates(
 
     Raises GenevaError where there is no room for them, even if they are left out.
     """
-    require_groove_plate(found)
-    return groove_members(found, bars, tolerance, curves) if fitted else []
+    require_groove_plate(parts)
+    return groove_members(parts, bars, tolerance, curves) if fitted else []
 
 
 def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -> Iterator[Member]:
@@ -176,12 +176,12 @@ def _mounted(members: Sequence[Member], L: float) -> Iterator[Circle]:
     yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 
-def _lowest(mechanism: Mechanism, found: Outlines | None, bars: Links) -> float:
+def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
     """The lowest place of what moves, along the axis."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
     under += [gear.plate.low for gear in bars.gears]
-    hub = wheel_hub(found.assembly, found.sizes) if found else None
+    hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
     under += [hub.low] if hub else []
-    arm = thicknesses(size, L).arm if found and has_arm(found) else 0.0
+    arm = thicknesses(size, L).arm if parts and has_arm(parts) else 0.0
     return min([*under, -size.pin_gap_mm - arm])

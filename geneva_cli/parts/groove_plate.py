@@ -30,17 +30,17 @@ TOLERANCE = 1e-3  # mm, of the flanks where nobody asks for another: that of a d
 
 
 def groove_plate(
-    found: Outlines, tolerance: float, curves: str, bars: Links | None = None
+    parts: Outlines, tolerance: float, curves: str, bars: Links | None = None
 ) -> Drawing:
     """The outline, both flanks, the bore and the holes, with centre marks.
 
     ``bars`` are the machine's links, if they are known. Raises GenevaError for a machine without a
     groove, and where the plate meets the wheel's shaft.
     """
-    title = f"{titled(found.assembly.mechanism)}: groove plate"
-    flanks = groove(found, tolerance, curves)
+    title = f"{titled(parts.assembly.mechanism)}: groove plate"
+    flanks = groove(parts, tolerance, curves)
     outer, inner, pitch = (shape for shape in flanks.shapes if isinstance(shape, Contour))
-    made = _plates(found, outer, inner, bars or drawn_links(found.assembly.mechanism, found))
+    made = _plates(parts, outer, inner, bars or drawn_links(parts.assembly.mechanism, parts))
     base, ring, _ = made
     holes = [hole for hole in base.holes if isinstance(hole, Circle)]
     shapes = (base.outline, *ring.holes[:1], inner, *holes, pitch, *centre_marks(holes))
@@ -48,29 +48,29 @@ def groove_plate(
 
 
 def groove_members(
-    found: Outlines,
+    parts: Outlines,
     bars: Links | None = None,
     tolerance: float = TOLERANCE,
     curves: str = "arcs",
 ) -> list[Member]:
     """The plates where they are in the machine; none without a groove. See ``groove_plate``."""
-    if found.assembly.rollers[0][0].groove is None:
+    if parts.assembly.rollers[0][0].groove is None:
         return []
-    solid = groove_plate(found, tolerance, curves, bars).solid
+    solid = groove_plate(parts, tolerance, curves, bars).solid
     assert solid is not None
-    return [Member(plate, (found.assembly.L, 0.0)) for plate in plates(solid)]
+    return [Member(plate, (parts.assembly.L, 0.0)) for plate in plates(solid)]
 
 
 def _plates(
-    found: Outlines, one: Contour, other: Contour, bars: Links
+    parts: Outlines, one: Contour, other: Contour, bars: Links
 ) -> tuple[Plate, Plate, Plate]:
     """Base, ring and island of the two flanks."""
-    L = found.assembly.L
+    L = parts.assembly.L
     inner, outer = sorted((one, other), key=_reach)
     follower = next(
         m.part for m in bars.joined if isinstance(m.part, Plate) and m.part.name.endswith("groove")
     )
-    far, rim = _reaches(found)
+    far, rim = _reaches(parts)
     mount, at = even(0.25 * rim), far + 0.5 * rim
     mounts = [
         Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
@@ -80,7 +80,7 @@ def _plates(
     bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
     edge = Circle("FRAME", (0.0, 0.0), far + rim)
     low, high = follower.low, follower.high
-    floor = low - found.sizes.arm_thickness
+    floor = low - parts.sizes.arm_thickness
     return (
         Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), floor, low),
         Plate("groove plate's ring", "FRAME", edge, (outer, *mounts), low, high),
@@ -88,20 +88,20 @@ def _plates(
     )
 
 
-def require_groove_plate(found: Outlines) -> None:
+def require_groove_plate(parts: Outlines) -> None:
     """Raise GenevaError, naming the key, where a groove leaves no room for its plate."""
-    if found.assembly.rollers[0][0].groove is not None:
-        _reaches(found)
+    if parts.assembly.rollers[0][0].groove is not None:
+        _reaches(parts)
 
 
-def _reaches(found: Outlines) -> tuple[float, float]:
+def _reaches(parts: Outlines) -> tuple[float, float]:
     """How far the groove reaches from the crank's axis, and the width of the rim round it, mm.
 
     Raises GenevaError, naming the key, where the wheel's hub leaves no room for the rim.
     """
-    sizes, far = found.sizes, _farthest(found)
+    sizes, far = parts.sizes, _farthest(parts)
     wall = sizes.wall_min
-    room = found.assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
+    room = parts.assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     rim = min(max(RIM * sizes.roller, 4.0 * wall), room)
     if rim < 4.0 * wall:
         raise GenevaError(
@@ -113,15 +113,15 @@ def _reaches(found: Outlines) -> tuple[float, float]:
     return far, rim
 
 
-def _farthest(found: Outlines) -> float:
+def _farthest(parts: Outlines) -> float:
     """How far the groove goes from the crank's axis: half its width beyond its farthest middle.
 
     There a flank is square to the ray. However coarsely it is drawn, its plate has one size.
     """
-    guide = found.assembly.rollers[0][0].groove
+    guide = parts.assembly.rollers[0][0].groove
     assert guide is not None  # or there were no plate
-    at, _ = groove_curve(guide, found.assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
-    return float(np.hypot(*at.T).max()) + found.sizes.half_width
+    at, _ = groove_curve(guide, parts.assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
+    return float(np.hypot(*at.T).max()) + parts.sizes.half_width
 
 
 def _reach(flank: Contour) -> float:

@@ -81,7 +81,7 @@ class LinkSizes(NamedTuple):
 
 
 def link_sizes(
-    mechanism: Mechanism, links: Iterable[Link], found: Outlines | None = None
+    mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
 ) -> LinkSizes:
     """The sizes of links that are known at many input angles.
 
@@ -110,7 +110,7 @@ def link_sizes(
         eye=eye,
         roller_eye=eye_about(roller, wall, room) if roller else eye,
         shaft=None if size.link_bore_mm is None else 0.5 * size.link_bore_mm,
-        crank_shaft=_crank_shaft(mechanism, found),
+        crank_shaft=_crank_shaft(mechanism, parts),
         thickness=thick.link,
         arm=arm,
         gap=size.pin_gap_mm,
@@ -118,12 +118,12 @@ def link_sizes(
     )
 
 
-def _crank_shaft(mechanism: Mechanism, found: Outlines | None) -> float | None:
+def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
     """The radius of the crank's shaft: that of arm or locking disc, or the given one."""
-    if found and has_arm(found):
-        return shaft_bore(found)
-    if found and found.sizes.crank_bore:
-        return found.sizes.crank_bore
+    if parts and has_arm(parts):
+        return shaft_bore(parts)
+    if parts and parts.sizes.crank_bore:
+        return parts.sizes.crank_bore
     given = mechanism.spec.shaft.crank_diameter_mm
     return None if given is None else 0.5 * given
 

@@ -82,7 +82,7 @@ class _Bar(NamedTuple):
         return max(0.0, min([*away, *(0.5 * abs(o - z) for o in others if o != z)]))
 
 
-def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
+def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     """The links of a machine as plates; ``found`` are its outlines, if it has any.
 
     Raises GenevaError, naming the key, for sizes that leave no plate round a hole.
@@ -92,12 +92,12 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     links = links_at(mechanism, turn)
     if not links:
         return Links(None, (), (), ())
-    sizes = link_sizes(mechanism, links, found)
+    sizes = link_sizes(mechanism, links, parts)
     L = mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]
     whole = [_bar(link, sizes, L) for link in bars]
-    turning = [_with_shaft(axis, whole, links, sizes, found, L) for axis in axes(links, SAME * L)]
-    _refuse_unused(mechanism, turning, sizes, found)
+    turning = [_with_shaft(axis, whole, links, sizes, parts, L) for axis in axes(links, SAME * L)]
+    _refuse_unused(mechanism, turning, sizes, parts)
     cut = [member for bar in whole for member in _members(bar, turning, sizes, L)]
     r = mechanism.roller_radius_mm
     between = [
@@ -116,11 +116,11 @@ def drawn_links(mechanism: Mechanism, found: Outlines | None = None) -> Links:
     )
 
 
-def _known(axis: Axis, sizes: LinkSizes, found: Outlines | None, L: float) -> float:
+def _known(axis: Axis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
     """The radius of the shaft of wheel or crank, as their own bores are; 0 of another."""
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
-    return found.sizes.wheel_bore if found and same(axis.at, (0.0, 0.0), L) else 0.0
+    return parts.sizes.wheel_bore if parts and same(axis.at, (0.0, 0.0), L) else 0.0
 
 
 def _with_shaft(
@@ -128,7 +128,7 @@ def _with_shaft(
     bars: list[_Bar],
     links: Iterable[Link],
     sizes: LinkSizes,
-    found: Outlines | None,
+    parts: Outlines | None,
     L: float,
 ) -> Axis:
     """An axis with the radius of its shaft, and with the links that have no room for it."""
@@ -142,7 +142,7 @@ def _with_shaft(
     }
     rooms = [*beside.values()]
     rooms += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
-    known = _known(axis, sizes, found, L)
+    known = _known(axis, sizes, parts, L)
     own = [radius for room in rooms if (radius := sizes.bore(room, L)) > 0.0]
     radius = known or min(own, default=even(L / 20.0))
     if not known and sizes.shaft is not None:  # as it is given: a check says what wall is left
@@ -152,11 +152,11 @@ def _with_shaft(
 
 
 def _refuse_unused(
-    mechanism: Mechanism, turning: list[Axis], sizes: LinkSizes, found: Outlines | None
+    mechanism: Mechanism, turning: list[Axis], sizes: LinkSizes, parts: Outlines | None
 ) -> None:
     """Raise GenevaError for a bore that is given where no link has a shaft of its own."""
     L = mechanism.center_distance_mm
-    own = (axis for axis in turning if SHAFT in axis.kinds and not _known(axis, sizes, found, L))
+    own = (axis for axis in turning if SHAFT in axis.kinds and not _known(axis, sizes, parts, L))
     if sizes.shaft is not None and not any(True for _ in own):
         raise GenevaError(
             f"link_bore_mm = {2.0 * sizes.shaft:g}: what it would bore is on the shaft of wheel or "

@@ -31,29 +31,29 @@ from geneva_cli.parts.proof import Proof
 BEYOND = 0.04  # of the centre distance: between a part and the arrow that says how it turns
 
 
-def machine(found: Outlines, tolerance: float, curves: str) -> Drawing:
+def machine(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """The machine at input angle 0, from the frame up to the wheel."""
-    return machine_and_parts(found, tolerance, curves)[0]
+    return machine_and_parts(parts, tolerance, curves)[0]
 
 
-def machine_and_parts(found: Outlines, tolerance: float, curves: str) -> tuple[Drawing, Built]:
+def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[Drawing, Built]:
     """The same, and its parts."""
-    assembly = found.assembly
-    contour, *circles = wheel_shapes(found, tolerance, curves)
-    whole = built(found, contour, tolerance, curves)
+    assembly = parts.assembly
+    contour, *circles = wheel_shapes(parts, tolerance, curves)
+    whole = built(parts, contour, tolerance, curves)
     psi, angle = whole.wheel.turn, whole.crank.turn
     drawn: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
-    carried = [*crank_shapes(found), *_arm(found, whole.arm)]
+    carried = [*crank_shapes(parts), *_arm(parts, whole.arm)]
     drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
     # a first wheel is drawn itself, and not its pitch circle
     drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
-    drawn += gear_shapes(Proof(assembly.given, found), tolerance, curves)
+    drawn += gear_shapes(Proof(assembly.given, parts), tolerance, curves)
     drawn += shapes(whole.first)
     drawn += _standing(whole, drawn)
-    drawn += _ways(found, psi, tolerance, curves)
+    drawn += _ways(parts, psi, tolerance, curves)
     title = titled(assembly.mechanism)
     solid = Group(title, whole.members)
-    look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(found)))
+    look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(parts)))
     return Drawing(title, tuple(once(drawn)), look, solid), whole
 
 
@@ -72,14 +72,14 @@ def _round(circle: Circle) -> tuple[float, ...]:
     return tuple(round(value, 6) for value in (*circle.centre, circle.radius))
 
 
-def _turns(found: Outlines) -> Iterator[Arc]:
+def _turns(parts: Outlines) -> Iterator[Arc]:
     """The senses of rotation of wheel and crank, as arcs outside of them."""
-    assembly, sizes = found.assembly, found.sizes
-    reach = max(math.hypot(*s.start) for s in found.wheel.segments)
+    assembly, sizes = parts.assembly, parts.sizes
+    reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
     yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
     if not assembly.given.spec.drive.ONE_ARM:
-        yield from _link_turns(found)
+        yield from _link_turns(parts)
         return
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
@@ -89,30 +89,30 @@ def _turns(found: Outlines) -> Iterator[Arc]:
     yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
 
 
-def _link_turns(found: Outlines) -> Iterator[Arc]:
+def _link_turns(parts: Outlines) -> Iterator[Arc]:
     """The sense in which the link on the crank's shaft turns, beyond its end or the disc's."""
-    given, L = found.assembly.given, found.assembly.L
+    given, L = parts.assembly.given, parts.assembly.L
     for link in links_at(given, np.array([-0.5, 0.0, 0.5])):
         first, *others = places(link)
         if link.kinds[0] is not Joint.SHAFT or not others or np.abs(first - L).max() > SAME * L:
             continue
         ahead = others[0] - first
         sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))
-        far = max(float(np.abs(ahead).max()), found.sizes.lock) + 2.0 * BEYOND * L
+        far = max(float(np.abs(ahead).max()), parts.sizes.lock) + 2.0 * BEYOND * L
         yield about((L, 0.0), far, -sense * 0.5, sense)
 
 
-def _arm(found: Outlines, made: CrankArm | None) -> list[Shape]:
+def _arm(parts: Outlines, made: CrankArm | None) -> list[Shape]:
     """The visible part of the crank arm: its outline, and its bore where the disc has none."""
     if made is None:
         return []
-    through = found.sizes.crank_bore > 0.0
+    through = parts.sizes.crank_bore > 0.0
     return [made.outline] if through else [made.outline, made.bore._replace(layer=ARM)]
 
 
-def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
+def _ways(parts: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
     """The line of centres, and the rollers' paths: on their circles and in their slots."""
-    assembly = found.assembly
+    assembly = parts.assembly
     shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
     arms = set()
     for number, (engagement, behind) in enumerate(assembly.rollers):
@@ -120,7 +120,7 @@ def _ways(found: Outlines, psi: float, tolerance: float, curves: str) -> list[Sh
             x, y = assembly.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - assembly.L, y), 9))
     shapes += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
-    pitches = {s: pitch_lines(assembly, s, tolerance, curves) for s in found.slots}
+    pitches = {s: pitch_lines(assembly, s, tolerance, curves) for s in parts.slots}
     shapes += [
         turned(line, direction + psi)
         for engagement, direction in assembly.slots

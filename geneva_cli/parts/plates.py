@@ -15,44 +15,44 @@ from geneva_cli.parts.wheel import wheel_circles
 from geneva_cli.parts.wheel_hub import wheel_hub
 
 
-def wheel_plate(found: Outlines, contour: Contour) -> Plate:
+def wheel_plate(parts: Outlines, contour: Contour) -> Plate:
     """The wheel as a plate; an internal wheel's contour is the opening in its disc."""
-    circles = wheel_circles(found.assembly, found.sizes)
+    circles = wheel_circles(parts.assembly, parts.sizes)
     bores = [circle for circle in circles if circle.layer == "BORE"]
     outside = [circle for circle in circles if circle.layer != "BORE"]
     outline, *openings = [*outside, contour]
-    high = found.sizes.wheel_thickness
+    high = parts.sizes.wheel_thickness
     return Plate("wheel", contour.layer, outline, (*openings, *bores), 0.0, high)
 
 
-def wheel_part(found: Outlines, contour: Contour) -> Plate | Group:
+def wheel_part(parts: Outlines, contour: Contour) -> Plate | Group:
     """The wheel, with its hub below it where the spec gives one."""
-    plate, hub = wheel_plate(found, contour), wheel_hub(found.assembly, found.sizes)
+    plate, hub = wheel_plate(parts, contour), wheel_hub(parts.assembly, parts.sizes)
     return Group(plate.name, (Member(plate), Member(hub))) if hub else plate
 
 
-def arm_plate(found: Outlines, arm: CrankArm) -> Plate:
+def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
     """The crank arm below the wheel, ``pin_gap_mm`` from it."""
-    high = -found.assembly.mechanism.spec.size.pin_gap_mm
+    high = -parts.assembly.mechanism.spec.size.pin_gap_mm
     holes = (arm.bore, *arm.pins, *arm.bolts)
-    low = high - found.sizes.arm_thickness
+    low = high - parts.sizes.arm_thickness
     return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
 
 
 def crank_group(
-    found: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
+    parts: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
 ) -> Group:
     """What the crank carries: locking disc or sectors, rollers, pins, hub; and the arm, if given.
 
     ``pin_low`` is down to where pins go that stand in a link. A bore is a hole in the disc, and
     nothing where none is left about the axis.
     """
-    assembly, sizes = found.assembly, found.sizes
+    assembly, sizes = parts.assembly, parts.sizes
     low = -assembly.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
     whole = is_whole(assembly, sizes)
     bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
-    screwed = bolts(found)
-    each = len(screwed) // max(1, len(found.crank))
+    screwed = bolts(parts)
+    each = len(screwed) // max(1, len(parts.crank))
     name = "locking disc" if whole else "locking sector"
     plates = [
         Plate(
@@ -63,14 +63,14 @@ def crank_group(
             low,
             low + sizes.lock_thickness,
         )
-        for k, contour in enumerate(found.crank)
+        for k, contour in enumerate(parts.crank)
     ]
-    plates += [arm_plate(found, arm)] if arm else []
+    plates += [arm_plate(parts, arm)] if arm else []
     members = [Member(plate) for plate in plates]
     below = low - (sizes.arm_thickness if arm else 0.0) if pin_low is None else pin_low
     round_ = roller_plates(sizes.roller, sizes.pin, below, sizes.wheel_thickness)
     members += [Member(plate, axis) for axis in roller_centres(assembly) for plate in round_]
-    hub = crank_hub(found)
+    hub = crank_hub(parts)
     members += [Member(hub)] if hub else []
     return Group("crank", tuple(members))
 

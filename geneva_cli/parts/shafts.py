@@ -27,18 +27,18 @@ SHAFT = "SHAFT"
 SAME = 1e-9  # of the centre distance: what is nearer to an axis is on it
 
 
-def crank_hub(found: Outlines) -> Plate | None:
+def crank_hub(parts: Outlines) -> Plate | None:
     """The crank's hub above the locking disc, or the arm; None where it is not given, or lower.
 
     Raises GenevaError, naming the key, where there is neither disc nor arm for it to stand on.
     """
-    given, sizes = found.assembly.mechanism.spec.size, found.sizes
+    given, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     asked = given.crank_hub_mm is not None or given.crank_hub_length_mm is not None
     if not asked or sizes.crank_hub <= sizes.crank_bore:
         return None
     on_arm = 0.0 - given.pin_gap_mm  # no -0.0
-    disc = bool(found.crank) and is_whole(found.assembly, sizes)
-    if not (disc or has_arm(found)):
+    disc = bool(parts.crank) and is_whole(parts.assembly, sizes)
+    if not (disc or has_arm(parts)):
         key = "crank_hub_length_mm" if given.crank_hub_mm is None else "crank_hub_mm"
         raise GenevaError(
             f"{key}: a hub stands on the locking disc or on the crank arm, and there is neither; "
@@ -51,58 +51,58 @@ def crank_hub(found: Outlines) -> Plate | None:
         high = on_arm + given.crank_hub_length_mm
     if high <= low:
         return None
-    bores = about_axis(crank_circles(found.assembly, sizes) if sizes.crank_bore else [])
+    bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
     return Plate("crank's hub", HUB, Circle(HUB, AXIS, sizes.crank_hub), bores, low, high)
 
 
-def shafts(found: Outlines, lowest: float, stop: float | None = None) -> Iterator[Member]:
+def shafts(parts: Outlines, lowest: float, stop: float | None = None) -> Iterator[Member]:
     """The shafts of wheel and crank at their places.
 
     ``lowest`` is the frame's lower face; the crank's ends at ``stop`` where links are in the way of
     it (``turn.planes``). Raises GenevaError as ``shaft`` does.
     """
-    radius = wheel_shaft_radius(found)
+    radius = wheel_shaft_radius(parts)
     if radius:
-        yield Member(shaft("wheel", radius, wheel_shaft_ends(found, lowest)))
-    radius = crank_shaft_radius(found)
+        yield Member(shaft("wheel", radius, wheel_shaft_ends(parts, lowest)))
+    radius = crank_shaft_radius(parts)
     if radius:
-        ends = crank_shaft_ends(found, lowest if stop is None else stop)
-        yield Member(shaft("crank", radius, ends), (found.assembly.L, 0.0))
+        ends = crank_shaft_ends(parts, lowest if stop is None else stop)
+        yield Member(shaft("crank", radius, ends), (parts.assembly.L, 0.0))
 
 
-def wheel_shaft_radius(found: Outlines) -> float:
+def wheel_shaft_radius(parts: Outlines) -> float:
     """The radius of the wheel's shaft, which is that of its bore; 0 without one."""
-    return found.sizes.wheel_bore
+    return parts.sizes.wheel_bore
 
 
-def wheel_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
+def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Where the wheel's shaft ends along the axis."""
-    sizes = found.sizes
-    low = lowest if sizes.wheel_hub or _has_gear(found) else 0.0
-    return shaft_ends(found.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
+    sizes = parts.sizes
+    low = lowest if sizes.wheel_hub or _has_gear(parts) else 0.0
+    return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 
 
-def _has_gear(found: Outlines) -> bool:
+def _has_gear(parts: Outlines) -> bool:
     """Whether the wheel's shaft carries a gear below the wheel."""
-    near = SAME * found.assembly.L
+    near = SAME * parts.assembly.L
     return any(
         link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
-        for link in links_at(found.assembly.given, np.zeros(1))
+        for link in links_at(parts.assembly.given, np.zeros(1))
         for x, y in link.joints
     )
 
 
-def crank_shaft_radius(found: Outlines) -> float:
+def crank_shaft_radius(parts: Outlines) -> float:
     """The radius of the shaft that carries arm and locking disc; 0 where it carries links alone."""
-    return shaft_bore(found) if has_arm(found) else found.sizes.crank_bore
+    return shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
 
 
-def crank_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
+def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Where that shaft ends: above, in the arm, or through the locking disc where that is bored."""
-    given, sizes = found.assembly.mechanism.spec.size, found.sizes
+    given, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     high = 0.0 - given.pin_gap_mm
     if sizes.crank_bore:
-        hub = crank_hub(found)
+        hub = crank_hub(parts)
         high = hub.high if hub else high + sizes.lock_thickness
     return shaft_ends(given, "crank", lowest, high)
 

@@ -176,9 +176,9 @@ def _half(diameter: float | None) -> float | None:
     return None if diameter is None else 0.5 * diameter
 
 
-def _bore(given: Size, end: float, wall: float, L: float) -> float:
+def _bore(size: Size, end: float, wall: float, L: float) -> float:
     """The wheel's default bore: it leaves a wall to the slots' ends, within a given hub."""
-    room = _within(given.wheel_hub_mm, given.wheel_keyway)
+    room = _within(size.wheel_hub_mm, size.wheel_keyway)
     return even(min(L / 12.0, 0.4 * end, end - wall, room))
 
 
@@ -274,24 +274,24 @@ def _bottom(deepest: float, offset: float, gap: float) -> float:
     return math.copysign(math.hypot(along, offset), along)
 
 
-def _refuse(assembly: Assembly, found: Sizes) -> None:
+def _refuse(assembly: Assembly, sizes: Sizes) -> None:
     outside = assembly.sign > 0.0
-    if found.lock and not abs(assembly.L - found.rim) < found.recess:
+    if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
         raise GenevaError(
-            f"wheel_radius_mm = {found.rim:g}: the rim lies beyond the locking disc, which opens "
-            f"it only where it is below {assembly.L + found.recess:.6g}",
+            f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc, which opens "
+            f"it only where it is below {assembly.L + sizes.recess:.6g}",
             ("size", "wheel_radius_mm"),
         )
-    if outside and found.slot_end <= 0.0:
+    if outside and sizes.slot_end <= 0.0:
         raise GenevaError(
             "the slots meet in the wheel's centre: roller_radius_mm, slot_clearance_mm and "
-            f"slot_bottom_clearance_mm must together be less by more than {-found.slot_end:.4g} mm",
+            f"slot_bottom_clearance_mm must together be less by more than {-sizes.slot_end:.4g} mm",
             ("size", "roller_radius_mm"),
         )
-    if outside and found.wheel_bore >= found.slot_end:
+    if outside and sizes.wheel_bore >= sizes.slot_end:
         raise GenevaError(
-            f"wheel_bore_mm = {2.0 * found.wheel_bore:g}: the slots reach down to "
-            f"{found.slot_end:.6g} mm; it must be below {2.0 * found.slot_end:.6g}",
+            f"wheel_bore_mm = {2.0 * sizes.wheel_bore:g}: the slots reach down to "
+            f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
             ("size", "wheel_bore_mm"),
         )
     own = assembly.mechanism.spec.size.arm_bore_mm
@@ -299,29 +299,29 @@ def _refuse(assembly: Assembly, found: Sizes) -> None:
     if (
         one_arm
         and own
-        and found.crank_bore
-        and abs(0.5 * own - found.crank_bore) > SAME * assembly.L
+        and sizes.crank_bore
+        and abs(0.5 * own - sizes.crank_bore) > SAME * assembly.L
     ):
         raise GenevaError(
             f"arm_bore_mm = {own:g}: the same shaft goes through the locking disc, whose "
-            f"crank_bore_mm is {2.0 * found.crank_bore:g}; they must be equal, or crank_bore_mm 0, "
+            f"crank_bore_mm is {2.0 * sizes.crank_bore:g}; they must be equal, or crank_bore_mm 0, "
             "where the shaft ends in the arm",
             ("size", "arm_bore_mm"),
         )
-    if found.lock and found.crank_bore >= found.lock:
+    if sizes.lock and sizes.crank_bore >= sizes.lock:
         raise GenevaError(
-            f"crank_bore_mm = {2.0 * found.crank_bore:g}: it must be below the locking disc's "
-            f"{2.0 * found.lock:.6g}",
+            f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
+            f"{2.0 * sizes.lock:.6g}",
             ("size", "crank_bore_mm"),
         )
-    if found.pin >= found.roller:
+    if sizes.pin >= sizes.roller:
         raise GenevaError(
-            f"pin_mm = {2.0 * found.pin:g}: it must be below the roller's {2.0 * found.roller:g}",
+            f"pin_mm = {2.0 * sizes.pin:g}: it must be below the roller's {2.0 * sizes.roller:g}",
             ("size", "pin_mm"),
         )
-    if not outside and found.outer <= max(found.slot_end, assembly.L + found.recess):
+    if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
         raise GenevaError(
-            f"wheel_outer_radius_mm = {found.outer:g}: the slots reach {found.slot_end:.6g} mm; it "
+            f"wheel_outer_radius_mm = {sizes.outer:g}: the slots reach {sizes.slot_end:.6g} mm; it "
             "must be larger",
             ("size", "wheel_outer_radius_mm"),
         )
@@ -332,16 +332,16 @@ def _refuse(assembly: Assembly, found: Sizes) -> None:
         )
 
 
-def _refuse_hubs(given: Size, found: Sizes) -> None:
+def _refuse_hubs(size: Size, sizes: Sizes) -> None:
     """Raise GenevaError, naming the key, for what stands on no wheel, and for a hub cut through."""
-    on_axis = [key for key in ON_AXIS if vars(given)[key]]
-    if found.outer and on_axis:
+    on_axis = [key for key in ON_AXIS if vars(size)[key]]
+    if sizes.outer and on_axis:
         raise GenevaError(
             f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
             ("size", on_axis[0]),
         )
-    hubs = {"wheel": (found.wheel_hub, found.wheel_reach, found.wheel_bore)}
-    hubs["crank"] = found.crank_hub, found.crank_reach, found.crank_bore
+    hubs = {"wheel": (sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)}
+    hubs["crank"] = sizes.crank_hub, sizes.crank_reach, sizes.crank_bore
     for part, (hub, bored, bore) in hubs.items():
         if bore < hub <= bored:
             raise GenevaError(

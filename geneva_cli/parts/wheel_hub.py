@@ -29,11 +29,11 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
     return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(given, sizes), 0.0)
 
 
-def wheel_hub_length(given: Size, sizes: Sizes) -> float:
+def wheel_hub_length(size: Size, sizes: Sizes) -> float:
     """The length of the wheel's hub: by default as far down as the crank arm."""
-    if given.wheel_hub_length_mm is not None:
-        return given.wheel_hub_length_mm
-    return given.pin_gap_mm + sizes.arm_thickness
+    if size.wheel_hub_length_mm is not None:
+        return size.wheel_hub_length_mm
+    return size.pin_gap_mm + sizes.arm_thickness
 
 
 def about_axis(circles: list[Shape]) -> tuple[Shape, ...]:

@@ -21,17 +21,17 @@ from geneva_cli.parts.sizes import pin_radius
 SAME = 1e-6  # mm
 
 
-def draw_disc(view: View, found: Outlines) -> None:
+def draw_disc(view: View, parts: Outlines) -> None:
     """The locking disc, or its sectors, about the crank's axis."""
-    assembly, sizes = found.assembly, found.sizes
-    for contour in found.crank:
+    assembly, sizes = parts.assembly, parts.sizes
+    for contour in parts.crank:
         view.draw(contour, OUTLINE)
-    screwed = bolts(found)
+    screwed = bolts(parts)
     whole = is_whole(assembly, sizes)
     bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
     for shape in (*screwed, *bores):
         view.draw(shape, OUTLINE)
-    hub = crank_hub(found)
+    hub = crank_hub(parts)
     if hub:
         view.draw(hub.outline, OUTLINE)
     circle_of(view, screwed)
@@ -39,7 +39,7 @@ def draw_disc(view: View, found: Outlines) -> None:
     if hub:
         draw_hub(view, hub)
     bored(view, bores, sizes.crank_bore, assembly.mechanism.spec.size.crank_keyway)
-    arcs = [s for contour in found.crank for s in contour.segments if isinstance(s, Arc)]
+    arcs = [s for contour in parts.crank for s in contour.segments if isinstance(s, Arc)]
     locking = [a for a in arcs if math.hypot(*a.centre) < SAME and _is(a.radius, sizes.lock)]
     view.of_arcs(locking, sized.lock(assembly.mechanism, sizes.lock), whole=True)
     seen: set[tuple[str, str]] = set()
@@ -56,11 +56,11 @@ def draw_disc(view: View, found: Outlines) -> None:
         if math.hypot(*arc.centre) > SAME and far > SAME:
             turn = math.atan2(middle[1], middle[0])
             view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
-    _gaps(view, found, locking)
+    _gaps(view, parts, locking)
     bolted(view, screwed)
 
 
-def _gaps(view: View, found: Outlines, locking: list[Arc]) -> None:
+def _gaps(view: View, parts: Outlines, locking: list[Arc]) -> None:
     """The angles between the arcs that lock."""
     ends = sorted(legs(arc) for arc in _joined(locking))
     gaps: dict[str, list[tuple[float, float]]] = {}
@@ -69,7 +69,7 @@ def _gaps(view: View, found: Outlines, locking: list[Arc]) -> None:
         if wide > SAME:
             gaps.setdefault(f"{number(math.degrees(wide))}°", []).append((end, end + wide))
     for text, pairs in gaps.items():
-        view.angular(pairs, found.sizes.lock, found.sizes.lock, times(len(pairs), text))
+        view.angular(pairs, parts.sizes.lock, parts.sizes.lock, times(len(pairs), text))
 
 
 def _joined(arcs: list[Arc]) -> list[Arc]:
@@ -84,7 +84,7 @@ def _joined(arcs: list[Arc]) -> list[Arc]:
     return found
 
 
-def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
+def draw_arm(view: View, parts: Outlines, made: CrankArm) -> None:
     """The crank arm with its holes."""
     view.draw(made.outline, OUTLINE)
     for shape in (made.bore, *made.pins, *made.bolts):
@@ -93,7 +93,7 @@ def draw_arm(view: View, found: Outlines, made: CrankArm) -> None:
     for pin in made.pins:
         view.cross(pin.centre, made.eye, math.atan2(pin.centre[1], pin.centre[0]))
     circle_of(view, made.bolts)
-    mechanism = found.assembly.mechanism
+    mechanism = parts.assembly.mechanism
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown: dict[str, list[Circle]] = {}
     for pin in made.pins:
@@ -142,16 +142,16 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
         view.remark(f"turns on its pin {sized.pin(pin)}, which is pressed in")
 
 
-def draw_assembly(view: View, found: Outlines, shapes: tuple[Shape, ...]) -> None:
+def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
     """The machine put together, with the centre distance."""
     layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN, "HUB": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
-    L = found.assembly.L
-    deviation = found.assembly.mechanism.spec.tolerance.center_distance_mm
-    reach = found.sizes.outer or found.sizes.rim
+    L = parts.assembly.L
+    deviation = parts.assembly.mechanism.spec.tolerance.center_distance_mm
+    reach = parts.sizes.outer or parts.sizes.rim
     view.cross((0.0, 0.0), reach)
-    view.cross((L, 0.0), max(found.sizes.lock, 0.1 * L))
+    view.cross((L, 0.0), max(parts.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
 
 

@@ -34,11 +34,13 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
     return begin
 
 
-def linked(begin: Begin, bars: Links, given: Mechanism, in_series: bool = False) -> Iterator[View]:
+def linked(
+    begin: Begin, bars: Links, mechanism: Mechanism, in_series: bool = False
+) -> Iterator[View]:
     """Links and gears, each once; of two wheels in series the first is no gear."""
     for one in {member.part: member for member in bars.cut}.values():
         made = begin(one.part.name)
-        draw_link(made, one, bars, given)
+        draw_link(made, one, bars, mechanism)
         yield made
     for gear in () if in_series else bars.gears:
         made = begin(gear.name)
@@ -46,19 +48,19 @@ def linked(begin: Begin, bars: Links, given: Mechanism, in_series: bool = False)
         yield made
 
 
-def geared(begin: Begin, shapes: Sequence[Shape], given: Mechanism) -> Iterator[View]:
+def geared(begin: Begin, shapes: Sequence[Shape], mechanism: Mechanism) -> Iterator[View]:
     """Noncircular gears as they mesh; none without them."""
     if shapes:
-        L, C = given.center_distance_mm, required_gears(given).distance_mm
+        L, C = mechanism.center_distance_mm, required_gears(mechanism).distance_mm
         made = begin("driven gear", "driver gear")
         draw_gears(made, shapes, ((L, 0.0), (L + C, 0.0)))
         yield made
 
 
-def rolling(begin: Begin, given: Mechanism) -> Iterator[View]:
+def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
     """The roller with its pin."""
     made = begin("roller", "pin")
-    draw_roller(made, given)
+    draw_roller(made, mechanism)
     yield made
 
 

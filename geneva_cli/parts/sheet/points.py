@@ -29,10 +29,10 @@ DEPTH = 14  # halvings of one
 BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is looked at
 
 
-def tables(found: Outlines, tolerance: float) -> list[Block]:
+def tables(parts: Outlines, tolerance: float) -> list[Block]:
     """A table for each kind of curved slot, and for the groove of a cam."""
     made = []
-    assembly = found.assembly
+    assembly = parts.assembly
     close = max(tolerance, COARSE * assembly.L)
     for engagement in assembly.kinds:
         if not engagement.slot.curved:
@@ -46,7 +46,7 @@ def tables(found: Outlines, tolerance: float) -> list[Block]:
 
         last = 0.0 if symmetric else engagement.exit_deg
         points = polyline(centre, engagement.entry_deg, last, close)
-        width = sized.slot_width(assembly.mechanism, found.sizes.half_width)
+        width = sized.slot_width(assembly.mechanism, parts.sizes.half_width)
         what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
         more = MIRRORED if symmetric else ""
         made.append(point_table(what + more, points, close))

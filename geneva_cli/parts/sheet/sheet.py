@@ -21,15 +21,15 @@ ASSEMBLED = 1.0, 2.0  # how much smaller the machine is drawn than its parts
 LAYOUT = (60.0, 36.0, 20.0)  # mm: columns of the table of pivots and links
 
 
-def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
+def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
     """The drawing sheet of a machine. Raises GenevaError where no scale brings it on one."""
-    shown = shown_on_sheet(found, tolerance, curves)
-    mechanism, bars = found.assembly.mechanism, shown.parts.links
+    shown = shown_on_sheet(parts, tolerance, curves)
+    mechanism, bars = parts.assembly.mechanism, shown.parts.links
     fixed = [
-        *points.tables(found, tolerance),
-        *points.gear_tables(found.assembly.given, tolerance),
+        *points.tables(parts, tolerance),
+        *points.gear_tables(parts.assembly.given, tolerance),
         *links.round_parts(bars.joined, mechanism),
-        *layout(found.assembly.given),
+        *layout(parts.assembly.given),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
@@ -37,12 +37,12 @@ def sheet(found: Outlines, tolerance: float, curves: str) -> Sheet:
         for times in ASSEMBLED:
             yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
 
-    return on_paper(found.assembly.given.spec, shown.rows, shown.largest, blocks, shown.area)
+    return on_paper(parts.assembly.given.spec, shown.rows, shown.largest, blocks, shown.area)
 
 
-def layout(given: Mechanism) -> list[Block]:
+def layout(mechanism: Mechanism) -> list[Block]:
     """Pivots and lengths of what drives the crank."""
-    own = given.spec.drive.layout(given.plan, given.spec.wheel.SIGN)
+    own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
     rows = [("drive", "x or value", "y or unit")]
     rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in own if isinstance(p, Pivot)]
     rows += [

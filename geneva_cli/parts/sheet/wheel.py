@@ -21,30 +21,30 @@ from geneva_cli.parts.wheel_hub import HUB, wheel_hub
 SAME = 1e-6  # mm
 
 
-def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> None:
+def draw_wheel(view: View, parts: Outlines, tolerance: float, curves: str) -> None:
     """The wheel with all its dimensions; curved slots have theirs in a table."""
-    assembly, sizes = found.assembly, found.sizes
-    made = drawings.wheel(found, tolerance, curves)
+    assembly, sizes = parts.assembly, parts.sizes
+    made = drawings.wheel(parts, tolerance, curves)
     contour = next(s for s in made.shapes if isinstance(s, Contour))
     for shape in made.shapes:
         view.draw(shape, HIDDEN if shape.layer == HUB else OUTLINE)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross((0.0, 0.0), reach)
-    _axes(view, found, reach)
+    _axes(view, parts, reach)
     if sizes.recess:
-        view.cross(_recess_centre(found), 0.0)
+        view.cross(_recess_centre(parts), 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
     screwed = dial_bolts(assembly, sizes)
     bores = [s for s in made.shapes if s.layer == "BORE" and s not in screwed]
     circle_of(view, screwed)
-    _recesses(view, found, arcs)
+    _recesses(view, parts, arcs)
     for engagement in assembly.kinds:
         number_of = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
-            _slot(view, found, engagement, number_of)
+            _slot(view, parts, engagement, number_of)
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
-    _steps(view, found, reach)
+    _steps(view, parts, reach)
     _rims(view, arcs, reach)
     hub = wheel_hub(assembly, sizes)
     if hub:
@@ -53,14 +53,14 @@ def draw_wheel(view: View, found: Outlines, tolerance: float, curves: str) -> No
     bolted(view, screwed)
 
 
-def _axes(view: View, found: Outlines, reach: float) -> None:
+def _axes(view: View, parts: Outlines, reach: float) -> None:
     """The axes of straight slots, the rollers' way in a curved one."""
-    for i, (engagement, direction) in enumerate(found.assembly.slots):
+    for i, (engagement, direction) in enumerate(parts.assembly.slots):
         if not engagement.slot.curved:
-            for end, mouth in _ends(turned(found.slots[engagement], direction)):
-                view.centre_line(*((end, mouth) if found.assembly.sign > 0.0 else (mouth, end)))
+            for end, mouth in _ends(turned(parts.slots[engagement], direction)):
+                view.centre_line(*((end, mouth) if parts.assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
-            for line in drawings.pitch_lines(found.assembly, engagement, found.fine, "arcs"):
+            for line in drawings.pitch_lines(parts.assembly, engagement, parts.fine, "arcs"):
                 view.draw(line, CENTRE)
 
 
@@ -82,10 +82,10 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
     return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
 
 
-def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> None:
+def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
     """Width, end and depth of a straight slot, and by how much it misses the wheel's centre."""
-    direction = next(d for one, d in found.assembly.slots if one is engagement)
-    walls = turned(found.slots[engagement], direction)
+    direction = next(d for one, d in parts.assembly.slots if one is engagement)
+    walls = turned(parts.slots[engagement], direction)
     ends = _ends(walls)
     end, mouth = ends[0]
     way = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
@@ -93,10 +93,10 @@ def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> No
     corner = walls.segments[0].start
     count *= len(ends)
     if len(ends) == 1:
-        width = sized.slot_width(found.assembly.mechanism, found.sizes.half_width)
+        width = sized.slot_width(parts.assembly.mechanism, parts.sizes.half_width)
         view.linear(corner, walls.segments[-1].end, across, times(count, width))
     else:  # one wall each
-        view.linear(corner, mouth, across, times(count, sized.plain(found.sizes.half_width)))
+        view.linear(corner, mouth, across, times(count, sized.plain(parts.sizes.half_width)))
     foot = _foot(end, way)
     view.linear(foot, end, way, sized.plain(math.dist(foot, end)), near=True)
     view.linear(end, mouth, way, times(count, sized.plain(math.dist(end, mouth))), near=True)
@@ -105,9 +105,9 @@ def _slot(view: View, found: Outlines, engagement: Engagement, count: int) -> No
         view.linear((0.0, 0.0), foot, turn, sized.plain(math.hypot(*foot)))
     rounds = [
         s
-        for one, d in found.assembly.slots
+        for one, d in parts.assembly.slots
         if one is engagement
-        for s in turned(found.slots[one], d).segments
+        for s in turned(parts.slots[one], d).segments
         if isinstance(s, Arc) and math.hypot(*s.centre) > SAME
     ]
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
@@ -120,16 +120,16 @@ def _foot(p: Point, way: float) -> Point:
     return p[0] - along * c, p[1] - along * s
 
 
-def _recesses(view: View, found: Outlines, arcs: list[Arc]) -> None:
+def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
     """The recesses, and where their centres are."""
-    assembly, sizes = found.assembly, found.sizes
+    assembly, sizes = parts.assembly, parts.sizes
     L = assembly.L
     if not sizes.recess:
         return
     about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME]
     own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME]
     deviation = assembly.mechanism.spec.tolerance.center_distance_mm
-    centre = _recess_centre(found)
+    centre = _recess_centre(parts)
     turn = math.atan2(centre[1], centre[0])
     view.linear((0.0, 0.0), centre, turn, sized.plain(L, deviation=deviation), near=True)
     view.of_arcs(own, times(len(own), sized.recess(assembly.mechanism, sizes.recess)), whole=True)
@@ -137,11 +137,11 @@ def _recesses(view: View, found: Outlines, arcs: list[Arc]) -> None:
         view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 
 
-def _recess_centre(found: Outlines) -> Point:
+def _recess_centre(parts: Outlines) -> Point:
     """The centre of the recess that lies farthest to the left."""
-    L = found.assembly.L
+    L = parts.assembly.L
     return min(
-        ((L * math.cos(a), L * math.sin(a)) for a in found.assembly.rests), key=lambda p: p[0]
+        ((L * math.cos(a), L * math.sin(a)) for a in parts.assembly.rests), key=lambda p: p[0]
     )
 
 
@@ -153,15 +153,15 @@ def _rims(view: View, arcs: list[Arc], reach: float) -> None:
             view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 
 
-def _steps(view: View, found: Outlines, reach: float) -> None:
+def _steps(view: View, parts: Outlines, reach: float) -> None:
     """The angles between slots, and from a slot to the middle of a recess."""
-    assembly = found.assembly
+    assembly = parts.assembly
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
     begin = reach
     ways = sorted(
         way
         for engagement, direction in assembly.slots
-        for way in _ways(found, engagement, direction)
+        for way in _ways(parts, engagement, direction)
     )
     steps: dict[str, list[tuple[float, float]]] = {}
     for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
@@ -170,21 +170,21 @@ def _steps(view: View, found: Outlines, reach: float) -> None:
     for text, pairs in steps.items():
         view.angular(pairs, begin, reach, times(len(pairs), text))
     halves: dict[str, list[tuple[float, float]]] = {}
-    for rest in assembly.rests if found.sizes.recess else ():
+    for rest in assembly.rests if parts.sizes.recess else ():
         off = min((rest - way) % math.tau for way in ways)
         halves.setdefault(f"{number(math.degrees(off))}°", []).append((rest - off, rest))
     for text, pairs in halves.items():
         view.angular(pairs, begin, reach, times(len(pairs), text))
 
 
-def _ways(found: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
+def _ways(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
     """The directions of the axes of a slot, or of a pair, in the wheel."""
     if engagement.slot.curved:
         yield direction
         return
-    for (x, y), (u, v) in _ends(turned(found.slots[engagement], direction)):
+    for (x, y), (u, v) in _ends(turned(parts.slots[engagement], direction)):
         way = math.atan2(v - y, u - x)
-        way += 0.0 if found.assembly.sign > 0.0 else math.pi
+        way += 0.0 if parts.assembly.sign > 0.0 else math.pi
         yield direction + math.remainder(way - direction, math.tau)
 
 

@@ -56,28 +56,28 @@ class CapArm(NamedTuple):
         return self.bolts[sector * each : (sector + 1) * each]
 
 
-def has_arm(found: Shells) -> bool:
+def has_arm(parts: Shells) -> bool:
     """Whether there is an arm: rollers on pins in a crank."""
-    return found.assembly.given.spec.drive.CRANKED and found.ball.pin_mm > 0.0
+    return parts.assembly.given.spec.drive.CRANKED and parts.ball.pin_mm > 0.0
 
 
-def crank_arm(found: Shells) -> CapArm:
+def crank_arm(parts: Shells) -> CapArm:
     """The arm of a machine.
 
     Raises GenevaError, naming the key, where the sizes leave no arm round the holes.
     """
-    spec, ball = found.assembly.given.spec, found.ball
-    if not has_arm(found):
+    spec, ball = parts.assembly.given.spec, parts.ball
+    if not has_arm(parts):
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
-    wall, under = found.sizes.wall_min, ball.arm_span_mm[0]
+    wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
     hole = pin_hole(spec.size, ball.pin_mm)
     disc, room = 0.5 * (spec.size.crank_bore_mm or 0.0), ball.radius_mm * ball.arm - hole
     radius = arm_bore(spec, disc, ball.radius_mm, room)
-    hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(found))
-    _refuse(found, hub, hole, eye)
+    hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(parts))
+    _refuse(parts, hub, hole, eye)
     around = hub - reach(spec.size.crank_keyway, radius)  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
-    screwed = bolts(found)
+    screwed = bolts(parts)
     round_hub = RoundHole(POLE, hub + max(around, wall)).angle(under)
     cap, eye = max(ball.lock, round_hub), eye / ball.radius_mm
     about = [Cap(POLE, cap)]
@@ -97,27 +97,27 @@ def crank_arm(found: Shells) -> CapArm:
         reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in about),
         wall=0.0,
     )
-    return made._replace(wall=min(around, _walls(made, found)))
+    return made._replace(wall=min(around, _walls(made, parts)))
 
 
-def _passing(found: Shells) -> float:
+def _passing(parts: Shells) -> float:
     """The widest half of an eye that passes the wheel's hub, mm along the sphere."""
-    ball = found.ball
+    ball = parts.ball
     aside = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
     return ball.radius_mm * (ball.axes - ball.arm - aside)
 
 
-def bolts(found: Shells) -> tuple[RoundHole, ...]:
+def bolts(parts: Shells) -> tuple[RoundHole, ...]:
     """The holes of the bolts that fix the locking sectors to the arm, evenly in each.
 
     Raises GenevaError where there are no sectors to fix.
     """
-    size, ball = found.assembly.given.spec.size, found.ball
-    rims = [sector.boundary[0] for sector in found.crank]
+    size, ball = parts.assembly.given.spec.size, parts.ball
+    rims = [sector.boundary[0] for sector in parts.crank]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     r, directions = bolts_between(size, ball.radius_mm, widths)
     made = []
-    for sector, at in zip(found.crank, directions, strict=False):
+    for sector, at in zip(parts.crank, directions, strict=False):
         rim, _, inner, _ = sector.boundary
         far = 0.5 * (math.pi - inner.angle + rim.angle)
         if size.lock_bolt_circle_mm is not None:
@@ -126,9 +126,9 @@ def bolts(found: Shells) -> tuple[RoundHole, ...]:
     return tuple(made)
 
 
-def _refuse(found: Shells, hub: float, hole: float, eye: float) -> None:
+def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
     """Raise GenevaError, naming the key, for an arm that does not fit on its sphere."""
-    ball = found.ball
+    ball = parts.ball
     under, over = ball.arm_span_mm
     refuse_wide("arm_hub_mm", hub, under, over)
     if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
@@ -139,7 +139,7 @@ def _refuse(found: Shells, hub: float, hole: float, eye: float) -> None:
         )
     room = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     if hub >= room:
-        name = "arm_hub_mm" if found.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
+        name = "arm_hub_mm" if parts.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
         raise GenevaError(
             f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm wide, runs into the pin's "
             f"hole; it must be below {2.0 * room:.6g}",
@@ -147,15 +147,15 @@ def _refuse(found: Shells, hub: float, hole: float, eye: float) -> None:
         )
 
 
-def _walls(made: CapArm, found: Shells) -> float:
+def _walls(made: CapArm, parts: Shells) -> float:
     """The least wall on the arm's inner face, and round bolts in the sectors, where it is least.
 
     Raises GenevaError where holes run into each other, or out of what they are in.
     """
-    ball = found.ball
+    ball = parts.ball
     least = least_wall(made.boundary, made.holes, ball.arm_span_mm[0])
-    for k, sector in enumerate(found.crank if made.bolts else []):
-        own = made.bolts_of(k, len(found.crank))
+    for k, sector in enumerate(parts.crank if made.bolts else []):
+        own = made.bolts_of(k, len(parts.crank))
         least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
     if least <= 0.0:
         raise GenevaError(

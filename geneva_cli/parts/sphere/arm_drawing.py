@@ -32,17 +32,17 @@ def arm(proof: Proof, tolerance: float, curves: str) -> Drawing:
     return Drawing(title, tuple(shapes), solid=plate, shells=solid)
 
 
-def arm_cone(found: Ball) -> Cone:
+def arm_cone(ball: Ball) -> Cone:
     """It touches the sphere amid the arm's thickness where the pins are."""
-    return Cone(0.5 * sum(found.arm_span_mm), found.arm)
+    return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
 
 
-def arm_flat(found: Ball, made: CapArm, tolerance: float, curves: str) -> list[Contour]:
+def arm_flat(ball: Ball, made: CapArm, tolerance: float, curves: str) -> list[Contour]:
     """The arm's boundary, cut open beside its holes, and these.
 
     About the crank's axis it is open as wide as the hub.
     """
-    cone = arm_cone(found)
+    cone = arm_cone(ball)
     hub, *others = made.holes
     ways = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
     cut = _widest_gap(ways) - math.tau  # azimuths rise from there by a whole turn, past 0

@@ -56,12 +56,12 @@ class Swept(NamedTuple):
         return math.hypot(self.inner, self.wide) if self.wide else 0.0
 
 
-def beside_shafts(found: Shells, whole: BuiltBall) -> ShaftGap | None:
+def beside_shafts(parts: Shells, whole: BuiltBall) -> ShaftGap | None:
     """The least gap between a hub or shaft and what turns about the other axis, mm along a sphere.
 
     None where they share no distance from the centre.
     """
-    ball = found.ball
+    ball = parts.ball
     shafts = [(member.part, member.frame is not None) for member in whole.shafts]
     on_wheel, on_crank = (
         [p for p in plates(one.part) if p.layer != ROLLER]
@@ -69,7 +69,7 @@ def beside_shafts(found: Shells, whole: BuiltBall) -> ShaftGap | None:
         for crank, one in ((False, whole.wheel), (True, whole.crank))
     )
     wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
-    pairs = [*product(wheel, [*crank, *_crank_rings(found, whole)])]
+    pairs = [*product(wheel, [*crank, *_crank_rings(parts, whole)])]
     pairs += [*product(crank, [_wheel_ring(ball)])]
     near = SAME * ball.radius_mm
     return min(
@@ -92,15 +92,15 @@ def _round(plate: Plate) -> Iterator[Swept]:
             yield Swept(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
 
 
-def _crank_rings(found: Shells, whole: BuiltBall) -> Iterator[Swept]:
+def _crank_rings(parts: Shells, whole: BuiltBall) -> Iterator[Swept]:
     """What arm, locking sectors, and rollers with their pins sweep about the crank's axis."""
-    ball, arm = found.ball, whole.arm
+    ball, arm = parts.ball, whole.arm
     out = ball.span_mm[1]
     if arm:
         out = ball.arm_span_mm[1]
         yield Swept("arm", False, 0.0, arm.reach, *ball.arm_span_mm)
-    if found.crank:
-        low = min(math.pi - sector.boundary[2].angle for sector in found.crank)
+    if parts.crank:
+        low = min(math.pi - sector.boundary[2].angle for sector in parts.crank)
         yield Swept("locking sector", False, low, ball.lock, *ball.lock_span_mm)
     low, high = ball.arm - ball.roller, ball.arm + ball.roller
     yield Swept("roller", False, low, high, ball.span_mm[0], out)

@@ -45,18 +45,18 @@ class BuiltBall(NamedTuple):
         return self.wheel, self.crank, *self.shafts
 
 
-def built(found: Shells) -> BuiltBall:
+def built(parts: Shells) -> BuiltBall:
     """All parts of a machine.
 
     Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
     """
-    arm = crank_arm(found) if has_arm(found) else None
-    size, ball = found.assembly.given.spec.size, found.ball
+    arm = crank_arm(parts) if has_arm(parts) else None
+    size, ball = parts.assembly.given.spec.size, parts.ball
     return BuiltBall(
         Member(wheel_group(size, ball)),
-        Member(crank_group(found, arm), frame=at_mid_motion(ball)),
+        Member(crank_group(parts, arm), frame=at_mid_motion(ball)),
         arm,
-        tuple(_shafts(found, arm)),
+        tuple(_shafts(parts, arm)),
     )
 
 
@@ -107,12 +107,12 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     return Plate("wheel's hub", HUB, Circle(HUB, AXIS, ball.hub_mm), bored, inside, long)
 
 
-def crank_group(found: Shells, arm: CapArm | None) -> Group:
+def crank_group(parts: Shells, arm: CapArm | None) -> Group:
     """What the crank carries, in its frame, and its arm, if there is one."""
-    ball, size = found.ball, found.assembly.given.spec.size
+    ball, size = parts.ball, parts.assembly.given.spec.size
     members = []
-    for k, region in enumerate(found.crank):
-        screwed = arm.bolts_of(k, len(found.crank)) if arm else ()
+    for k, region in enumerate(parts.crank):
+        screwed = arm.bolts_of(k, len(parts.crank)) if arm else ()
         sector = Shell("locking sector", CRANK, (region,), *ball.lock_span_mm, screwed)
         members.append(Member(sector))
     members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]
@@ -150,12 +150,12 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     return Plate("crank's hub", HUB, Circle(HUB, AXIS, radius), bored, low, high)
 
 
-def _shafts(found: Shells, arm: CapArm | None) -> Iterator[Member]:
+def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
     """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
 
     There is no frame: they end the arm's thickness beyond what they carry.
     """
-    ball, size = found.ball, found.assembly.given.spec.size
+    ball, size = parts.ball, parts.assembly.given.spec.size
     under, over = ball.arm_span_mm
     length = size.wheel_hub_length_mm
     hubs = max(over, ball.span_mm[1] + (length or 0.0) if ball.hub_mm else 0.0)

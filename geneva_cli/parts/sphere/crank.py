@@ -30,30 +30,30 @@ POINTED = 0.2  # no sector reaches nearer to the axis
 THIN = 0.05  # a ring as thin as this holds nothing
 
 
-def sectors(found: Ball) -> list[Region]:
+def sectors(ball: Ball) -> list[Region]:
     """Where the crank locks: outside of what the wheel sweeps in a motion.
 
     Between two rollers, or over as much of that as the wheel leaves free.
     Raises NoRoom where nothing is left of them.
     """
-    spare = min(0.25 * (found.recess - found.lock) + 0.1 * found.roller, 0.1 * found.lock)
+    spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # what is about the axis fills a cone up to where it ends
-    about = math.asin(min(1.0, found.about_crank_mm / found.lock_span_mm[0]))
-    least = max(POINTED * found.lock, about)
+    about = math.asin(min(1.0, ball.about_crank_mm / ball.lock_span_mm[0]))
+    least = max(POINTED * ball.lock, about)
     regions = []
-    spans = locked(found)
-    ways = swept(found) if spans else None
+    spans = locked(ball)
+    ways = swept(ball) if spans else None
     for start, end in spans:
         middle, whole = 0.5 * (start + end), 0.5 * (end - start)
         assert ways
-        reached = _reached(found, ways, middle)
+        reached = _reached(ball, ways, middle)
 
         def nearest(half: float, reached: Callable[[float], float] = reached) -> float:
             return max(reached(half) + spare, least)
 
-        most = (1.0 - THIN) * found.lock
+        most = (1.0 - THIN) * ball.lock
         if about > most:
-            wide = 2.0 * found.lock_span_mm[0] * math.sin(most)
+            wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
             raise NoRoom(
                 f"the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
                 f"crank_hub_mm must be below {wide:.4g}, or 0, or lock_radius_mm greater; "
@@ -64,7 +64,7 @@ def sectors(found: Ball) -> list[Region]:
         i = bisect_left(SHARES, True, key=lambda share: nearest(share * whole) <= most)
         if i < len(SHARES):
             half = SHARES[i] * whole
-            regions.append(_sector(found.lock, nearest(half), middle - half, middle + half))
+            regions.append(_sector(ball.lock, nearest(half), middle - half, middle + half))
         else:
             raise NoRoom(
                 "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
@@ -74,14 +74,14 @@ def sectors(found: Ball) -> list[Region]:
     return regions
 
 
-def locked(found: Ball) -> list[tuple[float, float]]:
+def locked(ball: Ball) -> list[tuple[float, float]]:
     """Where the crank locks: azimuths about its axis, from and to."""
-    if not found.lock:
+    if not ball.lock:
         return []
-    after = (*found.rollers[1:], found.rollers[0] + math.tau)
+    after = (*ball.rollers[1:], ball.rollers[0] + math.tau)
     spans = [
-        (a + found.half_motion, b - found.half_motion)
-        for a, b in zip(found.rollers, after, strict=True)
+        (a + ball.half_motion, b - ball.half_motion)
+        for a, b in zip(ball.rollers, after, strict=True)
     ]
     return [(a, b) for a, b in spans if b - a > SAME]
 
@@ -99,62 +99,62 @@ def _sector(high: float, low: float, start: float, end: float) -> Region:
     return Region(boundary, POLE)
 
 
-def rollers(found: Ball) -> list[Region]:
+def rollers(ball: Ball) -> list[Region]:
     """The rollers' cones."""
-    return [Cap(place(found.arm, azimuth), found.roller).region for azimuth in found.rollers]
+    return [Cap(place(ball.arm, azimuth), ball.roller).region for azimuth in ball.rollers]
 
 
-def at_mid_motion(found: Ball) -> Rotation:
+def at_mid_motion(ball: Ball) -> Rotation:
     """The crank's frame in the wheel's, with the first roller at mid-motion."""
-    axis = found.crank_axis(0.0)
-    ahead = place(found.axes - QUARTER, 0.0)
+    axis = ball.crank_axis(0.0)
+    ahead = place(ball.axes - QUARTER, 0.0)
     return Rotation(ahead, cross(axis, ahead), axis)
 
 
-def _reached(found: Ball, ways: tuple[Array, Array], middle: float) -> Callable[[float], float]:
+def _reached(ball: Ball, ways: tuple[Array, Array], middle: float) -> Callable[[float], float]:
     """How near to the locking edge, from the crank's axis, the wheel comes within so much on either
     side of an azimuth, in all motions; radians, 0 where it stays clear of it."""
     polar, azimuth = ways
-    ahead = [azimuth + turn - middle for turn in found.rollers]
+    ahead = [azimuth + turn - middle for turn in ball.rollers]
     off = np.abs(np.remainder(np.stack(ahead) + math.pi, math.tau) - math.pi)
-    near = polar < found.lock * (1.0 - SAME)
+    near = polar < ball.lock * (1.0 - SAME)
 
     def reached(half: float) -> float:
         inside = near & (off < half * (1.0 - SAME))
         # what comes in or goes out from one position to the next does so on its way
         inside[:, 1:] |= inside[:, :-1]
         inside[:, :-1] |= inside[:, 1:]
-        return min(found.lock, float((polar * inside).max(initial=0.0)))
+        return min(ball.lock, float((polar * inside).max(initial=0.0)))
 
     return reached
 
 
-def swept(found: Ball) -> tuple[Array, Array]:
+def swept(ball: Ball) -> tuple[Array, Array]:
     """The ways of the wheel's edge in the crank's frame, in the motion of the first roller.
 
     Polar angles from the crank's axis and azimuths about it, radians, a row a position; only what
     comes within the locking edge. The crank turns clockwise about its axis where the wheel turns
     counterclockwise.
     """
-    frame = np.column_stack(at_mid_motion(found))
-    wheel = edge_points(found, EACH)
+    frame = np.column_stack(at_mid_motion(ball))
+    wheel = edge_points(ball, EACH)
     # the wheel turns by half a step either way: what is nearer to the crank's axis then
-    off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - found.half_step, 0.0)
-    flat = math.sin(found.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
-    wheel = wheel[math.cos(found.axes) * wheel[:, 2] + flat > math.cos(found.lock) - SAME]
-    turns = np.linspace(-found.half_motion, found.half_motion, STEPS)
-    x, y, up = np.moveaxis((wheel @ _index(found, frame, turns)) @ frame, -1, 0)
+    off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
+    flat = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
+    wheel = wheel[math.cos(ball.axes) * wheel[:, 2] + flat > math.cos(ball.lock) - SAME]
+    turns = np.linspace(-ball.half_motion, ball.half_motion, STEPS)
+    x, y, up = np.moveaxis((wheel @ _index(ball, frame, turns)) @ frame, -1, 0)
     # less than their angles tells which points come there; those along the edge do not
-    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME) * found.lock))
+    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME) * ball.lock))
     x, y, up = x[:, comes], y[:, comes], up[:, comes]
     return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
 
 
-def _index(found: Ball, frame: Array, turns: Array) -> Array:
+def _index(ball: Ball, frame: Array, turns: Array) -> Array:
     """The rotations of the wheel that bring its slot under the roller, (n, 3, 3), for rows of
     points.
     """
-    flat, up = math.sin(found.arm), np.full(len(turns), math.cos(found.arm))
+    flat, up = math.sin(ball.arm), np.full(len(turns), math.cos(ball.arm))
     x, y, _ = frame @ np.stack((flat * np.cos(turns), -flat * np.sin(turns), up))
     away = np.hypot(x, y)
     c, s, no = x / away, y / away, 0.0 * away

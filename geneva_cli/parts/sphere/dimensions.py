@@ -62,14 +62,14 @@ def _sector(name: str, region: Region) -> Iterator[Dimension]:
     yield Dimension(f"{name}: width", math.degrees(rim.sweep), "deg")
 
 
-def _arm(found: Ball, arm: CapArm) -> Iterator[Dimension]:
-    inner, outer = found.arm_span_mm
+def _arm(ball: Ball, arm: CapArm) -> Iterator[Dimension]:
+    inner, outer = ball.arm_span_mm
     yield Dimension("arm's inner radius", inner, "mm")
     yield Dimension("arm's outer radius", outer, "mm")
     yield from _axle("arm", arm.bore, arm.hub)
     yield Dimension("arm's cap, from the crank's axis", math.degrees(arm.cap), "deg")
     yield Dimension("arm's eyes, half angle", math.degrees(arm.eye), "deg")
-    yield Dimension("pins", 2.0 * found.pin_mm, "mm")
+    yield Dimension("pins", 2.0 * ball.pin_mm, "mm")
     yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
     yield from _bolts("lock's bolt", arm.bolts)
 
@@ -82,8 +82,8 @@ def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
         yield Dimension(f"{name} {k}: azimuth", math.degrees(azimuth), "deg")
 
 
-def _cones(found: Ball) -> Iterator[Dimension]:
-    for whose, cone in (("wheel", wheel_cone(found)), ("crank", crank_cone(found))):
+def _cones(ball: Ball) -> Iterator[Dimension]:
+    for whose, cone in (("wheel", wheel_cone(ball)), ("crank", crank_cone(ball))):
         at = math.degrees(cone.polar)
         yield Dimension(f"{whose} laid flat: cone touches the sphere at", at, "deg")
         yield Dimension(f"{whose} laid flat: from there to its apex", abs(cone.apex_mm), "mm")

@@ -57,9 +57,9 @@ def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
     return _drawing(found, title, [*left, *beside], whole)._replace(look=Annotations((), ()))
 
 
-def _drawing(found: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
+def _drawing(ball: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
     """What is laid flat as plates of sheet, and the shells that it becomes."""
-    inner, outer = found.span_mm
+    inner, outer = ball.span_mm
     plates = [
         Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
         for s in shapes
@@ -68,58 +68,58 @@ def _drawing(found: Ball, title: str, shapes: list[Shape], shells: Part) -> Draw
     return Drawing(title, tuple(shapes), solid=Group(title, tuple(plates)), shells=shells)
 
 
-def wheel_cone(found: Ball) -> Cone:
+def wheel_cone(ball: Ball) -> Cone:
     """It touches the sphere amid the slots' length."""
-    mouth = math.acos(math.cos(found.rim) / math.cos(found.half_width))
-    return Cone(found.radius_mm, 0.5 * (found.bottom + mouth))
+    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + mouth))
 
 
-def crank_cone(found: Ball) -> Cone:
+def crank_cone(ball: Ball) -> Cone:
     """It touches the sphere where the rollers are."""
-    return Cone(found.radius_mm, found.arm)
+    return Cone(ball.radius_mm, ball.arm)
 
 
-def wheel_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
+def wheel_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
     """The wheel's outline on its cone laid flat, and the ways of rollers."""
-    b = found.half_step
-    slot = slot_flat(found, cone, tolerance, curves)
-    mouth = math.acos(math.cos(found.rim) / math.cos(found.half_width))
-    ends = [cone.point(polar, 0.0) for polar in (mouth, found.bottom)]
+    b = ball.half_step
+    slot = slot_flat(ball, cone, tolerance, curves)
+    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
+    ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
     way = Contour(PITCH, (Line(*ends),), closed=False)
     outer: list[Segment] = []
     pitch: list[Shape] = []
-    for k in range(found.z):
+    for k in range(ball.z):
 
         def to(p: Point, k: int = k) -> Point:
             return cone.turned(p, 2 * k * b)
 
         outer += mapped(slot, to).segments
         pitch.append(mapped(way, to))
-    inner = [cone.point(found.inner, (2 * k - 1) * b) for k in range(found.z + 1)][::-1]
+    inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
     rim = closed("WHEEL", [*outer, Line(last, inner[0]), *back, Line(inner[-1], first)])
     return [rim, *pitch]
 
 
-def slot_flat(found: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
+def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
     """The edge about the first slot, from amid two slots to amid the next two."""
     one: list[Segment] = []
-    for arc in edge(found):
+    for arc in edge(ball):
         one += cone.segments(arc, 0.0, tolerance, curves)
     return Contour("WHEEL", joined(one), closed=False)
 
 
 def crank_flat(
-    found: Ball, locks: list[Region], cone: Cone, tolerance: float, curves: str
+    ball: Ball, locks: list[Region], cone: Cone, tolerance: float, curves: str
 ) -> list[Shape]:
     """Locking sectors and rollers on the crank's cone laid flat, and the rollers' circle."""
     shapes: list[Shape] = []
-    for region, (a, b) in zip(locks, locked(found), strict=True):
+    for region, (a, b) in zip(locks, locked(ball), strict=True):
         shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))
-    for region, about in zip(rollers(found), found.rollers, strict=True):
+    for region, about in zip(rollers(ball), ball.rollers, strict=True):
         shapes.append(flat_region("ROLLER", region, cone, about, tolerance, curves))
-    ends = cone.point(found.arm, 0.0), cone.point(found.arm, math.tau)
+    ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
     shapes.append(Contour(PITCH, (cone.level(*ends, math.tau),), closed=False))
     return shapes
 

@@ -35,18 +35,18 @@ ROUNDING = 1e-7  # radians, of a cosine's angle
 class BallGaps:
     """The gaps between one machine's wheel, crank and rollers at any positions."""
 
-    def __init__(self, assembly: Assembly, found: Ball, sectors: list[Region]) -> None:
-        self.assembly, self.found = assembly, found
-        self.near = NEAR * found.radius_mm
-        every = [arc for k in range(found.z) for arc in edge(found, 2 * k * found.half_step)]
+    def __init__(self, assembly: Assembly, ball: Ball, sectors: list[Region]) -> None:
+        self.assembly, self.found = assembly, ball
+        self.near = NEAR * ball.radius_mm
+        every = [arc for k in range(ball.z) for arc in edge(ball, 2 * k * ball.half_step)]
         self.wheel = Arcs(every)
-        self.around = Arcs(edge(found), closed=False)  # one slot, which is as all others are
+        self.around = Arcs(edge(ball), closed=False)  # one slot, which is as all others are
         self.sectors = [Arcs(region.boundary) for region in sectors]
-        self._turning = WheelCaps(self.around, 2.0 * found.half_step)
-        self._roller = round_cap(found.roller)
+        self._turning = WheelCaps(self.around, 2.0 * ball.half_step)
+        self._roller = round_cap(ball.roller)
         self._sides = caps(self.sectors) if self.sectors else None
-        self._frame = np.array(at_mid_motion(found))  # rows: its axes in the wheel's frame
-        self._rollers = np.array([place(found.arm, azimuth) for azimuth in found.rollers])
+        self._frame = np.array(at_mid_motion(ball))  # rows: its axes in the wheel's frame
+        self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
         corners = [
             one.at(np.arange(len(one)), share * one.sweep)
             for one in self.sectors

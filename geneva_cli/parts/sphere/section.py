@@ -29,12 +29,12 @@ DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
 
-def section(found: Shells, whole: BuiltBall, scale: float) -> View:
+def section(parts: Shells, whole: BuiltBall, scale: float) -> View:
     """All parts as the plane of the shafts cuts them, and angles from the wheel's axis.
 
     Locking sectors are turned into it.
     """
-    ball, view = found.ball, View("section through both shafts", scale)
+    ball, view = parts.ball, View("section through both shafts", scale)
     inner, outer = ball.span_mm
     end = ball.bottom - ball.half_width
     # across the wheel's axis there is a slot too, or what is between two
@@ -45,9 +45,9 @@ def section(found: Shells, whole: BuiltBall, scale: float) -> View:
     for low, high in ((opening, radial(end)), (radial(-back), closing)):
         view.draw(_ring(inner, outer, low, high), OUTLINE)
     view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
-    for ring in _crank(found, whole):
+    for ring in _crank(parts, whole):
         view.draw(ring, OUTLINE)
-    for plate, angle in _plates(found, whole):
+    for plate, angle in _plates(parts, whole):
         for shape in _along(plate, angle):
             view.draw(shape, OUTLINE)
     middle, far = ball.axes - ball.arm, max(_far(whole), outer)
@@ -62,7 +62,7 @@ def section(found: Shells, whole: BuiltBall, scale: float) -> View:
         for radius in ball.arm_span_mm:
             arc = _arc(radius, start - 0.5 * whole.arm.cap, start)
             view.of_arcs([arc], sized.plain(radius, "SR "))
-    _told(view, ball, end, middle, _reach(found), far)
+    _told(view, ball, end, middle, _reach(parts), far)
     return view
 
 
@@ -79,16 +79,16 @@ def _told(
         view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
 
 
-def _crank(found: Shells, whole: BuiltBall) -> Iterator[Contour]:
+def _crank(parts: Shells, whole: BuiltBall) -> Iterator[Contour]:
     """Rollers, locking sector and arm."""
-    ball, arm = found.ball, whole.arm
+    ball, arm = parts.ball, whole.arm
     for middle in _rollers(ball):
         sides = [radial(middle - ball.roller), radial(middle + ball.roller)]
         if arm:
             sides[1:1] = [beside(middle, -ball.pin_mm), beside(middle, ball.pin_mm)]
         for low, high in zip(sides[::2], sides[1::2], strict=True):
             yield _ring(*ball.span_mm, low, high)
-    reach = _reach(found)
+    reach = _reach(parts)
     if reach:
         yield _ring(*ball.lock_span_mm, *(radial(ball.axes + angle) for angle in reach))
     if arm:
@@ -117,12 +117,12 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     return [end]
 
 
-def _plates(found: Shells, whole: BuiltBall) -> Iterator[tuple[Plate, float]]:
+def _plates(parts: Shells, whole: BuiltBall) -> Iterator[tuple[Plate, float]]:
     """Hubs, shafts and the pin, and the angles of their axes from the wheel's."""
-    axes = found.ball.axes
+    axes = parts.ball.axes
     yield from ((plate, 0.0) for plate in plates(whole.wheel.part))
     for plate in dict.fromkeys(plates(whole.crank.part)):
-        at = _rollers(found.ball) if plate.layer == ROLLER else [axes]
+        at = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
         yield from ((plate, angle) for angle in at)
     for member in whole.shafts:
         assert isinstance(member.part, Plate)
@@ -152,9 +152,9 @@ def _far(whole: BuiltBall) -> float:
     return max((m.part.high for m in whole.shafts if isinstance(m.part, Plate)), default=0.0)
 
 
-def _reach(found: Shells) -> tuple[float, ...]:
+def _reach(parts: Shells) -> tuple[float, ...]:
     """The locking sectors' inner edge and their locking one, from the crank's axis."""
-    arcs = [arc for one in found.crank for arc in one.boundary]
+    arcs = [arc for one in parts.crank for arc in one.boundary]
     angles = [math.acos(max(-1.0, min(1.0, arc.start[2]))) for arc in arcs]
     return (min(angles), max(angles)) if angles else ()
 

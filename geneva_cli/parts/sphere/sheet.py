@@ -89,11 +89,11 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)
 
 
-def _arm(proof: Proof, found: Ball, made: CapArm, flat: list[Contour], scale: float) -> View:
+def _arm(proof: Proof, ball: Ball, made: CapArm, flat: list[Contour], scale: float) -> View:
     """The arm laid flat, and what its pins are pressed into."""
-    view = _flat("crank", found, arm_cone(found), flat, scale)
+    view = _flat("crank", ball, arm_cone(ball), flat, scale)
     view.title = "arm, laid flat"
-    hole, pin = made.pins[0].radius, found.pin_mm
+    hole, pin = made.pins[0].radius, ball.pin_mm
     text = f"{sized.pin_hole(proof.mechanism, hole)} through, to the sphere's centre"
     view.remark(f"pins: {times(len(made.pins), text)}; pin {sized.pin(pin)}")
     view.remark(f"hub: {sized.plain(2.0 * made.hub, 'Ø ')} through, about the crank's axis")
@@ -124,18 +124,18 @@ def _axles(proof: Proof, whole: BuiltBall, scale: float) -> Iterator[View]:
         yield view
 
 
-def _flat(whose: str, found: Ball, cone: Cone, shapes: Sequence[Shape], scale: float) -> View:
+def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: float) -> View:
     """A cone laid flat: its radii from the apex, the depth of a slot, the angles between slots."""
     view = View(f"{whose}, laid flat", scale)
     view.remark(cone.said(whose))
-    shift = _shift(found, cone)
+    shift = _shift(ball, cone)
     near = shift != 0.0
     moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
     for shape in moved:
         view.draw(shape, CENTRE if shape.layer == PITCH else OUTLINE)
     contours = [s for s in moved if isinstance(s, Contour)]
     if near:
-        view.cross((0.0, 0.0), CROSS * found.radius_mm)
+        view.cross((0.0, 0.0), CROSS * ball.radius_mm)
         far = max(math.hypot(*s.start) for c in contours for s in c.segments)
         _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
         radii: dict[str, list[Arc]] = {}
@@ -152,33 +152,33 @@ def _flat(whose: str, found: Ball, cone: Cone, shapes: Sequence[Shape], scale: f
     if near:
         legs = sorted(math.atan2(way.start[1], way.start[0]) for way in (first, after))
         text = f"{number(math.degrees(abs(legs[1] - legs[0])), DECIMALS)}°"
-        view.angular([(legs[0], legs[1])], far, far, times(found.z - 1, text))
+        view.angular([(legs[0], legs[1])], far, far, times(ball.z - 1, text))
     else:
-        view.linear(first.start, after.start, UP, times(found.z - 1, sized.plain(
+        view.linear(first.start, after.start, UP, times(ball.z - 1, sized.plain(
             abs(after.start[1] - first.start[1]))))  # fmt: skip
     return view
 
 
-def _shift(found: Ball, cone: Cone) -> float:
+def _shift(ball: Ball, cone: Cone) -> float:
     """From a cone's apex to where it touches, mm; 0 where that is too far for a sheet."""
-    near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * found.radius_mm
+    near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * ball.radius_mm
     return cone.apex_mm if near else 0.0
 
 
-def flat_slot(found: Ball, tolerance: float) -> Block:
+def flat_slot(ball: Ball, tolerance: float) -> Block:
     """A table of half of a slot, laid flat: its edge from amid two slots to its end."""
-    cone, close = wheel_cone(found), max(tolerance, COARSE * found.radius_mm)
-    shift = _shift(found, cone)
+    cone, close = wheel_cone(ball), max(tolerance, COARSE * ball.radius_mm)
+    shift = _shift(ball, cone)
     points: list[Point] = []
-    for piece in slot_flat(found, cone, FINE * close, "arcs").segments:
+    for piece in slot_flat(ball, cone, FINE * close, "arcs").segments:
 
         def curve(t: Array, piece: Segment = piece) -> Array:
             return np.array([at(piece, float(share)) for share in t])
 
         for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
-            if y < -SAME * found.radius_mm and (not points or math.dist(points[-1], (x, y)) > SAME):
+            if y < -SAME * ball.radius_mm and (not points or math.dist(points[-1], (x, y)) > SAME):
                 points.append((float(x), float(y)))
-    points.append(cone.point(found.bottom - found.half_width, 0.0))
+    points.append(cone.point(ball.bottom - ball.half_width, 0.0))
     shown = np.array(points) + np.array([shift, 0.0])
     origin = "the cone's apex" if shift else "where the cone touches"
     title = f"slot 1 laid flat: points of its edge from {origin}{MIRRORED}"

@@ -190,14 +190,14 @@ def _refuse_slots(bottom: float, w: float, z: int) -> None:
         )
 
 
-def _refuse(found: Ball) -> None:
-    if found.inner <= 0.0:
+def _refuse(ball: Ball) -> None:
+    if ball.inner <= 0.0:
         raise NoRoom(
             "the wheel has no bore, and no opening about its axis: the slots' ends are no farther "
             "from it than a roller's width; a wheel_bore_mm, or a smaller roller, is needed",
             ("size", "wheel_bore_mm"),
         )
-    if found.opened() + found.corner() > (1.0 - LEAST_HORN) * found.half_step:
+    if ball.opened() + ball.corner() > (1.0 - LEAST_HORN) * ball.half_step:
         raise NoRoom(
             "no horn is left between slot and recess at the rim: a smaller lock_radius_mm may "
             "leave one",

@@ -22,96 +22,96 @@ POLE = (0.0, 0.0, 1.0)
 WEB = 1.0  # radians: no farther from its axis the cap in the wheel's middle reaches
 
 
-def wheel_regions(found: Ball, inner: float) -> list[Region]:
+def wheel_regions(ball: Ball, inner: float) -> list[Region]:
     """The wheel's slotted ring from an angle on: a region a slot, which share the meridians between
     the slots."""
-    b, z = found.half_step, found.z
-    between = [place(_end(found), (2 * k - 1) * b) for k in range(z)]
+    b, z = ball.half_step, ball.z
+    between = [place(_end(ball), (2 * k - 1) * b) for k in range(z)]
     ends = [place(inner, (2 * k - 1) * b) for k in range(z)]
     return [
-        _region(found, 2 * k * b, (between[k], between[after]), (ends[k], ends[after]), inner)
+        _region(ball, 2 * k * b, (between[k], between[after]), (ends[k], ends[after]), inner)
         for k in range(z)
         for after in ((k + 1) % z,)
     ]
 
 
-def web_angle(found: Ball) -> float:
+def web_angle(ball: Ball) -> float:
     """How far the cap about the wheel's axis reaches that closes its slotted ring."""
-    return min(found.inner, WEB)
+    return min(ball.inner, WEB)
 
 
-def web_region(found: Ball, inner: float) -> Region:
+def web_region(ball: Ball, inner: float) -> Region:
     """That cap."""
-    b, z = found.half_step, found.z
+    b, z = ball.half_step, ball.z
     at = [place(inner, (2 * k - 1) * b) for k in range(z)]
     return Region(tuple(SphereArc(POLE, inner, at[k], at[(k + 1) % z]) for k in range(z)), POLE)
 
 
-def edge(found: Ball, at: float = 0.0) -> list[SphereArc]:
+def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
     """The edge about the slot at an azimuth, from the meridian before it to the one after."""
-    b = found.half_step
-    return _edge(found, at, place(_end(found), at - b), place(_end(found), at + b))
+    b = ball.half_step
+    return _edge(ball, at, place(_end(ball), at - b), place(_end(ball), at + b))
 
 
-def edge_points(found: Ball, each: int = 200) -> Array:
+def edge_points(ball: Ball, each: int = 200) -> Array:
     """Points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
     share = np.arange(each) / each
-    one = np.concatenate([arc.at(arc.sweep * share)[0] for arc in edge(found)])
-    angle = 2.0 * found.half_step * np.arange(found.z)[:, None]  # of each slot
+    one = np.concatenate([arc.at(arc.sweep * share)[0] for arc in edge(ball)])
+    angle = 2.0 * ball.half_step * np.arange(ball.z)[:, None]  # of each slot
     c, s = np.cos(angle), np.sin(angle)
     x, y, up = one.T
     slots = np.broadcast_arrays(x * c - y * s, x * s + y * c, up)
     return np.stack(slots, axis=2).reshape(-1, 3)
 
 
-def _end(found: Ball) -> float:
+def _end(ball: Ball) -> float:
     """The polar angle of the edge on the meridian between two slots."""
-    return found.axes - found.recess if found.recess else found.rim
+    return ball.axes - ball.recess if ball.recess else ball.rim
 
 
 def _region(
-    found: Ball,
+    ball: Ball,
     at: float,
     between: tuple[Vector, Vector],
     ends: tuple[Vector, Vector],
     inner: float,
 ) -> Region:
-    b = found.half_step
+    b = ball.half_step
     sides = [(-math.sin(a), math.cos(a), 0.0) for a in (at - b, at + b)]
     up = SphereArc(sides[0], QUARTER, ends[0], between[0])
     down = SphereArc(opposite(sides[1]), QUARTER, between[1], ends[1])
     back = SphereArc(opposite(POLE), math.pi - inner, ends[1], ends[0])
-    middle = place(0.5 * (inner + found.rim), at)
-    return Region((*_edge(found, at, *between), down, back, up), middle)
+    middle = place(0.5 * (inner + ball.rim), at)
+    return Region((*_edge(ball, at, *between), down, back, up), middle)
 
 
-def _edge(found: Ball, at: float, start: Vector, end: Vector) -> list[SphereArc]:
+def _edge(ball: Ball, at: float, start: Vector, end: Vector) -> list[SphereArc]:
     """Recess, rim, wall, round, wall, rim and recess, counterclockwise about the wheel's axis."""
-    b, w, corner = found.half_step, found.half_width, found.corner()
+    b, w, corner = ball.half_step, ball.half_width, ball.corner()
     out = []
     low, high = start, end
-    if found.recess:
-        low = place(found.rim, at - b + found.opened())
-        high = place(found.rim, at + b - found.opened())
-        out.append(_recess(found, at - b, start, low))
-    mouths = [place(found.rim, at - corner), place(found.rim, at + corner)]
-    middle, aside = place(found.bottom, at), (-math.sin(at), math.cos(at), 0.0)
+    if ball.recess:
+        low = place(ball.rim, at - b + ball.opened())
+        high = place(ball.rim, at + b - ball.opened())
+        out.append(_recess(ball, at - b, start, low))
+    mouths = [place(ball.rim, at - corner), place(ball.rim, at + corner)]
+    middle, aside = place(ball.bottom, at), (-math.sin(at), math.cos(at), 0.0)
     ends = [_beside(middle, aside, -w), _beside(middle, aside, w)]
     wall = QUARTER - w
     out += [
-        SphereArc(POLE, found.rim, low, mouths[0]),
+        SphereArc(POLE, ball.rim, low, mouths[0]),
         SphereArc(opposite(aside), wall, mouths[0], ends[0]),
         SphereArc(opposite(middle), math.pi - w, ends[0], ends[1]),
         SphereArc(aside, wall, ends[1], mouths[1]),
-        SphereArc(POLE, found.rim, mouths[1], high),
+        SphereArc(POLE, ball.rim, mouths[1], high),
     ]
-    if found.recess:
-        out.append(_recess(found, at + b, high, end))
+    if ball.recess:
+        out.append(_recess(ball, at + b, high, end))
     return out
 
 
-def _recess(found: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc:
-    return SphereArc(opposite(found.crank_axis(azimuth)), math.pi - found.recess, start, end)
+def _recess(ball: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc:
+    return SphereArc(opposite(ball.crank_axis(azimuth)), math.pi - ball.recess, start, end)
 
 
 def _beside(at: Vector, aside: Vector, angle: float) -> Vector:

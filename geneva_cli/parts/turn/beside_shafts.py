@@ -61,34 +61,34 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
     return gap - radius
 
 
-def beside_shafts(found: Outlines) -> ShaftGap | None:
+def beside_shafts(parts: Outlines) -> ShaftGap | None:
     """The least gap of all; None where nothing passes a hub or shaft.
 
     Raises GenevaError for sizes that leave no parts.
     """
-    whole = built(found, pitch=False)
+    whole = built(parts, pitch=False)
     turning = _rings_of((whole.wheel, whole.crank))
     others = _rings_of((*whole.first, *whole.standing[:-1]))
-    return _least(found, whole, turning, [*turning, *others])
+    return _least(parts, whole, turning, [*turning, *others])
 
 
-def beside_gears(found: Outlines) -> ShaftGap | None:
+def beside_gears(parts: Outlines) -> ShaftGap | None:
     """The least gap between noncircular gears and the hubs and shafts that pass them; else None.
 
     Raises GenevaError for sizes that leave no parts.
     """
-    if found.assembly.given.spec.drive.gears is None:
+    if parts.assembly.given.spec.drive.gears is None:
         return None
-    whole = built(found, pitch=False)
+    whole = built(parts, pitch=False)
     turning = _rings_of((whole.wheel, whole.crank))
-    return _least(found, whole, turning, list(_noncircular(found)))
+    return _least(parts, whole, turning, list(_noncircular(parts)))
 
 
 def _least(
-    found: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]
+    parts: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]
 ) -> ShaftGap | None:
     """The least gap of some rings to the shafts, and to the hubs among wheel and crank."""
-    near = SAME * found.assembly.L
+    near = SAME * parts.assembly.L
     axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
     return min(
         (
@@ -104,14 +104,14 @@ def _least(
     )
 
 
-def _noncircular(found: Outlines) -> Iterator[Ring]:
+def _noncircular(parts: Outlines) -> Iterator[Ring]:
     """The rings of noncircular gears, by the farthest points of their pitch curves."""
-    given = found.assembly.given
+    given = parts.assembly.given
     pair, L = given.spec.drive.gears, given.center_distance_mm
     if pair is None:
         return
     (_, driven), (_, driver) = pitch_radii(pair)
-    low, high = gear_span(Proof(given, found))
+    low, high = gear_span(Proof(given, parts))
     yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
 

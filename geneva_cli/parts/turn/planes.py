@@ -58,26 +58,26 @@ class Planes(NamedTuple):
     way_out: Meeting | None  # None where it is free
 
 
-def planes(found: Outlines) -> Planes:
+def planes(parts: Outlines) -> Planes:
     """The least gaps between links and what passes through their planes.
 
     Raises GenevaError where the sizes leave no links.
     """
-    given = found.assembly.given
+    given = parts.assembly.given
     turns = given.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
     every = links_at(given, turn)
     links = [link for link in every if not link.radius_mm]
     if not every:
         return Planes(None, None)
-    made = drawn_links(given, found)
+    made = drawn_links(given, parts)
     assert made.sizes is not None
-    geared = list(_gears(found, made, every, turn))
+    geared = list(_gears(parts, made, every, turn))
     if not links:
         return Planes(min(geared, default=None), None)
     outlines = _outlines(made)
-    shaft = _Shaft(found, links, outlines, made)
-    passing = [*_passing(found, links, made.sizes, turn), *shaft.between()]
+    shaft = _Shaft(parts, links, outlines, made)
+    passing = [*_passing(parts, links, made.sizes, turn), *shaft.between()]
     met = [
         _meeting(link, outlines[link.name], one, turn)
         for link in links
@@ -90,21 +90,21 @@ def planes(found: Outlines) -> Planes:
     return Planes(min(met, default=None), blocked)
 
 
-def _gears(found: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
+def _gears(parts: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
     """The gears' gaps to the wheel's hub and shaft, which pass through their plane.
 
     A first wheel is no gear: ``beside_shafts`` has its gap.
     """
     assert made.sizes is not None
-    if found.assembly.given.spec.drive.IN_SERIES:
+    if parts.assembly.given.spec.drive.IN_SERIES:
         return
     gears = [link for link in links if link.radius_mm]
     for gear, link in zip(made.gears, gears, strict=True):
         away = np.abs(places(link)[0])
         on_shaft = bool(
-            away.max() < SAME * found.assembly.L
+            away.max() < SAME * parts.assembly.L
         )  # which fills its bore; a hub does not
-        for one in _on_wheel(found, [link], made.sizes, 0.0 * turn):
+        for one in _on_wheel(parts, [link], made.sizes, 0.0 * turn):
             gaps = away - gear.outer - one.radius
             if on_shaft:
                 if one.radius <= gear.bore:
@@ -114,14 +114,14 @@ def _gears(found: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -
             yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
 
 
-def crank_stop(found: Outlines, bars: Links) -> float | None:
+def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """How far down the crank's shaft goes along the axis where a link is in its way; else None."""
-    given = found.assembly.given
+    given = parts.assembly.given
     turn = np.linspace(-180.0, 180.0, LOOKS + 1) * given.spec.drive.turns
     links = [link for link in links_at(given, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
-    shaft = _Shaft(found, links, _outlines(bars), bars)
+    shaft = _Shaft(parts, links, _outlines(bars), bars)
     blocked = shaft.below(turn)
     if blocked is None or blocked.gap >= 0.0:
         return None
@@ -134,27 +134,27 @@ def _outlines(bars: Links) -> dict[str, Contour]:
     }
 
 
-def _passing(found: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
-    yield from _on_wheel(found, links, sizes, 0.0 * turn)
-    for one in joined(links, SAME * found.assembly.L):
+def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
+    yield from _on_wheel(parts, links, sizes, 0.0 * turn)
+    for one in joined(links, SAME * parts.assembly.L):
         for plane in range(min(one.planes) + 1, max(one.planes)):
             if plane not in one.planes:
                 name = f"the pin of {' and '.join(one.names)}"
                 yield Round(name, plane, one.way, sizes.ring)
 
 
-def _on_wheel(found: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
+def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
     """The wheel's hub, in the planes that it reaches, and its shaft in those below it."""
-    if found.assembly.sign < 0.0:
+    if parts.assembly.sign < 0.0:
         return
-    hub, shaft = found.sizes.wheel_hub, wheel_shaft_radius(found)
-    reach = -wheel_hub_length(found.assembly.mechanism.spec.size, found.sizes)
-    low, _ = wheel_shaft_ends(found, -math.inf)
+    hub, shaft = parts.sizes.wheel_hub, wheel_shaft_radius(parts)
+    reach = -wheel_hub_length(parts.assembly.mechanism.spec.size, parts.sizes)
+    low, _ = wheel_shaft_ends(parts, -math.inf)
     for plane in sorted({link.plane for link in links}):
         high = sizes.span(plane)[1]
-        if hub and reach < high - SAME * found.assembly.L:
+        if hub and reach < high - SAME * parts.assembly.L:
             yield Round("the wheel's hub", plane, axis, hub)
-        elif shaft and low < high - SAME * found.assembly.L:
+        elif shaft and low < high - SAME * parts.assembly.L:
             yield Round("the wheel's shaft", plane, axis, shaft)
 
 
@@ -163,12 +163,12 @@ class _Shaft:
 
     def __init__(
         self,
-        found: Outlines,
+        parts: Outlines,
         links: list[Link],
         outlines: dict[str, Contour],
         made: Links,
     ) -> None:
-        L, sizes = found.assembly.L, made.sizes
+        L, sizes = parts.assembly.L, made.sizes
         assert sizes is not None
         self.links, self.outlines = links, outlines
         self.way = places(links[0])[0] * 0.0 + L
@@ -177,13 +177,13 @@ class _Shaft:
             at, kind = places(link)[0], link.kinds[0]
             if kind is Joint.SHAFT and np.abs(at - L).max() < SAME * L:
                 self.carries.add(link.plane)
-        if has_arm(found):
+        if has_arm(parts):
             self.carries.add(1)
-        self.through = found.sizes.crank_bore > 0.0  # the wheel's plane, with the locking disc
+        self.through = parts.sizes.crank_bore > 0.0  # the wheel's plane, with the locking disc
         if self.through:
             self.carries.add(0)
         self.radius = sizes.crank_shaft or made.shaft((L, 0.0), L)
-        low = found.assembly.given.spec.size.crank_shaft_low_mm
+        low = parts.assembly.given.spec.size.crank_shaft_low_mm
         ends = math.inf if low is None else low + SAME * L
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
 
