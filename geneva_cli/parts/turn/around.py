@@ -1,4 +1,4 @@
-"""What stands about an axis, found by its directions from there."""
+"""An index of directions, to find quickly those near a given one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Around:
-    """Things at directions (n,), radians from -pi to pi.
+    """Directions (n,), radians from -pi to pi, sorted for quick lookup.
 
     >>> places = Around(np.array([0.0, 3.1, -3.1]))
     >>> owner, which = places.within(np.array([0.1, math.pi]), 0.2)
@@ -25,13 +25,14 @@ class Around:
     def __init__(self, direction: Array) -> None:
         order = np.argsort(direction)
         turns = np.repeat((-math.tau, 0.0, math.tau), len(order))
-        self._order = np.tile(order, 3)  # three times round, of which those amid are from -pi to pi
+        self._order = np.tile(order, 3)  # three turns; the middle one is from -pi to pi
         self._direction = np.tile(direction[order], 3) + turns
 
     def within(self, ahead: Array, half: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Those within ``half`` on either side of each of m directions.
+        """Return the entries within ``half`` radians on either side of each of m directions.
 
-        Which of the m each is for comes first, in order.
+        Returns the index of the direction that each entry belongs to, ascending, and the entry's
+        index.
         """
         middle = np.remainder(ahead + math.pi, math.tau) - math.pi
         first = np.searchsorted(self._direction, middle - half)
@@ -42,5 +43,5 @@ class Around:
 
 
 def half_seen(reach: float, away: float) -> float:
-    """Half the angle under which a disc of a radius is seen from ``away`` its middle, radians."""
+    """Return half the angle, radians, that a disc of radius ``reach`` spans from ``away``."""
     return math.asin(reach / away) if reach < away else math.pi

@@ -1,8 +1,8 @@
-"""Gaps between hubs or shafts and parts that turn about another axis, where they share a height.
+"""Gaps between hubs or shafts and parts that turn about another axis, at shared heights.
 
-A part that makes whole turns sweeps a ring about its axis; a plate that stands is no larger than
-its ring. So the least gap of a whole turn is a distance from ring to shaft. Links, which swing, are
-checked in their planes (``planes``), and the frame has the shafts in holes of its own.
+A part that makes whole turns sweeps a ring about its axis. For a plate that stands still the ring
+is a safe bound. So the least gap in a whole turn is the distance between ring and shaft. Links,
+which swing, are checked in their planes (``planes``). The frame has holes for the shafts.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
-Measure = TypeVar("Measure", float, Array)  # one gap, or one on each of some spheres
-SAME = 1e-9  # of the centre distance: what shares less of a height only touches
+Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
+SAME = 1e-9  # of the centre distance: parts that share less height only touch
 
 
 class ShaftGap(NamedTuple):
@@ -38,7 +38,7 @@ class ShaftGap(NamedTuple):
 
 
 class Ring(NamedTuple):
-    """What a plate sweeps about the axis that it turns on."""
+    """The ring that a plate sweeps about the axis that it turns on."""
 
     name: str
     layer: str
@@ -50,10 +50,10 @@ class Ring(NamedTuple):
 
 
 def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Measure:
-    """The gap between a ring and something round, where their axes are so far apart.
+    """Return the gap between a ring and a round part whose axis is ``apart`` from the ring's.
 
-    Radii are in mm, or on a sphere in radians. Negative where they overlap: by what the round thing
-    must move to be outside of the ring, or in its opening where that is less and there is one.
+    Lengths are in mm, or on a sphere in radians. A negative gap is the distance that the round part
+    must move to leave the ring: outwards, or into the ring's opening if that is nearer.
     """
     gap = apart - outer
     if inner:
@@ -62,7 +62,7 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
 
 
 def beside_shafts(parts: Outlines) -> ShaftGap | None:
-    """The least gap of all; None where nothing passes a hub or shaft.
+    """Return the least gap of all parts; None where nothing passes a hub or shaft.
 
     Raises GenevaError for sizes that leave no parts.
     """
@@ -73,7 +73,7 @@ def beside_shafts(parts: Outlines) -> ShaftGap | None:
 
 
 def beside_gears(parts: Outlines) -> ShaftGap | None:
-    """The least gap between noncircular gears and the hubs and shafts that pass them; else None.
+    """Return the least gap of noncircular gears to hubs and shafts; None without such gears.
 
     Raises GenevaError for sizes that leave no parts.
     """
@@ -87,7 +87,7 @@ def beside_gears(parts: Outlines) -> ShaftGap | None:
 def _least(
     parts: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]
 ) -> ShaftGap | None:
-    """The least gap of some rings to the shafts, and to the hubs among wheel and crank."""
+    """Return the least gap of rings to the shafts, and to the hubs of wheel and crank."""
     near = SAME * parts.assembly.L
     axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
     return min(
@@ -105,13 +105,13 @@ def _least(
 
 
 def _noncircular(parts: Outlines) -> Iterator[Ring]:
-    """The rings of noncircular gears, by the farthest points of their pitch curves."""
-    given = parts.assembly.given
-    pair, L = given.spec.drive.gears, given.center_distance_mm
+    """Yield the rings of noncircular gears, out to the farthest points of their pitch curves."""
+    mechanism = parts.assembly.given
+    pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
     if pair is None:
         return
     (_, driven), (_, driver) = pitch_radii(pair)
-    low, high = gear_span(Proof(given, parts))
+    low, high = gear_span(Proof(mechanism, parts))
     yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
 
@@ -121,7 +121,7 @@ def _rings_of(members: Iterable[Member]) -> list[Ring]:
 
 
 def _rings(member: Member) -> Iterator[Ring]:
-    """The rings of a part's plates about the place that it turns on."""
+    """Yield the rings of a part's plates about the axis that it turns on."""
     for plate, origin in _plates(member.part):
         shapes = [placed(_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
         sides = [with_material_left(shape, i == 0) for i, shape in enumerate(shapes)]
@@ -131,7 +131,7 @@ def _rings(member: Member) -> Iterator[Ring]:
 
 
 def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Point]]:
-    """The plates of a part that is one with its axis, and where their origins are from that."""
+    """Yield the plates of a part that turns with its axis, and the positions of their origins."""
     if isinstance(part, Group):
         for member in part.members:
             yield from _plates(member.part, member.at)
@@ -144,7 +144,7 @@ def _contour(shape: Contour | Circle) -> Contour:
 
 
 def _far(piece: Segment) -> Iterator[Point]:
-    """Points of a piece of which one is the farthest from the origin."""
+    """Yield points of a piece, of which one is the farthest from the origin."""
     yield piece.start
     yield piece.end
     if isinstance(piece, Arc):

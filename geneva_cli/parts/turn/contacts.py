@@ -1,10 +1,11 @@
 """The points at which two outlines of lines and arcs may touch.
 
-Two boundaries are nearest to each other at a corner of one of them, or where their normals fall
-together: on an arc in the direction of the other's centre, or of the other's normal; on a line at
-the foot of the perpendicular from the other's centre. Where they overlap, one of these points lies
-inside: a region that is bounded by one piece of each has it between its ends, and any other has a
-corner in it. So nothing is stepped over, and nothing is lost between samples.
+Two boundaries are nearest to each other at a corner of one of them, or where their normals
+coincide. On an arc that is in the direction of the other arc's centre, or of the other line's
+normal. On a line it is at the foot of the perpendicular from the other arc's centre. If the
+outlines overlap, one of these points lies inside the other outline. If one piece of each bounds the
+overlap, the point is between the ends of the pieces; any other overlap has a corner in it. So no
+contact between two samples is missed.
 """
 
 from __future__ import annotations
@@ -26,20 +27,20 @@ if TYPE_CHECKING:
 def candidates(
     own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
 ) -> tuple[NDArray[np.intp], Array]:
-    """Points of ``own`` within ``reach`` of the other's origin that may touch it.
+    """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
-    ``other`` stands with its origin at n places, (n, 2), turned by n angles. Of the pieces of
-    ``own`` those are looked at that ``near`` names, each with which of the n it is for. Which of
-    the n each point is for comes first, then the points, in the frame of ``own``.
+    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. ``near``
+    selects pieces of ``own``, each with the index of the position that it belongs to. Returns the
+    index of the position of each point, and the points in the frame of ``own``.
     """
     owner, piece = near
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
     close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
     owner, piece = owner[close], piece[close]
-    found = [(owner, own.x0[piece], own.y0[piece])]
+    columns = [(owner, own.x0[piece], own.y0[piece])]
     arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
-    # a row for each of the other's pieces, which are few
+    # one row for each of the other's pieces, which are few
     x, y = other.cx[arcs], other.cy[arcs]
     centre_x, centre_y = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
     x, y = other.dy[lines], -other.dx[lines]
@@ -58,16 +59,16 @@ def candidates(
         radius = side * own.radius[i[pair]]
         x = middle_x[pair] + radius * facing_x[which, pair]
         y = middle_y[pair] + radius * facing_y[which, pair]
-        found.append((owner[bent[pair]], x, y))
+        columns.append((owner[bent[pair]], x, y))
 
     flat = np.flatnonzero(~own.arc[piece])
     i = piece[flat]
     ax, ay = centre_x[:, flat] - own.x0[i], centre_y[:, flat] - own.y0[i]
-    share = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
-    which, pair = np.nonzero((share > 0.0) & (share < 1.0))
-    t, i = share[which, pair], i[pair]
-    found.append((owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]))
+    fraction = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
+    which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
+    t, i = fraction[which, pair], i[pair]
+    columns.append((owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]))
 
-    owner, x, y = (np.concatenate(each) for each in zip(*found, strict=True))
+    owner, x, y = (np.concatenate(each) for each in zip(*columns, strict=True))
     inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
     return owner[inside], np.column_stack((x[inside], y[inside]))

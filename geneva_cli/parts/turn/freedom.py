@@ -1,4 +1,4 @@
-"""How far the wheel can be turned from its position until parts touch, at given input angles."""
+"""Angles by which the wheel can be turned until parts touch, at requested input angles."""
 
 from __future__ import annotations
 
@@ -16,25 +16,28 @@ EXACT = 1e-10  # radians: smaller angles are rounding
 
 
 def search_deg(parts: Turned) -> float:
-    """The largest play that is looked for, half a step: beyond it the wheel's position is lost."""
+    """Return the largest play that is searched for: half a step, in degrees.
+
+    Beyond it the wheel's position is lost.
+    """
     return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.motions))
 
 
 def free_angles(parts: Turned, at: Array, fits: bool = False) -> tuple[Array, Array]:
-    """How far the wheel can be turned back and on at input angles (n,), radians, (n,) each."""
+    """Return the angles that the wheel can be turned back and on at input angles (n,), radians."""
     back, on = stopped(parts, at, fits)
     return back.lead, on.lead
 
 
 def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stopped]:
-    """What stops the wheel on its way back and on at input angles (n,), and where.
+    """Return the stops of the wheel, turned back and turned on at input angles (n,).
 
-    ``fits`` says that nothing overlaps there; else it is looked for. Gears hold the wheel both
-    ways where they drive it: their teeth are taken to fit.
+    ``fits`` says that no parts overlap there; otherwise that is tested. Where gears drive the wheel
+    they hold it both ways: their teeth are assumed to mesh without play.
     """
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
-    if not fits:  # where parts overlap as it stands there is no play
+    if not fits:  # parts that overlap from the start leave no play
         held |= gaps.gap(pose, np.zeros(len(at)), close) < -close
     back, on = gaps.stops(pose, math.radians(search_deg(parts)), close)
     for each in (*back, *on):
@@ -43,8 +46,8 @@ def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stop
 
 
 def touching(parts: Turned) -> float:
-    """The largest play, radians, that may be none: parts that touch tangentially part slowly.
+    """Return the largest play, radians, that may be rounding: tangent parts separate slowly.
 
-    It is the angle by which two circles of the rim's radius overlap by ``close``.
+    It is the angle at which two circles of the rim's radius overlap by ``close``.
     """
     return math.sqrt(2.0 * parts.close / parts.sizes.rim)

@@ -1,9 +1,9 @@
-"""The proof that a machine turns: its parts through a whole turn of the crank.
+"""The full turn: a collision check of the parts through a whole turn of the crank.
 
-The wheel is turned as the mechanism says, and pushed back and on from there as far as slot and
-lock let it: its play. No parts may overlap, in every dwell something must hold the wheel, and
-where the roller comes to a wheel that stands off by its play, it must push it into line and not
-against itself.
+At each position the wheel stands where the mechanism puts it. From there it is pushed back and on
+until slot or lock stop it: that is its play. No parts may overlap, and in every dwell something
+must hold the wheel. If the wheel is off by its play as the roller arrives, the roller must push it
+into line and not jam.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 NO_PLAY = 1e-6  # degrees: a play as small as this is rounding
-SAME = 1e-7  # of a play: how nearly it is known
+SAME = 1e-7  # of a play: its relative accuracy
 
 
 class Most(NamedTuple):
-    """The greatest of an angle, degrees, and the input angle where it is."""
+    """The greatest value of an angle, degrees, and the input angle where it occurs."""
 
     deg: float
     at_deg: float
@@ -39,14 +39,14 @@ Place = TypeVar("Place", Gap, Most)
 
 
 class FullTurn(NamedTuple):
-    """What a whole turn shows; input angles as ``Mechanism.shown_deg`` says.
+    """The results of a full turn, at input angles as ``Mechanism.shown_deg`` gives them.
 
-    ``dwell`` is the wheel's play, either way, in the middle of a dwell, where the lock holds it
-    best; ``hand_over`` the largest where no roller is in its slot; ``motion`` where one is, and
-    both ways: a slot that drives from one wall alone is not held to be loose. There ``ahead`` and
-    ``behind`` are what the wheel is free one way, whatever the other. ``push`` is the
-    largest pressure angle at which a roller pushes the wheel into line. A play as large as
-    ``free_deg``, half a step, is none: nothing holds the wheel.
+    ``dwell`` is the wheel's play in either direction in the middle of a dwell, where the lock holds
+    it best. ``hand_over`` is the largest play while no roller is in its slot. ``motion`` is the
+    largest play in both directions while a roller is in its slot; a slot that drives from one wall
+    only does not count as play. ``ahead`` and ``behind`` are the largest play there in each
+    direction alone. ``push`` is the largest pressure angle at which a roller pushes the wheel into
+    line. A play of ``free_deg``, half a step, means that nothing holds the wheel.
     """
 
     driving: Gap
@@ -68,25 +68,24 @@ class FullTurn(NamedTuple):
 
     @property
     def holds(self) -> bool:
-        """Whether crank and rollers hold the wheel in the middle of every dwell."""
+        """True if crank and rollers hold the wheel in the middle of every dwell."""
         return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
 def full_turn(parts: Turned) -> FullTurn:
-    """Turn the parts of a machine through a whole turn of its crank.
+    """Return the results of turning the parts through a whole turn of the crank.
 
-    Raises NotProved where that takes more than ``gaps.WORK``.
+    Raises NotProved where that takes more work than ``gaps.WORK``.
     """
-    *_, found = turning(parts)
-    return found
+    *_, result = turning(parts)
+    return result
 
 
 def turning(parts: Turned) -> Iterator[FullTurn]:
-    """A full turn looked at ever closer: gaps, then plays where they are not yet the greatest, then
-    all of it.
+    """Yield the results of a full turn in stages: gaps, plays at some positions, then all.
 
-    No gap is greater, and no play smaller, in one that comes later; until the last none is told to
-    push the wheel. Raises NotProved likewise.
+    From stage to stage gaps only become smaller and plays larger. Only the last stage has ``push``.
+    Raises NotProved where a full turn takes more work than ``gaps.WORK``.
     """
     parts.gaps.begin()
     earlier = _earlier(parts)
@@ -99,14 +98,14 @@ def turning(parts: Turned) -> Iterator[FullTurn]:
         free = np.degrees(np.maximum(*free_angles(parts, middles, fits)))
         dwell = _most(free, middles, earlier)
     for play in plays(parts, fits):
-        found = _turn(parts, gaps, dwell, play, earlier)
-        yield found
+        result = _turn(parts, gaps, dwell, play, earlier)
+        yield result
     push = _most(push_deg(parts, play), play.input_deg[:-1], earlier)
-    yield found._replace(push=_shown(parts, push))
+    yield result._replace(push=_shown(parts, push))
 
 
 def _turn(parts: Turned, gaps: SmallestGaps, dwell: Most, play: Play, earlier: Earlier) -> FullTurn:
-    """What is known of a full turn by some gaps and plays."""
+    """Return the results of a full turn from its gaps and plays."""
 
     def most_of(values: Array, where: NDArray[np.bool_]) -> Most:
         return _shown(parts, _most(values[where], play.input_deg[where], earlier))
@@ -127,15 +126,15 @@ def _turn(parts: Turned, gaps: SmallestGaps, dwell: Most, play: Play, earlier: E
     )
 
 
-def _shown(parts: Turned, found: Place) -> Place:
-    return found._replace(at_deg=parts.assembly.shown_deg(found.at_deg))
+def _shown(parts: Turned, place: Place) -> Place:
+    return place._replace(at_deg=parts.assembly.shown_deg(place.at_deg))
 
 
 def _earlier(parts: Turned) -> Earlier:
-    """What tells which of two input angles of a turn is the earlier, as they are shown.
+    """Return a sort key of input angles: the order in which they are shown.
 
-    A turn of the input is shown from half a turn before mid-motion on, so that the second half of
-    the last dwell comes first; a period of several turns from the first entry.
+    One turn of the input is shown from half a turn before mid-motion, so that the second half of
+    the last dwell comes first. A period of several turns is shown from the first entry.
     """
     *_, last = windows(parts)
     turn, several = parts.assembly.turn_deg, parts.assembly.given.spec.drive.turns > 1
@@ -144,7 +143,7 @@ def _earlier(parts: Turned) -> Earlier:
 
 
 def _most(values: Array, at: Array, earlier: Earlier) -> Most:
-    """The greatest and its place: the middle of the first, where it stays as great for a while."""
+    """Return the greatest value and its position; in a plateau, the middle of the first one."""
     size = float(values.max(initial=0.0))
     if not size > NO_PLAY:
         return Most(0.0, 0.0)

@@ -24,17 +24,17 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-NEAR = 0.02  # of the centre distance: wider gaps are not told apart; they are given as this
-SAGITTA = 2e-6  # of the centre distance: how far an arc's samples may miss it
-SAME = 1e-9  # of the centre distance: corners nearer to each other are one
-TOUCH = 1e-7  # of the locking disc: what lies in it by less touches it
-WORK = 1e8  # distances between points and pieces in a full turn, at most: about 5 s
-BLOCK = 1 << 19  # points of the wheel at places that are looked at together: in the cache
-LONGEST = 0.02  # of the centre distance, between samples of a line
+NEAR = 0.02  # of the centre distance: wider gaps are returned as this
+SAGITTA = 2e-6  # of the centre distance: greatest deviation of an arc's samples from the arc
+SAME = 1e-9  # of the centre distance: corners nearer to each other count as one
+TOUCH = 1e-7  # of the locking disc: a smaller overlap counts as touching
+WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
+BLOCK = 1 << 19  # points of the wheel that are computed together, so that they fit into the cache
+LONGEST = 0.02  # of the centre distance: greatest distance of samples on a line
 
 
 class NotProved(GenevaError):
-    """Raised where a full turn would take too long."""
+    """Error for a full turn that would take too long."""
 
 
 class Gaps:
@@ -49,28 +49,28 @@ class Gaps:
         self.crank = Polyarc(crank) if crank else None
 
     def with_crank(self, crank: list[Contour]) -> Gaps:
-        """The gaps of the same wheel and rollers, and of another crank's outline."""
+        """Return the gaps of this wheel and these rollers with another crank's outline."""
         out = copy.copy(self)
         vars(out).pop("_stops", None)
         out.crank = Polyarc(crank) if crank else None
         return out
 
     def begin(self) -> None:
-        """Count work from here on; more than WORK raises NotProved."""
+        """Count work from here on; raise NotProved when it exceeds WORK."""
         self.left = WORK
 
     def _work(self, count: int) -> None:
         self.left -= count
         if self.left < 0.0:
             raise NotProved(
-                f"that it turns is not proved within {WORK:.0e} distances between its parts, which "
-                "take some seconds: they have very many pieces, or very small features; a larger "
-                "roller, or horn, takes less"
+                f"the full turn is not proved: it takes more than {WORK:.0e} distances between "
+                "parts (some seconds), because they have very many pieces or very small features; "
+                "a larger roller or horn takes less"
             )
 
     def _sector(self) -> None:
-        """Let one slot and its neighbours stand for a wheel that is alike from slot to slot."""
-        # inside, the outline runs clockwise
+        """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
+        # on the inside, the outline runs clockwise
         count, sense = len(self.assembly.slots), self.assembly.sign
         repeats = _repeats(self.wheel, count, SAME * self.assembly.L, sense)
         self.pitch = math.tau / count if repeats else 0.0
@@ -80,12 +80,12 @@ class Gaps:
         self.around = self.wheel.subset(keep) if self.pitch else self.wheel
 
     def repeats(self, count: int) -> bool:
-        """Whether wheel and crank are as before after a slot and a turn over ``count``."""
+        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
         alike = self.crank is None or _repeats(self.crank, count, SAME * self.assembly.L)
         return bool(self.pitch) and alike
 
     def _to_wheel(self, points: Array, reach: float) -> Array:
-        """Distance of points in the wheel's frame from its outline, as ``Polyarc.signed``."""
+        """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
         whole, at = self.wheel, points
         if self.pitch:
             slot = np.round(np.arctan2(points[:, 1], points[:, 0]) / self.pitch)
@@ -93,7 +93,7 @@ class Gaps:
         near = whole.near(at, reach)
         self._work(len(at) * len(near))
         out = near.signed(at)
-        # Farther than that the nearest piece may be one that was left out, and the side wrong.
+        # Beyond this distance the nearest piece may have been left out, and the sign may be wrong.
         far = np.abs(out) > reach
         if far.any():
             self._work(int(far.sum()) * len(whole))
@@ -101,22 +101,22 @@ class Gaps:
         return out
 
     def pose(self, input_deg: Array) -> Pose:
-        """The positions at input angles (n,), degrees."""
+        """Return the positions at input angles (n,), degrees."""
         pins = [self.assembly.pin(i, input_deg) for i in range(len(self.assembly.rollers))]
         crank = self.assembly.crank(input_deg, pins[0])
         return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
 
     def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """The smallest gap, mm (n,), the wheel turned by ``lead``, radians; see ``rollers``."""
+        """Return the smallest gap, mm (n,), with the wheel turned on by ``lead`` radians."""
         out: Array = np.minimum(
             self.locking(pose, lead, near), self.rollers(pose, lead, near).min(axis=1)
         )
         return out
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """The gap of each roller, (n, m), in n poses with the wheel turned on by ``lead``.
+        """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
 
-        ``lead`` is in radians; gaps wider than ``near``, NEAR * L as a rule, are given as that.
+        Gaps wider than ``near``, by default NEAR * L, are returned as ``near``.
         """
         near = self.near if near is None else near
         turn = -(pose.wheel + lead)
@@ -128,7 +128,7 @@ class Gaps:
         return out
 
     def _roller(self, centres: Array, near: float) -> Array:
-        """The gap of a roller at places in the wheel's frame."""
+        """Return the gap of a roller centred at points in the wheel's frame."""
         r, sign = self.sizes.roller, self.assembly.sign
         far = sign * (np.hypot(*centres.T) - self.sizes.rim) - r
         out: Array = np.minimum(far, near)
@@ -138,7 +138,7 @@ class Gaps:
         return out
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
-        """How far the wheel can be turned until parts overlap by ``close``; see ``Stops.first``."""
+        """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
         self._work(2 * len(pose.wheel) * self._stops.pairs)
         return self._stops.first(pose, most, close)
 
@@ -149,21 +149,21 @@ class Gaps:
         return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """The gap between the crank's outline and the wheel's, (n,); see ``rollers``."""
+        """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""
         near = self.near if near is None else near
         if self.crank is None:
             return np.full(len(pose.wheel), near)
         turn = pose.wheel + lead
-        # The wheel's points against the crank ...
+        # Points of the wheel against the crank ...
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
         reach, (places, size) = self.sizes.lock + near, self._pieces
-        beside = places.within(-turn, half_seen(reach + size, self.assembly.L))
-        owner, points = candidates(self.wheel, beside, self.crank, axis, pose.crank - turn, reach)
+        nearby = places.within(-turn, half_seen(reach + size, self.assembly.L))
+        owner, points = candidates(self.wheel, nearby, self.crank, axis, pose.crank - turn, reach)
         seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
         self._work(len(seen) * len(self.crank))
         out = _least(len(turn), owner, self.crank.signed(seen), near)
-        # ... and the crank's corners against the wheel.
+        # ... and corners of the crank against the wheel.
         x, y = self.crank.x0, self.crank.y0
         angle = pose.crank - turn
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
@@ -177,10 +177,10 @@ class Gaps:
         return out
 
     def swept(self, number: int, step_deg: float, every: int = 1) -> tuple[Array, Array]:
-        """Where on the crank the wheel's points come within the locking disc in one motion.
+        """Return the wheel's points that enter the locking disc during one motion, as x and y, mm.
 
-        In the crank's frame, mm: x and y. The wheel is looked at after so many degrees of the
-        input, or at some of these places.
+        They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
+        input, or at each ``every``-th of them.
         """
         at = swept_deg(self.assembly, number, step_deg)[::every]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
@@ -193,9 +193,9 @@ class Gaps:
         return np.concatenate(x), np.concatenate(y)
 
     def _within_disc(self, turn: Array, pose: Array) -> tuple[Array, Array]:
-        """The wheel's points within the locking disc, in the crank's frame, at some places."""
+        """Return the wheel's points inside the locking disc, in the crank's frame, as x and y."""
         reach = self.sizes.lock * (1.0 - TOUCH)
-        # Only in directions near to that of the crank's axis is anything within reach of it.
+        # Only points near the direction of the crank's axis can be within reach of it.
         points, places = self._wheel_points
         owner, which = places.within(-turn, half_seen(reach, self.assembly.L))
         px, py = points.T
@@ -208,7 +208,7 @@ class Gaps:
 
     @cached_property
     def _wheel_points(self) -> tuple[Array, Around]:
-        """Points along the wheel's outline that come near to the locking disc, (n, 2)."""
+        """Points along the wheel's outline that come near the locking disc, (n, 2)."""
         L = self.assembly.L
         points = self.wheel.samples(SAGITTA * L, LONGEST * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
@@ -216,24 +216,24 @@ class Gaps:
 
     @cached_property
     def _pieces(self) -> tuple[Around, float]:
-        """The pieces of the wheel's outline about its axis, and the size of the largest."""
+        """Directions of the pieces of the wheel's outline, and the size of the largest."""
         return Around(np.arctan2(self.wheel.oy, self.wheel.ox)), float(self.wheel.size.max())
 
     def _axis(self, turn: Array) -> Array:
-        """The crank's axis in the wheel's frame, (n, 2)."""
+        """Return the crank's axis in the wheel's frame, (n, 2)."""
         out: Array = self.assembly.L * np.column_stack((np.cos(turn), -np.sin(turn)))
         return out
 
 
 def swept_deg(assembly: Assembly, number: int, step_deg: float) -> Array:
-    """Input angles of a motion, so many degrees apart at most."""
+    """Return input angles of a motion, at most ``step_deg`` degrees apart."""
     engagement, behind = assembly.motions[number]
     count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
     return behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
 
 
 def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> bool:
-    """Whether an outline is the same so many times round its origin: its corners and its arcs."""
+    """Return True if the outline coincides with itself when turned by 1/``count`` turn."""
     each, rest = divmod(len(outline), count)
     if rest:
         return False
@@ -245,7 +245,7 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
 
 
 def turned_points(points: Array, angle: Array) -> Array:
-    """Points (n, 2), each turned about the origin by its own angle, radians."""
+    """Return points (n, 2), each turned about the origin by its own angle, radians."""
     c, s = np.cos(angle), np.sin(angle)
     return np.column_stack(
         (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)

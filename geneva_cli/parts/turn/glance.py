@@ -1,4 +1,4 @@
-"""A few positions of a full turn: what fails in them fails in the whole."""
+"""Checks of a few positions of a full turn: a failure there is a failure of the whole turn."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from geneva_cli.parts.turn.turned import Turned
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input, beside a place that is looked at
-BEFORE = np.arange(1.0, 26.0)  # and before an entry: the larger the roller, the earlier is its play
+BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a position
+BEFORE = np.arange(1.0, 26.0)  # degrees before an entry: large rollers have their play early
 
 
 def gap_about(parts: Turned, shown_deg: float) -> float:
-    """The smallest gap of any two parts, mm, at positions about one input angle.
+    """Return the smallest gap of any two parts, mm, at positions around one input angle.
 
-    A few positions instead of a whole turn: to look for a size that frees a machine there.
+    A few positions take the place of a whole turn, in a search for a size that clears the parts.
     """
     pose = parts.gaps.pose(_about(parts, shown_deg))
     gap = float(parts.gaps.rollers(pose).min())
@@ -29,12 +29,12 @@ def gap_about(parts: Turned, shown_deg: float) -> float:
 
 
 def loose_about(parts: Turned, shown_deg: float) -> float:
-    """The largest play, degrees, at those of these positions where no roller is in its slot."""
+    """Return the largest play, degrees, around an input angle while no roller is in its slot."""
     return _loose(parts, _about(parts, shown_deg))
 
 
 def loose_before(parts: Turned) -> float:
-    """The same at positions before an entry, where the lock lets go of the wheel."""
+    """Return the largest play, degrees, before an entry, where the lock releases the wheel."""
     start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
     return _loose(parts, start + (-BEFORE) % turn)
 
@@ -51,8 +51,8 @@ def _loose(parts: Turned, at: Array) -> float:
 
 
 def _about(parts: Turned, shown_deg: float) -> Array:
-    """Input angles about one, as a full turn counts them."""
+    """Return input angles around one, within the turn that starts at the first entry."""
     start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
     place = parts.assembly.place_deg(shown_deg)
-    around: Array = place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start
-    return start + around % turn
+    offsets: Array = place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start
+    return start + offsets % turn

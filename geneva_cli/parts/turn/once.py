@@ -1,4 +1,4 @@
-"""What of a whole turn repeats itself, looked at once."""
+"""Reduction of a full turn to one motion, where all motions are equal."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ from geneva_cli.parts.turn.turned import Turned
 
 
 def looked_at_once(parts: Turned) -> Turned:
-    """The parts, of whose turn no more is looked at than the first of rollers that all move alike
-    goes through: its motion and the dwell after it.
+    """Return the parts, checked over one motion and its dwell if all rollers move alike.
 
-    For a verdict: places of what fails are those of the first motion, and values may differ from
-    those of the whole turn by rounding.
+    Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the
+    first motion, and values may differ from those of the whole turn by rounding.
     """
     assembly = parts.assembly
     motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers

@@ -1,4 +1,4 @@
-"""The pieces of outlines by which parts touch: arcs with corners, and lines."""
+"""Pieces of outlines in the form that the contact formulas need: arcs, corners and lines."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ if TYPE_CHECKING:
 
 
 class Rounds(NamedTuple):
-    """Arcs and corners, (k,) each."""
+    """Arcs and corners, an array (k,) of each quantity."""
 
     x: Array  # centres
     y: Array
     radius: Array
     sense: Array  # 1 where the material is inside, -1 in a hollow
-    mx: Array  # directions of the middles
+    mx: Array  # directions to the middles of the arcs
     my: Array
-    least: Array  # cosines of the angles from there to the ends
+    least: Array  # cosines of half the angles of the arcs
 
     def face(
         self, which: NDArray[np.intp], x: Array, y: Array, turn: Array, sense: Array | float = 1.0
     ) -> NDArray[np.bool_]:
-        """Whether some arcs go through the directions (x, y), turned and ``sense`` times."""
+        """Return True where arcs contain directions (x, y), turned by ``turn``, times ``sense``."""
         c, s = np.cos(turn), np.sin(turn)
         along = self.mx[which] * (x * c - y * s) + self.my[which] * (x * s + y * c)
         out: NDArray[np.bool_] = sense * along >= self.least[which]
@@ -37,8 +37,10 @@ class Rounds(NamedTuple):
 
 
 class Lines(NamedTuple):
-    """Lines, (k,) each: directions of the normals out of the material, how far off the origin the
-    lines are along these, and where they start and end along themselves.
+    """Lines, an array (k,) of each quantity.
+
+    ``normal`` is the direction out of the material, ``off`` the distance from the origin along it;
+    ``start`` and ``end`` are positions along the line.
     """
 
     normal: Array
@@ -48,7 +50,7 @@ class Lines(NamedTuple):
 
 
 def rounds(outline: Polyarc) -> Rounds:
-    """The arcs of an outline, and its corners where material comes to a point."""
+    """Return the arcs of an outline, and those of its corners that are convex."""
     arc, corner = np.flatnonzero(outline.arc), np.flatnonzero(outline.turn_start > 0.0)
     zero, cos = np.zeros(len(corner)), outline.cos_half[arc]
     least = cos - SLACK * np.sqrt(np.maximum(1.0 - cos * cos, 0.0)) - SLACK * SLACK
@@ -65,7 +67,7 @@ def rounds(outline: Polyarc) -> Rounds:
 
 
 def lines(outline: Polyarc) -> Lines:
-    """The lines of an outline."""
+    """Return the lines of an outline."""
     at = np.flatnonzero(~outline.arc)
     tx, ty = outline.dx[at] / outline.length[at], outline.dy[at] / outline.length[at]
     x, y = outline.x0[at], outline.y0[at]
@@ -75,7 +77,7 @@ def lines(outline: Polyarc) -> Lines:
 
 
 def reach(arcs: Rounds, far: Array, ahead: Array) -> tuple[Array, Array]:
-    """The least and the greatest distance of arcs from the origin, or a little more."""
+    """Return the least and greatest distance of arcs from the origin, with a small margin."""
     every, zero = np.arange(len(far)), np.zeros(len(far))
     half = np.arccos(np.clip(arcs.least, -1.0, 1.0))
     middle = np.arctan2(arcs.my, arcs.mx)

@@ -1,10 +1,10 @@
-"""The gaps, in a whole turn, between links and what passes through their planes.
+"""The gaps, in a whole turn, between links and the round parts that pass through their planes.
 
-Each plane below the wheel's has one link, or gears, and the arm has its own check. What passes
-through is round: the wheel's hub and, below it, its shaft, the spacer on a pin that joins links of
-planes farther apart, the crank's shaft between the planes in which it carries something. That shaft
-gets out below all links, or above through the locking disc: where it gets neither way, nobody can
-say how it is carried.
+Each plane below the wheel's has one link, or gears; the arm has a check of its own. These round
+parts pass through: the wheel's hub and, below it, its shaft; the spacer on a pin that joins links
+of distant planes; the crank's shaft between the planes in which it carries something. The crank's
+shaft leaves the machine below all links, or above through the locking disc. If both are blocked,
+the shaft has no bearing.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from geneva_cli.parts.wheel_hub import wheel_hub_length
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-LOOKS = 1440  # input angles in a turn: between two of them a gap changes by its square
+LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance
 
 
 class Meeting(NamedTuple):
-    """The least gap between a link and something that passes through its plane."""
+    """The least gap between a link and a part that passes through its plane."""
 
     gap: float  # mm, negative where they overlap
     input_deg: float
@@ -43,11 +43,11 @@ class Meeting(NamedTuple):
 
 
 class Round(NamedTuple):
-    """Something round that passes through a plane."""
+    """A round part that passes through a plane."""
 
     name: str
     plane: int
-    way: Array  # complex, at each input angle
+    way: Array  # complex positions, one at each input angle
     radius: float
 
 
@@ -55,29 +55,29 @@ class Planes(NamedTuple):
     """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
 
     nearest: Meeting | None
-    way_out: Meeting | None  # None where it is free
+    way_out: Meeting | None  # None where the shaft is free
 
 
 def planes(parts: Outlines) -> Planes:
-    """The least gaps between links and what passes through their planes.
+    """Return the least gaps between links and the parts that pass through their planes.
 
     Raises GenevaError where the sizes leave no links.
     """
-    given = parts.assembly.given
-    turns = given.spec.drive.turns
+    mechanism = parts.assembly.given
+    turns = mechanism.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
-    every = links_at(given, turn)
-    links = [link for link in every if not link.radius_mm]
-    if not every:
+    links_and_gears = links_at(mechanism, turn)
+    links = [link for link in links_and_gears if not link.radius_mm]
+    if not links_and_gears:
         return Planes(None, None)
-    made = drawn_links(given, parts)
-    assert made.sizes is not None
-    geared = list(_gears(parts, made, every, turn))
+    bars = drawn_links(mechanism, parts)
+    assert bars.sizes is not None
+    geared = list(_gears(parts, bars, links_and_gears, turn))
     if not links:
         return Planes(min(geared, default=None), None)
-    outlines = _outlines(made)
-    shaft = _Shaft(parts, links, outlines, made)
-    passing = [*_passing(parts, links, made.sizes, turn), *shaft.between()]
+    outlines = _outlines(bars)
+    shaft = _Shaft(parts, links, outlines, bars)
+    passing = [*_passing(parts, links, bars.sizes, turn), *shaft.between()]
     met = [
         _meeting(link, outlines[link.name], one, turn)
         for link in links
@@ -90,21 +90,21 @@ def planes(parts: Outlines) -> Planes:
     return Planes(min(met, default=None), blocked)
 
 
-def _gears(parts: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
-    """The gears' gaps to the wheel's hub and shaft, which pass through their plane.
+def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
+    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
 
-    A first wheel is no gear: ``beside_shafts`` has its gap.
+    A first wheel is no gear: ``beside_shafts`` computes its gap.
     """
-    assert made.sizes is not None
+    assert bars.sizes is not None
     if parts.assembly.given.spec.drive.IN_SERIES:
         return
     gears = [link for link in links if link.radius_mm]
-    for gear, link in zip(made.gears, gears, strict=True):
+    for gear, link in zip(bars.gears, gears, strict=True):
         away = np.abs(places(link)[0])
         on_shaft = bool(
             away.max() < SAME * parts.assembly.L
-        )  # which fills its bore; a hub does not
-        for one in _on_wheel(parts, [link], made.sizes, 0.0 * turn):
+        )  # a shaft fills the gear's bore, a hub does not
+        for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
             gaps = away - gear.outer - one.radius
             if on_shaft:
                 if one.radius <= gear.bore:
@@ -115,10 +115,10 @@ def _gears(parts: Outlines, made: Links, links: tuple[Link, ...], turn: Array) -
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
-    """How far down the crank's shaft goes along the axis where a link is in its way; else None."""
-    given = parts.assembly.given
-    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * given.spec.drive.turns
-    links = [link for link in links_at(given, turn) if not link.radius_mm]
+    """Return the height at which a link stops the crank's shaft downwards; None if none does."""
+    mechanism = parts.assembly.given
+    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.drive.turns
+    links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
     shaft = _Shaft(parts, links, _outlines(bars), bars)
@@ -144,7 +144,7 @@ def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) 
 
 
 def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
-    """The wheel's hub, in the planes that it reaches, and its shaft in those below it."""
+    """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
     if parts.assembly.sign < 0.0:
         return
     hub, shaft = parts.sizes.wheel_hub, wheel_shaft_radius(parts)
@@ -159,16 +159,16 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
 
 
 class _Shaft:
-    """The crank's shaft: the planes in which it carries something, 0 being the wheel's."""
+    """The crank's shaft: the planes in which it carries something; 0 is the wheel's plane."""
 
     def __init__(
         self,
         parts: Outlines,
         links: list[Link],
         outlines: dict[str, Contour],
-        made: Links,
+        bars: Links,
     ) -> None:
-        L, sizes = parts.assembly.L, made.sizes
+        L, sizes = parts.assembly.L, bars.sizes
         assert sizes is not None
         self.links, self.outlines = links, outlines
         self.way = places(links[0])[0] * 0.0 + L
@@ -179,10 +179,10 @@ class _Shaft:
                 self.carries.add(link.plane)
         if has_arm(parts):
             self.carries.add(1)
-        self.through = parts.sizes.crank_bore > 0.0  # the wheel's plane, with the locking disc
+        self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
         if self.through:
             self.carries.add(0)
-        self.radius = sizes.crank_shaft or made.shaft((L, 0.0), L)
+        self.radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
         low = parts.assembly.given.spec.size.crank_shaft_low_mm
         ends = math.inf if low is None else low + SAME * L
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
@@ -191,7 +191,7 @@ class _Shaft:
         return Round("the crank's shaft", plane, self.way, self.radius)
 
     def between(self) -> Iterator[Round]:
-        """The planes that the shaft must cross, or that the spec takes it down to."""
+        """Yield the shaft in the planes that it must cross, or that the spec extends it to."""
         if self.carries:
             deepest = max(self.carries | self.reached)
             for plane in range(min(self.carries) + 1, deepest + 1):
@@ -199,11 +199,11 @@ class _Shaft:
                     yield self._in(plane)
 
     def way_out(self, turn: Array) -> Meeting | None:
-        """The shaft's least gap on the better way to its bearings; None if it meets nothing."""
+        """Return the shaft's least gap on the way to its bearings; None if it meets nothing."""
         return None if self.through else self.below(turn)
 
     def below(self, turn: Array) -> Meeting | None:
-        """The shaft's least gap to the links below all that it carries; None without such links."""
+        """Return the shaft's least gap to the links below all that it carries; None without any."""
         if not self.carries:
             return None
         deepest = max(self.carries)

@@ -1,8 +1,8 @@
-"""The wheel's play through a turn: how far it can be turned from its place until parts touch.
+"""The wheel's play through a turn: the angle that it can be turned until parts touch.
 
-Slot and lock hold the wheel in turn. Where one takes over from the other, and in a slot that is
-wider than its roller, the wheel has a little play. It must not have more, and a wheel that is off
-by its play must be pushed into line, not blocked.
+Slot and lock hold the wheel alternately. Where one takes over from the other, and in a slot that is
+wider than its roller, the wheel has some play. The play must be small. A wheel that is off by its
+play must be pushed into line, not blocked.
 """
 
 from __future__ import annotations
@@ -27,24 +27,25 @@ if TYPE_CHECKING:
 
 NEAR = 1e-9  # degrees: positions nearer to each other are one
 CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and roller change over
-ENDS = 24  # positions there,
-DWELL = 5  # in the rest of a dwell, and
-MOTION = 15  # in the rest of a motion; odd, so that mid-motion is one
-AROUND = 5  # parts into which an interval is cut about a peak
-CLOSER = 9  # times; 5**-9 of some degrees is a millionth
-SMALL = 1e-3  # degrees: over which a roller's speed is taken
-NARROW = 1e-6  # degrees: shorter intervals are not cut
-NEARLY = 0.8  # of the greatest: what is less has no greater beside it
-MOST = 4  # intervals that are cut in a round for one peak
-JUMP = 30.0  # times the roller's way: a rim that is moved by more is not pushed by it
+ENDS = 24  # positions there
+DWELL = 5  # positions in the rest of a dwell
+MOTION = 15  # positions in the rest of a motion; odd, so that mid-motion is one
+AROUND = 5  # parts into which an interval is divided about a peak
+CLOSER = 9  # rounds of refinement; 5**-9 of some degrees is a millionth
+SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
+NARROW = 1e-6  # degrees: shorter intervals are not divided
+NEARLY = 0.8  # of the greatest: around a lower local maximum no greater play is expected
+MOST = 4  # intervals that are divided in a round for one peak
+JUMP = 30.0  # times the roller's travel: a rim that moves farther is not pushed by the roller
 
 
 class Play(NamedTuple):
-    """How far the wheel can be turned back and on at ascending input angles, degrees.
+    """The wheel's play back and on, degrees, at ascending input angles.
 
-    ``resting`` says where the wheel rests, ``guided`` where a roller is in its slot: its centre
-    past the mouth's corners. ``speed`` is the roller's in the wheel's frame, mm per degree. The
-    pushes are pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
+    ``resting`` is True where the wheel rests, ``guided`` where a roller's centre is past the
+    mouth's corners of its slot. ``speed`` is the roller's in the wheel's frame, mm per degree.
+    ``back_push`` and ``on_push`` are pressure angles, degrees, where a roller stops the wheel; 0
+    where the lock does.
     """
 
     input_deg: Array
@@ -58,13 +59,13 @@ class Play(NamedTuple):
 
     @property
     def both(self) -> Array:
-        """The smaller of both: more on one side alone is a slot that drives from one wall."""
+        """The smaller play of both directions: a slot that drives from one wall has none."""
         out: Array = np.minimum(self.back, self.on)
         return out
 
     @property
     def either(self) -> Array:
-        """The larger of both."""
+        """The larger play of both directions."""
         out: Array = np.maximum(self.back, self.on)
         return out
 
@@ -79,7 +80,7 @@ class Window(NamedTuple):
 
 
 def windows(parts: Turned) -> Iterator[Window]:
-    """The motions and dwells of a turn."""
+    """Yield the motions and dwells of a turn."""
     assembly, motions = parts.assembly, parts.assembly.motions
     for i, (engagement, behind) in enumerate(motions):
         after, later = motions[(i + 1) % len(motions)]
@@ -92,57 +93,57 @@ def windows(parts: Turned) -> Iterator[Window]:
 
 
 def no_play() -> Play:
-    """The play where nothing has been looked at."""
+    """Return the play at no positions."""
     none, never = np.zeros(0), np.zeros(0, dtype=bool)
     return Play(none, none, none, never, never, none, none, none)
 
 
 def plays(parts: Turned, fits: bool) -> Iterator[Play]:
-    """The play over a turn at the places looked at first, and then in all: ever closer where it is
-    greatest and where it closes fastest.
+    """Yield the play at a grid of positions, then refined where it is greatest or closes fastest.
 
-    ``fits`` says that no parts overlap in the wheel's own positions.
+    ``fits`` says that no parts overlap in the positions of the ideal motion.
     """
-    found = _measured(parts, _places(parts), fits)
-    yield found
+    play = _play_at(parts, _places(parts), fits)
+    yield play
     for _ in range(CLOSER):
-        more = rising(np.concatenate([*_peaks(parts, found), *_closing(parts, found)]))
+        more = rising(np.concatenate([*_peaks(parts, play), *_closing(parts, play)]))
         if not len(more):
             break
-        found = _merged(found, _measured(parts, more, fits))
-    yield found
+        play = _merged(play, _play_at(parts, more, fits))
+    yield play
 
 
 def push_deg(parts: Turned, play: Play) -> Array:
-    """The pressure angle at which the wheel is pushed into line between positions; 0 if it is not.
+    """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
 
-    While the play becomes less as the crank turns, something pushes the wheel. Where that is a
-    roller at the mouth of its slot, it is the angle between their common normal and the way of the
-    wheel's corner. A play that ends all at once is a corner in the way: 90 degrees.
+    It belongs to the intervals between positions. Where the play shrinks as the crank turns,
+    something pushes the wheel. If a roller at the mouth of its slot does, this is the angle between
+    their common normal and the direction in which the wheel's corner moves. A play that ends
+    abruptly means that a corner blocks: 90 degrees.
     """
     step = np.diff(play.input_deg)
     moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
     free = ~(play.guided[:-1] | play.guided[1:])
-    found = np.zeros(len(step))
+    pushes = np.zeros(len(step))
     for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
         closing = parts.sizes.rim * np.radians(-np.diff(edge))
         angle = np.where(closing > JUMP * moved, 90.0, push[1:])
         known = np.radians(edge[:-1]) > touching(parts)
-        found = np.maximum(found, np.where(free & known & (closing > 0.0), angle, 0.0))
-    return found
+        pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
+    return pushes
 
 
 def _places(parts: Turned) -> Array:
-    """Input angles of a turn, closely where lock and roller change over."""
+    """Return input angles of a turn, dense where lock and roller change over."""
     close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
-    found = []
+    places = []
     for a, b, _, rests in windows(parts):
         near = close * min(CHANGE_DEG, 0.5 * (b - a))
-        found += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
-    return rising(np.concatenate(found))
+        places += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
+    return rising(np.concatenate(places))
 
 
-def _measured(parts: Turned, at: Array, fits: bool) -> Play:
+def _play_at(parts: Turned, at: Array, fits: bool) -> Play:
     assembly = parts.assembly
     back, on = stopped(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
@@ -183,18 +184,18 @@ def _merged(a: Play, b: Play) -> Play:
 
 
 def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
-    """Places that cut intervals, told by their first positions, into equal parts."""
+    """Return positions that divide intervals, numbered by their first ends, into equal parts."""
     last = len(play.input_deg) - 2
     i = rising(intervals[(intervals >= 0) & (intervals <= last)])
     low, high = play.input_deg[i], play.input_deg[i + 1]
     wide = (high - low > NARROW)[:, None]
-    share = np.arange(1, AROUND) / AROUND
-    found: Array = (low[:, None] + (high - low)[:, None] * share)[wide.ravel()].ravel()
-    return found
+    fraction = np.arange(1, AROUND) / AROUND
+    cuts: Array = (low[:, None] + (high - low)[:, None] * fraction)[wide.ravel()].ravel()
+    return cuts
 
 
 def _peaks(parts: Turned, play: Play) -> Iterator[Array]:
-    """Places beside the greatest plays, in slots and elsewhere."""
+    """Yield positions next to the greatest plays, in slots and elsewhere."""
     least, most = math.degrees(touching(parts)), search_deg(parts)
     for edge in (play.back, play.on, play.both):
         for where in (play.guided, ~play.guided):
@@ -211,7 +212,7 @@ def _peaks(parts: Turned, play: Play) -> Iterator[Array]:
 
 
 def _closing(parts: Turned, play: Play) -> Iterator[Array]:
-    """Places where the wheel's play closes fastest."""
+    """Yield positions where the wheel's play closes fastest."""
     angle = push_deg(parts, play)
     if angle.max() > 0.0:
         top = np.argsort(-angle, kind="stable")[:MOST]

@@ -1,4 +1,4 @@
-"""The smallest gaps of a whole turn: first at places near enough to each other, then closer."""
+"""The smallest gaps of a whole turn: computed at a grid of positions, then refined."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ if TYPE_CHECKING:
 
 SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
 POSITIONS = 4000  # at most
-DIP = 1e-9  # mm: a gap that is less by less is not
-DIPS = 12  # smallest gaps that are looked at more closely
-FINER = 9  # positions put around each of them, each time,
-HALF = FINER // 2  # of which those at both ends and amid are mostly known
+DIP = 1e-9  # mm: gaps that differ by less count as equal
+DIPS = 12  # smallest gaps that are refined
+FINER = 9  # positions in each refinement,
+HALF = FINER // 2  # of which the ends and the middle are mostly known
 ROUNDS = 6
-CHANGE_DEG = 15.0  # of the input, on either side of entry and exit,
-ENDS = 24  # there are that many positions
+CHANGE_DEG = 15.0  # of the input, on either side of entry and exit:
+ENDS = 24  # so many positions lie there
 
 Earlier: TypeAlias = Callable[[float], float]
 
 
 class Gap(NamedTuple):
-    """The smallest gap between two parts, mm, negative where they overlap, and where it is."""
+    """The smallest gap between two parts, mm, negative where they overlap, and its position."""
 
     mm: float
     at_deg: float  # input angle
@@ -41,7 +41,7 @@ class Gap(NamedTuple):
 
 
 class SmallestGaps(NamedTuple):
-    """Of rollers at their own slots, of others meanwhile, if there are any, and of the crank."""
+    """The smallest gaps: of driving rollers, of idle rollers if there are any, of the lock."""
 
     driving: Gap
     idle: Gap | None
@@ -49,12 +49,12 @@ class SmallestGaps(NamedTuple):
 
     @property
     def least(self) -> float:
-        """The smallest of all, mm."""
+        """The smallest gap of all, mm."""
         return min(gap.mm for gap in self if gap)
 
 
 def smallest_gaps(parts: Turned, earlier: Earlier) -> Iterator[SmallestGaps]:
-    """The smallest gaps at the places looked at first, and then those of the whole turn."""
+    """Yield the smallest gaps at the grid of positions, then the refined ones."""
     gaps, at = parts.gaps, positions(parts)
     pose = gaps.pose(at)
     each = gaps.rollers(pose)
@@ -62,8 +62,8 @@ def smallest_gaps(parts: Turned, earlier: Earlier) -> Iterator[SmallestGaps]:
     def rollers(x: Array, idle: bool) -> Array:
         drives = _drives(parts, x)
         meanwhile = drives.any(axis=1, keepdims=True) & ~drives
-        found = each if x is at else gaps.rollers(gaps.pose(x))
-        out: Array = np.where(meanwhile == idle, found, np.inf).min(axis=1)
+        clearance = each if x is at else gaps.rollers(gaps.pose(x))
+        out: Array = np.where(meanwhile == idle, clearance, np.inf).min(axis=1)
         return out
 
     def crank(x: Array) -> Array:
@@ -80,25 +80,25 @@ def smallest_gaps(parts: Turned, earlier: Earlier) -> Iterator[SmallestGaps]:
 
 
 def positions(parts: Turned) -> Array:
-    """Input angles of one turn, between which no part moves by much of the thinnest feature."""
+    """Return input angles of one turn, so dense that parts move less than the thinnest feature."""
     assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
     crank = np.unwrap(assembly.crank(grid))
-    way = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
+    travel = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
     feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
-    total = np.concatenate(([0.0], np.cumsum(way)))
+    total = np.concatenate(([0.0], np.cumsum(travel)))
     count = min(math.ceil(total[-1] / feature), POSITIONS)
-    found = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
-    # A rim that is too large is fouled for less than a degree about entry and exit.
+    grid_deg = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
+    # A rim that is too large collides for less than a degree about entry and exit.
     ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
-    beside = np.geomspace(0.01, CHANGE_DEG, ENDS)
-    near = (ends[:, None] + np.concatenate((-beside, [0.0], beside))).ravel()
+    offsets = np.geomspace(0.01, CHANGE_DEG, ENDS)
+    near = (ends[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
-    return rising(np.concatenate((found, near)))
+    return rising(np.concatenate((grid_deg, near)))
 
 
 def _drives(parts: Turned, x: Array) -> NDArray[np.bool_]:
-    """Which rollers move the wheel at input angles, (n, m)."""
+    """Return a mask of the rollers that move the wheel at input angles, (n, m)."""
     assembly = parts.assembly
     half = 0.5 * assembly.turn_deg
     columns = []
@@ -111,8 +111,9 @@ def _drives(parts: Turned, x: Array) -> NDArray[np.bool_]:
 def _least(
     gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier, parts: str
 ) -> Iterator[Gap]:
-    """The smallest gap at some places, and over a turn: around each place where it is smallest,
-    ever closer.
+    """Yield the smallest gap at the positions ``at``, then over the whole turn.
+
+    The second is refined around each local minimum.
     """
     values = gap(at)
     yield _earliest(at, values, [], close, earlier, parts)
@@ -121,9 +122,9 @@ def _least(
         (values[1:-1] < values[:-2] - DIP) & (values[1:-1] <= values[2:])
         | (values[1:-1] <= values[:-2]) & (values[1:-1] < values[2:] - DIP)
     ]
-    # Only where it comes near to the smallest can a smaller one lie between.
+    # A smaller gap can only lie between positions whose gaps are already near to the smallest.
     dips = dips[np.argsort(values[dips])][:DIPS]
-    about = dips[:, None] + (-1, 0, 1)  # the place, and those beside it
+    about = dips[:, None] + (-1, 0, 1)  # each minimum and its two neighbours
     known_at, known = at[about], values[about]
     closer: list[tuple[Array, Array]] = []
     for _ in range(ROUNDS if len(dips) else 0):
@@ -148,9 +149,9 @@ def _earliest(
     earlier: Earlier,
     parts: str,
 ) -> Gap:
-    """The smallest of gaps, and of those that were looked at closer, with their places."""
+    """Return the smallest gap of the grid and of the refined positions."""
     size = min(float(v.min()) for v in (values, *(v for v, _ in closer)))
-    # A gap that stays the same for a while is said to be where it begins.
+    # Where a gap stays equal for a while, its position is the first one.
     same = values <= size + close
     places = [at[same & ~np.append(False, same[:-1])]]
     places += [x[v <= size + close] for v, x in closer[-1:]]

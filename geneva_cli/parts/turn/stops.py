@@ -1,11 +1,12 @@
-"""Where a turning wheel comes to touch what stands beside it, in closed form.
+"""Stops of a turning wheel against rollers and crank, in closed form.
 
-Outlines are lines, arcs and corners, which are arcs of radius 0, and a roller is an arc all the way
-round. As the wheel turns, the centre of one of its arcs goes round the wheel's axis, and so does
-the foot of one of its lines. Arcs touch where their centres are as far apart as the sum of their
-radii, or in a hollow as the difference; an arc and a line where its centre is a radius off. All of
-these are triangles of three known sides, so a stop needs no search and none is stepped over. Of the
-two angles of each triangle, one is where the parts come nearer.
+Outlines consist of lines, arcs and corners. A corner is an arc of radius 0, a roller is a full
+circle. As the wheel turns, the centre of each of its arcs moves on a circle about the wheel's axis,
+and so does the foot of the perpendicular to each of its lines. Two arcs touch when the distance of
+their centres is the sum of their radii, or the difference if one of them is hollow. An arc and a
+line touch when the centre is one radius away from the line. All of these are triangles of three
+known sides. So no stop needs a search, and none is missed. Each triangle has two solutions; the
+parts approach each other in one of them.
 """
 
 from __future__ import annotations
@@ -25,24 +26,24 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-BLOCK = 1 << 15  # pairs of pieces that are looked at together: in the cache
+BLOCK = 1 << 15  # pairs of pieces that are computed together, so that they fit into the cache
 
 
-class Beside(NamedTuple):
-    """The arcs that the wheel meets, as they stand in n poses: rollers, and then the crank's."""
+class NearbyArcs(NamedTuple):
+    """The arcs that the wheel may meet, in n poses: the rollers first, then the crank's arcs."""
 
     rounds: Rounds
     x: Array  # (n, k), the centres
     y: Array
-    turn: Array  # (n,), of the crank from its own frame
+    turn: Array  # (n,), the crank's angle against its own frame
 
 
 class Stops:
-    """Where rollers and crank stop the wheel of one machine, as it turns.
+    """Stops of one machine's wheel against its rollers and its crank.
 
-    ``wheel`` is its outline, or as much of it as repeats itself after ``pitch`` radians; the crank
-    is in its own frame, and its axis at (L, 0). ``pairs`` is how many pieces may meet, for one
-    roller.
+    ``wheel`` is the wheel's outline, or one sector of it that repeats after ``pitch`` radians. The
+    crank is in its own frame, with its axis at (L, 0). ``pairs`` is the number of pairs of pieces
+    that one roller and the crank can form with the wheel.
     """
 
     def __init__(
@@ -59,13 +60,13 @@ class Stops:
         self.pairs = (len(self.far) + len(self.lines.off)) * (1 + len(crank or ()))
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
-        """How far the wheel can be turned back and on from n poses, and what stops it.
+        """Return the stops of the wheel, turned back and turned on from n poses.
 
-        From positions where nothing overlaps by more than ``close`` mm, until something does; as
-        far as ``most``, which is less than the pitch, where nothing stops it.
+        The parts overlap by at most ``close`` mm at first, and the wheel turns until some overlap
+        by more. Where nothing stops it, it turns by ``most`` radians, which is less than the pitch.
         """
         count = pose.pins.shape[1]
-        beside = self._beside(pose)
+        beside = self._nearby(pose)
         rolling: list[Touch] = []
         locking: list[Touch] = []
         for at in (self._at_rounds, self._at_lines):
@@ -76,24 +77,25 @@ class Stops:
             locking += self._at_edges(self.edges, pose, most, close)
         return stopped(rolling, locking, len(pose.wheel), most)
 
-    def _beside(self, pose: Pose) -> Beside:
+    def _nearby(self, pose: Pose) -> NearbyArcs:
         x, y = pose.pins[..., 0], pose.pins[..., 1]
         one, no = np.ones(x.shape[1]), np.zeros(x.shape[1])
         rollers = Rounds(no, no, self.roller * one, one, one, no, -2.0 * one)
         if self.crank is None:
-            return Beside(rollers, x, y, 0.0 * pose.crank)
+            return NearbyArcs(rollers, x, y, 0.0 * pose.crank)
         own = self.crank
         c, s = np.cos(pose.crank)[:, None], np.sin(pose.crank)[:, None]
         x = np.concatenate((x, self.L + (own.x * c - own.y * s)), axis=1)
         y = np.concatenate((y, own.x * s + own.y * c), axis=1)
-        every = Rounds(*[np.concatenate(both) for both in zip(rollers, own, strict=True)])
-        return Beside(every, x, y, pose.crank)
+        arcs = Rounds(*[np.concatenate(both) for both in zip(rollers, own, strict=True)])
+        return NearbyArcs(arcs, x, y, pose.crank)
 
     def _at_rounds(
-        self, others: Beside, pose: Pose, most: float, close: float
+        self, others: NearbyArcs, pose: Pose, most: float, close: float
     ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
-        """Arcs at arcs: both convex, or one of them in the hollow of the other; and which of the
-        others' each contact is with.
+        """Yield contacts of arcs with arcs, and the index of the other arc of each.
+
+        Both are convex, or one of them lies in the other's hollow.
         """
         own, other = self.rounds, others.rounds
         apart = own.sense[:, None] * own.radius[:, None] + other.sense * other.radius - close
@@ -104,7 +106,7 @@ class Stops:
         away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
         count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
         for block in range(0, count, step):
-            # how far from the wheel's axis they touch
+            # the distance from the wheel's axis decides which pairs can touch
             sigma = away[block : block + step]
             low, high = sigma - other.radius, sigma + other.radius
             row, pair = np.nonzero((low[:, qs] <= self.high[ps]) & (high[:, qs] >= self.low[ps]))
@@ -118,7 +120,8 @@ class Stops:
             on, i, lead = within(turn, self.pitch, most)
             angle, sign = angle[on, i], sign[on, i]
             n, p, q, s, r, d, h, g = n[i], p[i], q[i], s[i], r[i], d[i], h[i], g[i]
-            # the direction from the wheel's centre to the other, seen with the other ahead
+            # the direction from the wheel's arc to the other one, in a frame whose x axis points to
+            # that
             x = ((s - r) + 2.0 * r * h * h) / d
             y = -2.0 * sign * r * h * g / d
             good = own.face(p, x, y, self.ahead[p] - angle, other.sense[q])
@@ -129,9 +132,9 @@ class Stops:
             yield Touch((n + count * on)[good], lead[good], cosine[good]), q[good]
 
     def _at_lines(
-        self, others: Beside, pose: Pose, most: float, close: float
+        self, others: NearbyArcs, pose: Pose, most: float, close: float
     ) -> Iterator[tuple[Touch, NDArray[np.intp]]]:
-        """The wheel's lines at convex arcs, and which of them each contact is with."""
+        """Yield contacts of the wheel's lines with convex arcs, and the index of each arc."""
         own, other = self.lines, others.rounds
         ps, qs = np.nonzero(np.broadcast_to(other.sense > 0.0, (len(own.off), len(other.sense))))
         level = own.off[ps] + other.radius[qs] - close
@@ -152,9 +155,9 @@ class Stops:
             yield Touch((n + count * on)[good], lead[good], cosine[good]), q[good]
 
     def _at_edges(self, edges: Lines, pose: Pose, most: float, close: float) -> Iterator[Touch]:
-        """The wheel's convex arcs at the crank's lines."""
+        """Yield contacts of the wheel's convex arcs with the crank's lines."""
         own, normal = self.rounds, edges.normal + pose.crank[:, None]
-        # seen from the wheel's axis
+        # relative to the wheel's axis
         off, shift = edges.off + self.L * np.cos(normal), -self.L * np.sin(normal)
         start, end = edges.start + shift, edges.end + shift
         qs, ps = np.nonzero(np.broadcast_to(own.sense > 0.0, (len(edges.off), len(own.sense))))

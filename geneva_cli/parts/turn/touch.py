@@ -1,4 +1,4 @@
-"""Contacts of a turning wheel, flat or on a sphere, and the first of them, which stops it."""
+"""Contacts of a turning wheel, flat or on a sphere, and the first contact, which stops it."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-ZERO = 1e-13  # radians: a stop that lies behind by less is here
-WAYS = np.array(((-1.0,), (1.0,)))  # back and on, for rows of angles
-SLACK = 1e-9  # radians, and of a length: pieces that meet smoothly leave nothing between them
+ZERO = 1e-13  # radians: a contact that lies behind by less counts as being here
+WAYS = np.array(((-1.0,), (1.0,)))  # back and on: factors for rows of angles
+SLACK = 1e-9  # radians, and of a length: smoothly joined pieces leave no gap between them
 
 
 class Touch(NamedTuple):
-    """Contacts: of which pose, at which turn of the wheel, and the pressure angle's cosine.
+    """Contacts: pose, angle by which the wheel turns, and cosine of the pressure angle.
 
-    n poses are counted twice: the wheel turns back from the first n, and on from the others.
+    Rows 0 to n - 1 are the n poses with the wheel turning back, the next n with it turning on.
     """
 
     row: NDArray[np.intp]
@@ -30,17 +30,17 @@ class Touch(NamedTuple):
     cosine: Array
 
     def at(self, which: NDArray[np.bool_]) -> Touch:
-        """Some of them."""
+        """Return the contacts that a mask selects."""
         return Touch(self.row[which], self.lead[which], self.cosine[which])
 
 
 def triangles(
     apart: Array, one: Array, other: Array, measure: Callable[[Array], Array]
 ) -> tuple[tuple[NDArray[np.intp], ...], Array, Array]:
-    """Sine and cosine of half the angle between two sides, of those triangles that exist.
+    """Return which triangles exist, and sine and cosine of half the angle between two sides.
 
-    ``apart`` is the third side, ``measure(x)`` is x on a plane and sin x on a sphere. The indices
-    of the triangles come first.
+    ``one`` and ``other`` are these sides, ``apart`` is the third. ``measure(x)`` is x on a plane
+    and sin x on a sphere.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         size = measure(one) * measure(other)
@@ -53,10 +53,11 @@ def triangles(
 def within(
     turn: Array, pitch: float, most: float, on_line: NDArray[np.bool_] | bool = True
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """Contacts that the wheel reaches, turning by less than ``most`` back (row 0) or on (row 1).
+    """Return contacts that the wheel reaches by turning less than ``most`` back or on.
 
-    ``turn`` is where they are, (n,) or (2, n); after a pitch the wheel is as before. ``on_line`` is
-    where they are on what they touch. Returns their rows, columns and how far the wheel turns.
+    ``turn`` is the angle of each contact, (n,) or (2, n); the wheel repeats after one pitch.
+    ``on_line`` masks the contacts that lie within the piece that is touched. Returns the row (0
+    back, 1 on), the column, and the angle that the wheel turns.
     """
     lead = WAYS * turn % pitch
     lead = np.where(lead > pitch - ZERO, 0.0, lead)
@@ -67,8 +68,9 @@ def within(
 def stopped(
     rolling: list[Touch], locking: list[Touch], count: int, most: float
 ) -> tuple[Stopped, Stopped]:
-    """What stops the wheel first on its way back from ``count`` poses, and on: rollers, what locks,
-    or nothing up to most.
+    """Return the first stop in each of ``count`` poses, with the wheel turning back and on.
+
+    It is a contact with a roller or with the crank; where there is none, ``most`` is returned.
     """
     twice = 2 * count
     nothing = Touch(np.arange(twice), np.full(twice, most), np.zeros(twice))
@@ -81,7 +83,7 @@ def stopped(
 
 
 def _first(touches: list[Touch]) -> tuple[Array, Array]:
-    """The first contact of each pose: its turn, and its cosine."""
+    """Return the angle and the cosine of the first contact in each pose."""
     row, lead, cosine = (np.concatenate(each) for each in zip(*touches, strict=True))
     order = np.lexsort((lead, row))
     first = order[np.flatnonzero(np.diff(row[order], prepend=-1))]

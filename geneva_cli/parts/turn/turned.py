@@ -1,4 +1,4 @@
-"""What a full turn needs to know of a machine's parts, whether these are plates or shells."""
+"""Interfaces of a machine's parts, plates or shells, that a full turn works with."""
 
 from __future__ import annotations
 
@@ -19,110 +19,112 @@ class Pose(NamedTuple):
 
 
 class Stopped(NamedTuple):
-    """How far the wheel can be turned one way from n poses."""
+    """The stop of the wheel in one direction, from n poses."""
 
-    lead: Array  # (n,) radians
-    pressure: Array  # (n,) radians, the pressure angle of a roller that stops it; 0 of all else
+    lead: Array  # (n,) radians: angle that the wheel turns until it stops
+    pressure: Array  # (n,) radians: pressure angle of a roller that stops it, 0 for anything else
 
 
 class Gapped(Protocol):
-    """The gaps between wheel, crank and rollers, mm, negative where they overlap.
+    """The clearances between wheel, crank and rollers, mm, negative where they overlap.
 
-    In n poses with the wheel turned on by ``lead``, radians; gaps wider than ``near`` mm are given
-    as that.
+    All are computed in n poses, with the wheel turned on by ``lead`` radians. Clearances wider than
+    ``near`` mm are returned as ``near``.
     """
 
     @property
     def near(self) -> float:
-        """The widest gap that is told from others, mm."""
+        """The widest clearance that is distinguished from wider ones, mm."""
 
     def begin(self) -> None:
-        """Count work from here on; too much of it raises NotProved."""
+        """Count work from here on; raise NotProved when it exceeds the limit."""
 
     def pose(self, input_deg: Array) -> Pose:
-        """The positions at input angles (n,), degrees."""
+        """Return the positions at input angles (n,), degrees."""
 
     def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """The smallest gap, (n,)."""
+        """Return the smallest clearance in each pose, (n,)."""
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """The gap of each roller to the wheel, (n, m)."""
+        """Return the clearance of each roller to the wheel, (n, m)."""
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """The gap between what locks on the crank and the wheel, (n,)."""
+        """Return the clearance between the crank's locking surfaces and the wheel, (n,)."""
 
     def repeats(self, count: int) -> bool:
-        """Whether wheel and crank are as before after a slot and a turn over ``count``."""
+        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
-        """What stops the wheel on its way back and on from positions where nothing overlaps by
-        ``close`` mm, until something does, or as far as ``most`` radians.
+        """Return the stops of the wheel, turned back and turned on from n poses.
+
+        The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
+        ``most`` radians.
         """
 
 
 class Lengths(Protocol):
-    """Lengths of the parts, mm; on a sphere arcs of it, but for ``rim``."""
+    """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``."""
 
     @property
     def roller(self) -> float:
-        """The roller's radius."""
+        """Radius of the roller."""
 
     @property
     def half_width(self) -> float:
-        """Half a slot's width."""
+        """Half the width of a slot."""
 
     @property
     def rim(self) -> float:
-        """The rim's distance from the wheel's axis."""
+        """Distance of the rim from the wheel's axis."""
 
     @property
     def outer(self) -> float:
-        """The radius of a wheel that is farther out than its rim, or 0."""
+        """Radius of the wheel where it extends beyond its rim, or 0."""
 
     @property
     def arm(self) -> float:
-        """The rollers' distance from the crank's axis."""
+        """Distance of the rollers from the crank's axis."""
 
     @property
     def horn(self) -> float:
-        """The thickness of the horn between slot and recess."""
+        """Thickness of the horn between slot and recess."""
 
 
 class Turned(Protocol):
-    """A machine's parts that can be turned."""
+    """The parts of a machine, with what a full turn needs of them."""
 
     @property
     def assembly(self) -> Assembly:
-        """Where they stand at an input angle."""
+        """Positions of the parts at any input angle."""
 
     @property
     def sizes(self) -> Lengths:
-        """Their lengths."""
+        """Lengths of the parts."""
 
     @property
     def gaps(self) -> Gapped:
-        """Their gaps."""
+        """Clearances between the parts."""
 
     @property
     def crank(self) -> Sized:
-        """What locks on the crank; empty where nothing does."""
+        """The locking surfaces of the crank; empty if there are none."""
 
     @property
     def close(self) -> float:
-        """The overlap, mm, that is rounding, or the walls' tolerance."""
+        """The overlap, mm, that counts as rounding or as the walls' tolerance."""
 
     @property
     def contact(self) -> float:
         """The overlap, mm, up to which parts count as touching."""
 
     def over(self, assembly: Assembly) -> Turned:
-        """The same parts where another assembly has them."""
+        """Return these parts with another assembly."""
 
     def in_wheel(self, motion: int, at: Array) -> Array:
-        """The centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
+        """Return the centre of a motion's roller in the wheel's frame at input angles (n,).
 
-        An array (n, 2), or (n, 3) of directions on a sphere.
+        It is an array (n, 2), mm, or on a sphere (n, 3), directions.
         """
 
     def past_mouth(self, motion: int, at: Array) -> Array:
-        """How far that is in its slot, past the mouth's corners, mm, (n,)."""
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
