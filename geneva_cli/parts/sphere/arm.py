@@ -1,9 +1,9 @@
-"""The crank arm of a spherical machine: a cap outside of the wheel, which carries all of the crank.
+"""The crank arm of a spherical machine: a cap outside the wheel that carries the whole crank.
 
-All that turns about axes through one centre stays at its distance from there: a shell outside of
-the wheel's never meets it. The arm's boundary is the belt round the locking sectors, which stand on
-its inner face, its hub, and an eye about each pin and bolt. Pins and bolts point at the centre. The
-hub, with flat faces and the bore, is in a round hole about the crank's axis.
+Every part that turns about an axis through the centre keeps its distance from the centre. So a
+shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of the
+locking sectors on its inner face, its hub, and an eye about each pin and bolt. Pins and bolts point
+at the centre. The hub has flat faces and the bore; it sits in a round hole about the crank's axis.
 """
 
 from __future__ import annotations
@@ -36,43 +36,43 @@ class CapArm(NamedTuple):
     boundary: Region
     bore: float
     fitted: ParallelKey | None
-    keyway: float  # its direction about the crank's axis
+    keyway: float  # azimuth about the crank's axis
     hub: float
     pins: tuple[RoundHole, ...]
     bolts: tuple[RoundHole, ...]
-    cap: float  # angle from the crank's axis, but for the eyes
+    cap: float  # angle from the crank's axis to the edge, except at the eyes
     eye: float  # angle
-    reach: float  # angle from the crank's axis of its farthest
-    wall: float  # the least between two holes, or a hole and the boundary, on its inner face, mm
+    reach: float  # angle from the crank's axis to the farthest point
+    wall: float  # the least wall between holes, and to the boundary, on the inner face, mm
 
     @property
     def holes(self) -> tuple[RoundHole, ...]:
-        """All round holes: the hub's, the pins' and the bolts'."""
+        """All round holes: for the hub, the pins and the bolts."""
         return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
 
     def bolts_of(self, sector: int, sectors: int) -> tuple[RoundHole, ...]:
-        """The bolts of one of some locking sectors."""
+        """Return the bolts of one of ``sectors`` locking sectors."""
         each = len(self.bolts) // sectors
         return self.bolts[sector * each : (sector + 1) * each]
 
 
 def has_arm(parts: Shells) -> bool:
-    """Whether there is an arm: rollers on pins in a crank."""
+    """Return True if the machine has an arm: a crank with rollers on pins."""
     return parts.assembly.given.spec.drive.CRANKED and parts.ball.pin_mm > 0.0
 
 
 def crank_arm(parts: Shells) -> CapArm:
-    """The arm of a machine.
+    """Return the arm of a machine.
 
-    Raises GenevaError, naming the key, where the sizes leave no arm round the holes.
+    Raises GenevaError, naming the key, where the sizes leave no arm around the holes.
     """
     spec, ball = parts.assembly.given.spec, parts.ball
     if not has_arm(parts):
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
     wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
     hole = pin_hole(spec.size, ball.pin_mm)
-    disc, room = 0.5 * (spec.size.crank_bore_mm or 0.0), ball.radius_mm * ball.arm - hole
-    radius = arm_bore(spec, disc, ball.radius_mm, room)
+    disc, limit = 0.5 * (spec.size.crank_bore_mm or 0.0), ball.radius_mm * ball.arm - hole
+    radius = arm_bore(spec, disc, ball.radius_mm, limit)
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(parts))
     _refuse(parts, hub, hole, eye)
     around = hub - reach(spec.size.crank_keyway, radius)  # the hub's wall
@@ -80,12 +80,12 @@ def crank_arm(parts: Shells) -> CapArm:
     screwed = bolts(parts)
     round_hub = RoundHole(POLE, hub + max(around, wall)).angle(under)
     cap, eye = max(ball.lock, round_hub), eye / ball.radius_mm
-    about = [Cap(POLE, cap)]
-    about += [Cap(pin.axis, eye) for pin in pins]
-    about += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
+    caps = [Cap(POLE, cap)]
+    caps += [Cap(pin.axis, eye) for pin in pins]
+    caps += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
     middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
-    made = CapArm(
-        boundary=belt(about),
+    arm = CapArm(
+        boundary=belt(caps),
         bore=radius,
         fitted=key(spec.size.crank_keyway, radius),
         keyway=middle,
@@ -94,21 +94,21 @@ def crank_arm(parts: Shells) -> CapArm:
         bolts=screwed,
         cap=cap,
         eye=eye,
-        reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in about),
+        reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps),
         wall=0.0,
     )
-    return made._replace(wall=min(around, _walls(made, parts)))
+    return arm._replace(wall=min(around, _walls(arm, parts)))
 
 
 def _passing(parts: Shells) -> float:
-    """The widest half of an eye that passes the wheel's hub, mm along the sphere."""
+    """Return the largest radius of an eye that passes the wheel's hub, mm along the sphere."""
     ball = parts.ball
-    aside = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
-    return ball.radius_mm * (ball.axes - ball.arm - aside)
+    opening = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
+    return ball.radius_mm * (ball.axes - ball.arm - opening)
 
 
 def bolts(parts: Shells) -> tuple[RoundHole, ...]:
-    """The holes of the bolts that fix the locking sectors to the arm, evenly in each.
+    """Return the holes of the bolts that fix the locking sectors to the arm, evenly in each.
 
     Raises GenevaError where there are no sectors to fix.
     """
@@ -116,14 +116,14 @@ def bolts(parts: Shells) -> tuple[RoundHole, ...]:
     rims = [sector.boundary[0] for sector in parts.crank]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     r, directions = bolts_between(size, ball.radius_mm, widths)
-    made = []
+    holes = []
     for sector, at in zip(parts.crank, directions, strict=False):
         rim, _, inner, _ = sector.boundary
         far = 0.5 * (math.pi - inner.angle + rim.angle)
         if size.lock_bolt_circle_mm is not None:
             far = math.asin(min(1.0, 0.5 * size.lock_bolt_circle_mm / ball.radius_mm))
-        made += [RoundHole(place(far, azimuth), r) for azimuth in at]
-    return tuple(made)
+        holes += [RoundHole(place(far, azimuth), r) for azimuth in at]
+    return tuple(holes)
 
 
 def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
@@ -133,42 +133,42 @@ def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
     refuse_wide("arm_hub_mm", hub, under, over)
     if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
         raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the arm would reach over half of the sphere; it "
-            f"must be below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
+            f"arm_eye_mm = {2.0 * eye:g}: the arm would cover more than half of the sphere; "
+            f"it must be below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
             ("size", "arm_eye_mm"),
         )
-    room = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
-    if hub >= room:
+    limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
+    if hub >= limit:
         name = "arm_hub_mm" if parts.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
         raise GenevaError(
-            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm wide, runs into the pin's "
-            f"hole; it must be below {2.0 * room:.6g}",
+            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
+            f"hole; it must be below {2.0 * limit:.6g}",
             ("size", name),
         )
 
 
-def _walls(made: CapArm, parts: Shells) -> float:
-    """The least wall on the arm's inner face, and round bolts in the sectors, where it is least.
+def _walls(arm: CapArm, parts: Shells) -> float:
+    """Return the least wall on the inner faces of the arm and of the bolted sectors.
 
-    Raises GenevaError where holes run into each other, or out of what they are in.
+    Raises GenevaError where holes overlap, or cut the boundary of their part.
     """
     ball = parts.ball
-    least = least_wall(made.boundary, made.holes, ball.arm_span_mm[0])
-    for k, sector in enumerate(parts.crank if made.bolts else []):
-        own = made.bolts_of(k, len(parts.crank))
+    least = least_wall(arm.boundary, arm.holes, ball.arm_span_mm[0])
+    for k, sector in enumerate(parts.crank if arm.bolts else []):
+        own = arm.bolts_of(k, len(parts.crank))
         least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
     if least <= 0.0:
         raise GenevaError(
-            "the round holes of the crank arm run into each other, or out of the arm or its "
-            "locking sectors: smaller ones of lock_bolt_mm, arm_hub_mm or pin_mm, fewer lock_bolts "
-            "or another lock_bolt_circle_mm leave a wall",
-            ("size", "lock_bolts" if made.bolts else "arm_hub_mm"),
+            "the round holes of the crank arm overlap, or cut the edge of the arm or of its "
+            "locking sectors: reduce lock_bolt_mm, arm_hub_mm, pin_mm or lock_bolts, or choose "
+            "another lock_bolt_circle_mm",
+            ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
         )
     return least
 
 
 def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
-    """The least wall between holes, and between them and a boundary, on a sphere, mm."""
+    """Return the least wall between holes, and from holes to a boundary, on a sphere, mm."""
     angles = [hole.angle(sphere) for hole in holes]
     away, _ = Arcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
     least = float((-away - angles).min())

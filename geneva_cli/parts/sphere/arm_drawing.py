@@ -1,4 +1,4 @@
-"""The crank arm of a sphere laid flat: on a cone that its pins stand square on, cut open."""
+"""The crank arm of a spherical machine, laid flat on a cone normal to its pins and cut open."""
 
 from __future__ import annotations
 
@@ -21,34 +21,37 @@ HOLES = "BORE"
 
 
 def arm(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """The arm laid flat; as a solid the cap and its hub. Raises GenevaError without an arm."""
-    found = proof.shells.ball
-    made, cone = crank_arm(proof.shells), arm_cone(found)
-    shapes = arm_flat(found, made, tolerance, curves)
-    low, high = found.arm_span_mm
+    """Return the arm laid flat; its solid is the cap with its hub.
+
+    Raises GenevaError without an arm.
+    """
+    ball = proof.shells.ball
+    cap_arm, cone = crank_arm(proof.shells), arm_cone(ball)
+    shapes = arm_flat(ball, cap_arm, tolerance, curves)
+    low, high = ball.arm_span_mm
     plate = Plate("arm", ARM, shapes[0], tuple(shapes[1:]), 0.0, high - low)
-    solid = Group("arm", tuple(map(Member, arm_solids(found, made))))
-    title = f"{titled(proof.mechanism)}: arm, flat: {cone.said('crank')}"
+    solid = Group("arm", tuple(map(Member, arm_solids(ball, cap_arm))))
+    title = f"{titled(proof.mechanism)}: arm, flat: {cone.described('crank')}"
     return Drawing(title, tuple(shapes), solid=plate, shells=solid)
 
 
 def arm_cone(ball: Ball) -> Cone:
-    """It touches the sphere amid the arm's thickness where the pins are."""
+    """Return the cone that touches the middle of the arm's thickness at the pins."""
     return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
 
 
-def arm_flat(ball: Ball, made: CapArm, tolerance: float, curves: str) -> list[Contour]:
-    """The arm's boundary, cut open beside its holes, and these.
+def arm_flat(ball: Ball, arm: CapArm, tolerance: float, curves: str) -> list[Contour]:
+    """Return the arm's boundary, cut open between its holes, and the holes.
 
-    About the crank's axis it is open as wide as the hub.
+    About the crank's axis the opening is as wide as the hub.
     """
     cone = arm_cone(ball)
-    hub, *others = made.holes
-    ways = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
-    cut = _widest_gap(ways) - math.tau  # azimuths rise from there by a whole turn, past 0
-    head, *between, tail = _opened(made.boundary, cut)
+    hub, *others = arm.holes
+    azimuths = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
+    cut = _widest_gap(azimuths) - math.tau  # azimuths rise from here by a whole turn, past 0
+    head, *between, tail = _opened(arm.boundary, cut)
     edge: list[Segment] = []
-    # each arc's azimuths are told by one near to them
+    # each arc's azimuths are unwrapped around a value near them
     for arc, about in ((head, 0.5), *((arc, 1.0) for arc in between), (tail, 1.5)):
         edge += cone.segments(arc, cut + about * math.pi, tolerance, curves)
     angle = hub.angle(cone.radius_mm)
@@ -56,15 +59,15 @@ def arm_flat(ball: Ball, made: CapArm, tolerance: float, curves: str) -> list[Co
     back = cone.level(far, near, -math.tau)
     outline = [*edge, Line(edge[-1].end, far), back, Line(near, edge[0].start)]
     holes = []
-    for hole, way in zip(others, ways, strict=True):
+    for hole, azimuth in zip(others, azimuths, strict=True):
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
-        about = cut + (way - cut) % math.tau
+        about = cut + (azimuth - cut) % math.tau
         holes.append(flat_region(HOLES, region, cone, about, tolerance, curves))
     return [closed(ARM, outline), *holes]
 
 
 def _widest_gap(azimuths: list[float]) -> float:
-    """An azimuth amid the widest gap between some, above 0 and below a whole turn."""
+    """Return the azimuth in the middle of the widest gap, from 0 up to a whole turn."""
     around = sorted(a % math.tau for a in azimuths)
     after = [*around[1:], around[0] + math.tau]
     start, end = max(zip(around, after, strict=True), key=lambda pair: pair[1] - pair[0])
@@ -72,7 +75,7 @@ def _widest_gap(azimuths: list[float]) -> float:
 
 
 def _opened(region: Region, azimuth: float) -> list[SphereArc]:
-    """A boundary round the pole, counterclockwise from where it crosses an azimuth to there."""
+    """Return a boundary round the pole, counterclockwise, cut where it crosses an azimuth."""
     arcs = region.boundary
     number, polar = next((i, p) for i, arc in enumerate(arcs) for p in arc.crossings(azimuth))
     at = place(polar, azimuth)

@@ -1,8 +1,8 @@
-"""Bores, hubs and shafts of a spherical machine: how wide they are, and how far they reach.
+"""Widths and lengths of bores, hubs and shafts of a spherical machine.
 
-A shell's faces are round: what sits on a shaft is a hub with flat faces, in a round hole of the
-shell. Heights are as on a plane (``parts.shafts``), from the wheel's lower face, which is its outer
-sphere here, inwards.
+A shell's faces are round, so a part on a shaft needs a hub with flat faces, in a round hole of the
+shell. Heights count as on a plane (``parts.shafts``) from the wheel's lower face, here its outer
+sphere, inwards.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sizes import even, wall_min
 from geneva_cli.spec.tables import Size
 
-HUB = 1.6  # of the bore: how wide a hub is
+HUB = 1.6  # of the bore: diameter of a hub
 
 
-def wheel_axle(size: Size, L: float, inside: float, room: float) -> tuple[float, float]:
-    """Radii of the wheel's bore and its hub, mm, 0 for none.
+def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[float, float]:
+    """Return the radii of the wheel's bore and its hub, mm, 0 for none.
 
-    ``inside`` is the radius of the wheel's inner sphere, ``room`` the angle from its axis to its
-    slots' ends. Raises GenevaError, naming the key, where one of them runs into the slots.
+    ``inside`` is the radius of the wheel's inner sphere, ``room`` the angle from its axis to the
+    ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
     """
-    end = inside * math.sin(min(room, 0.5 * math.pi))
+    end = inside * math.sin(min(slot_end, 0.5 * math.pi))
     if size.wheel_bore_mm is not None:
         bore = 0.5 * size.wheel_bore_mm
     else:
@@ -35,7 +35,7 @@ def wheel_axle(size: Size, L: float, inside: float, room: float) -> tuple[float,
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
-                f"{key} = {2.0 * radius:g}: the slots reach down to it; it must be below "
+                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
                 f"{2.0 * end:.6g}, or the roller smaller",
                 ("size", key),
             )
@@ -43,12 +43,12 @@ def wheel_axle(size: Size, L: float, inside: float, room: float) -> tuple[float,
 
 
 def about_crank(size: Size) -> float:
-    """The radius of what of the crank's shaft and hub is within the arm, 0 for none."""
+    """Return the greater radius of the crank's bore and hub inside the arm, mm, 0 for none."""
     return max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size))
 
 
 def crank_hub(size: Size) -> float:
-    """The radius of the crank's hub within the arm, where the spec gives one, 0 for none."""
+    """Return the radius of the crank's hub inside the arm, mm; 0 unless the spec has one."""
     bore = 0.5 * (size.crank_bore_mm or 0.0)
     if size.crank_hub_mm is None and size.crank_hub_length_mm is None:
         return 0.0
@@ -57,11 +57,11 @@ def crank_hub(size: Size) -> float:
 
 
 def refuse_wide(key_: str, radius: float, inner: float, outer: float) -> None:
-    """Raise GenevaError for a flat-faced hub so wide that its shell curves away from it."""
+    """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
     flat = math.sqrt((outer - inner) * (outer + inner))
     if radius >= flat:
         raise GenevaError(
-            f"{key_} = {2.0 * radius:g}: so wide a hub with flat faces does not meet its shell, "
-            f"{outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
+            f"{key_} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
+            f"is {outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
             ("size", key_),
         )

@@ -1,7 +1,7 @@
 """Gaps between hubs or shafts of a spherical machine and parts that turn about the other axis.
 
-Both may share distances from the centre. On a sphere of such a radius they are caps and rings, and
-the gap is an arc between them (``ring_gap``).
+Both may have points at equal distances from the centre. On a sphere of such a radius the parts are
+caps and rings, and the gap is an arc between them (``ring_gap``).
 """
 
 from __future__ import annotations
@@ -23,15 +23,16 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.sphere.shells import Shells
 
-SAME = 1e-9  # of the sphere's radius: what shares less of a distance only touches
-LOOKS = 257  # spheres on which a gap is looked at, where it may grow and shrink
+SAME = 1e-9  # of the sphere's radius: parts that share less of a distance only touch
+LOOKS = 257  # spheres on which a gap is computed where it may grow and shrink
 
 
-class Swept(NamedTuple):
-    """What something sweeps in a whole turn about its axis: between two angles and two spheres.
+class Sweep(NamedTuple):
+    """The region that a part sweeps in a whole turn: between two angles and two spheres.
 
-    ``wide`` is the radius of a round part, mm, 0 for what is a ring of angles. A round part begins
-    at the sphere that its flat end touches: its cap on a sphere is no wider than that lets it be.
+    ``wide`` is the radius of a round part, mm; it is 0 for a ring between two angles. A round part
+    begins at the sphere that touches its flat end. On a larger sphere its cap is limited by that
+    end.
     """
 
     name: str
@@ -43,7 +44,7 @@ class Swept(NamedTuple):
     wide: float = 0.0
 
     def angle(self, sphere: Array) -> Array:
-        """How far it is from the axis at most, on spheres (n,), radians."""
+        """Return the greatest angle from the axis on spheres (n,), radians."""
         if not self.wide:
             return np.full_like(sphere, self.high)
         end = np.arccos(np.minimum(1.0, self.inner / sphere))
@@ -52,14 +53,14 @@ class Swept(NamedTuple):
 
     @property
     def grows_to(self) -> float:
-        """The sphere to which its angle grows; beyond it shrinks."""
+        """The radius of the sphere up to which the angle grows; beyond it the angle shrinks."""
         return math.hypot(self.inner, self.wide) if self.wide else 0.0
 
 
 def beside_shafts(parts: Shells, whole: BuiltBall) -> ShaftGap | None:
-    """The least gap between a hub or shaft and what turns about the other axis, mm along a sphere.
+    """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere.
 
-    None where they share no distance from the centre.
+    None where no two of them share a distance from the centre.
     """
     ball = parts.ball
     shafts = [(member.part, member.frame is not None) for member in whole.shafts]
@@ -82,38 +83,38 @@ def beside_shafts(parts: Shells, whole: BuiltBall) -> ShaftGap | None:
     )
 
 
-def _round(plate: Plate) -> Iterator[Swept]:
-    """What a round plate sweeps, which it is, on either side of the centre."""
+def _round(plate: Plate) -> Iterator[Sweep]:
+    """Yield the region that a round plate sweeps on each side of the centre: the plate itself."""
     assert isinstance(plate.outline, Circle)
     wide = plate.outline.radius
     for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
         if high > 0.0:
             flat = max(low, 0.0)
-            yield Swept(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
+            yield Sweep(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
 
 
-def _crank_rings(parts: Shells, whole: BuiltBall) -> Iterator[Swept]:
-    """What arm, locking sectors, and rollers with their pins sweep about the crank's axis."""
+def _crank_rings(parts: Shells, whole: BuiltBall) -> Iterator[Sweep]:
+    """Yield the regions that arm, locking sectors and rollers sweep about the crank's axis."""
     ball, arm = parts.ball, whole.arm
     out = ball.span_mm[1]
     if arm:
         out = ball.arm_span_mm[1]
-        yield Swept("arm", False, 0.0, arm.reach, *ball.arm_span_mm)
+        yield Sweep("arm", False, 0.0, arm.reach, *ball.arm_span_mm)
     if parts.crank:
         low = min(math.pi - sector.boundary[2].angle for sector in parts.crank)
-        yield Swept("locking sector", False, low, ball.lock, *ball.lock_span_mm)
+        yield Sweep("locking sector", False, low, ball.lock, *ball.lock_span_mm)
     low, high = ball.arm - ball.roller, ball.arm + ball.roller
-    yield Swept("roller", False, low, high, ball.span_mm[0], out)
+    yield Sweep("roller", False, low, high, ball.span_mm[0], out)
 
 
-def _wheel_ring(ball: Ball) -> Swept:
-    return Swept("wheel", False, 0.0 if ball.opening_mm else ball.inner, ball.rim, *ball.span_mm)
+def _wheel_ring(ball: Ball) -> Sweep:
+    return Sweep("wheel", False, 0.0 if ball.opening_mm else ball.inner, ball.rim, *ball.span_mm)
 
 
-def _gap(one: Swept, other: Swept, axes: float) -> float:
-    """Between what is round and what is round or a ring about the other axis, on any sphere."""
+def _gap(one: Sweep, other: Sweep, axes: float) -> float:
+    """Return the least gap of a round part to a round part or ring about the other axis."""
     low, high = max(one.inner, other.inner), min(one.outer, other.outer)
-    # farther out both only shrink, and an arc that is a gap grows with its sphere
+    # farther out both angles only shrink, and an arc that is a gap grows with its sphere
     high = min(high, max(low, one.grows_to, other.grows_to))
     sphere = np.linspace(low, high, LOOKS)
     sphere = sphere[sphere > 0.0]  # both may be at the centre

@@ -1,4 +1,4 @@
-"""A spherical wheel's own mass and inertia, without its crank."""
+"""The mass and inertia of a spherical wheel alone, without its crank."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from geneva_cli.parts.sphere.wheel import POLE
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties:
-    """Mass and inertia of the wheel's shell and its hub, in closed form.
+    """Return mass and inertia of the wheel's shell and hub, in closed form.
 
-    Raises GenevaError where its sizes leave none.
+    Raises GenevaError where the sizes leave no wheel.
     """
-    density, found = mechanism.spec.material_wheel.density_kgm3, ball(mechanism)
+    density, sizes = mechanism.spec.material_wheel.density_kgm3, ball(mechanism)
     size = mechanism.spec.size
-    shell, hub = wheel_shell(size, found), wheel_hub(size, found)
+    shell, hub = wheel_shell(size, sizes), wheel_hub(size, sizes)
     mass = density * shell.volume * MM**3
-    own = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
-    return added(own, mass_properties(hub, density)) if hub else own
+    rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
+    return added(rim, mass_properties(hub, density)) if hub else rim

@@ -1,6 +1,6 @@
-"""A spherical machine as it is built: all its parts as solids, at input angle 0.
+"""All parts of a spherical machine as solids, at input angle 0.
 
-The sphere's centre is the origin, the wheel's axis z; the crank's parts are in its own frame.
+The sphere's centre is the origin and the wheel's axis is z. The crank's parts are in its frame.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
 class BuiltBall(NamedTuple):
-    """The parts of a machine where they are."""
+    """The parts of a spherical machine at their positions."""
 
     wheel: Member
     crank: Member
@@ -41,12 +41,12 @@ class BuiltBall(NamedTuple):
 
     @property
     def members(self) -> tuple[Member, ...]:
-        """All of them."""
+        """All parts."""
         return self.wheel, self.crank, *self.shafts
 
 
 def built(parts: Shells) -> BuiltBall:
-    """All parts of a machine.
+    """Return all parts of a machine.
 
     Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
     """
@@ -61,15 +61,18 @@ def built(parts: Shells) -> BuiltBall:
 
 
 def wheel_group(size: Size, ball: Ball) -> Group:
-    """The wheel's shell with its hub. Raises GenevaError for a keyway or hub that cannot be."""
+    """Return the wheel's shell with its hub.
+
+    Raises GenevaError for a keyway or hub that cannot be made.
+    """
     hub = wheel_hub(size, ball)
     return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
 def wheel_shell(size: Size, ball: Ball) -> Shell:
-    """The wheel's shell, down to the round hole about its axis, if there is one.
+    """Return the wheel's shell, down to the round hole about its axis, if there is one.
 
-    Raises GenevaError where it has no room for a dial's bolts.
+    Raises GenevaError where a dial's bolts do not fit.
     """
     screwed = dial_holes(size, ball)
     if not screwed and not ball.opening_mm:
@@ -81,12 +84,12 @@ def wheel_shell(size: Size, ball: Ball) -> Shell:
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
-    """The wheel's hub in its shell and outside of it, by default out to the arm's outer face."""
+    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face."""
     wide = ball.hub_mm > ball.bore_mm
     if size.wheel_keyway and not (wide and ball.bore_mm):
         raise GenevaError(
-            "wheel_keyway: the shell of a sphere has none in its bore, but its hub has; give "
-            "wheel_bore_mm and wheel_hub_mm, or remove the keyway",
+            "wheel_keyway: the shell of a spherical wheel has no keyway in its bore, only its "
+            "hub has; set wheel_bore_mm and wheel_hub_mm, or remove the keyway",
             ("size", "wheel_keyway"),
         )
     if not wide:
@@ -97,8 +100,8 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     deep = ball.bore_mm + (fitted.in_hub if fitted else 0.0)
     if ball.hub_mm <= deep:
         raise GenevaError(
-            f"wheel_hub_mm = {2.0 * ball.hub_mm:g}: the hub must be above {2.0 * deep:.6g}, its "
-            "bore and keyway",
+            f"wheel_hub_mm = {2.0 * ball.hub_mm:g}: it must be above {2.0 * deep:.6g}, the "
+            "diameter over the hub's bore and keyway",
             ("size", "wheel_hub_mm"),
         )
     length = size.wheel_hub_length_mm
@@ -108,7 +111,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
 
 
 def crank_group(parts: Shells, arm: CapArm | None) -> Group:
-    """What the crank carries, in its frame, and its arm, if there is one."""
+    """Return the parts that the crank carries, in its frame, and its arm, if there is one."""
     ball, size = parts.ball, parts.assembly.given.spec.size
     members = []
     for k, region in enumerate(parts.crank):
@@ -129,14 +132,14 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
 
 
 def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
-    """The arm's cap and its hub, which has flat faces and the bore."""
+    """Return the arm's cap and its hub, which has flat faces and the bore."""
     cap = Shell("arm", ARM, (arm.boundary,), *ball.arm_span_mm, arm.holes)
     bored = bore("BORE", arm.bore, arm.fitted, arm.keyway)
     return cap, Plate("arm's hub", ARM, Circle(ARM, AXIS, arm.hub), (bored,), *ball.arm_span_mm)
 
 
 def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
-    """The crank's hub on the arm's inner face, where the spec gives one."""
+    """Return the crank's hub on the arm's inner face; None unless the spec has one."""
     radius = crank_hub(size)
     if not (radius and arm):
         return None
@@ -151,9 +154,9 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
 
 
 def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
-    """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
+    """Yield the shafts of wheel and crank: as wide as the bores, and as long as on a plane.
 
-    There is no frame: they end the arm's thickness beyond what they carry.
+    There is no frame, so the shafts end the arm's thickness beyond the parts that they carry.
     """
     ball, size = parts.ball, parts.assembly.given.spec.size
     under, over = ball.arm_span_mm
@@ -175,12 +178,12 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
 def _shaft(
     part: str, ball: Ball, radius: float, low: float, end: float, high: float | None
 ) -> Plate:
-    """A shaft from a height up to another, or as far inwards as ``end`` where none is given."""
+    """Return a shaft from height ``low`` to ``high``, or inwards to ``end`` if that is None."""
     inner, outer = end if high is None else ball.out(high), ball.out(low)
     if not inner < outer:
         raise GenevaError(
             f"{part}_shaft_low_mm: the {part}'s shaft would reach from {outer:g} to {inner:g} mm "
-            f"from the sphere's centre; its lower end must be below, or {part}_shaft_high_mm above",
+            f"from the sphere's centre; lower {part}_shaft_low_mm or raise {part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )
     return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), inner, outer)

@@ -1,6 +1,6 @@
-"""A spherical crank as regions of its sphere: locking sectors and rollers, which its arm carries.
+"""A spherical crank as regions of its sphere: locking sectors and rollers on its arm.
 
-In the crank's frame: its axis z, the first roller on the azimuth 0, the others where they are.
+They are in the crank's frame: its axis is z, and the first roller is on the azimuth 0.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposit
 from geneva_cli.curves.sphere_belt import Cap
 from geneva_cli.parts.locking_rings import SHARES
 from geneva_cli.parts.reliefs import SAME
-from geneva_cli.parts.sphere.sizes import Ball, NoRoom
+from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
 if TYPE_CHECKING:
@@ -25,28 +25,28 @@ if TYPE_CHECKING:
 STEPS = 361  # positions of a motion
 EACH = 100  # points of an arc of the wheel's edge
 # Fractions of the locking edge's angle from the crank's axis. The first is larger than on a plane,
-# where it guards against a tip: here it is the inner edge wherever the wheel stays clear of it.
+# where it guards against a tip: here it is the inner edge wherever the wheel keeps clear of it.
 POINTED = 0.2  # no sector reaches nearer to the axis
-THIN = 0.05  # a ring as thin as this holds nothing
+THIN = 0.05  # of the locking angle: a thinner ring would hold nothing
 
 
 def sectors(ball: Ball) -> list[Region]:
-    """Where the crank locks: outside of what the wheel sweeps in a motion.
+    """Return the locking sectors of the crank, outside the region that the wheel sweeps.
 
-    Between two rollers, or over as much of that as the wheel leaves free.
-    Raises NoRoom where nothing is left of them.
+    Each lies between two rollers, and is as wide as the wheel leaves free. Raises PartDoesNotFit
+    where nothing is left of one.
     """
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
-    # what is about the axis fills a cone up to where it ends
+    # shaft and hub fill a cone about the axis, up to their end
     about = math.asin(min(1.0, ball.about_crank_mm / ball.lock_span_mm[0]))
     least = max(POINTED * ball.lock, about)
     regions = []
     spans = locked(ball)
-    ways = swept(ball) if spans else None
+    paths = swept(ball) if spans else None
     for start, end in spans:
         middle, whole = 0.5 * (start + end), 0.5 * (end - start)
-        assert ways
-        reached = _reached(ball, ways, middle)
+        assert paths
+        reached = _reached(ball, paths, middle)
 
         def nearest(half: float, reached: Callable[[float], float] = reached) -> float:
             return max(reached(half) + spare, least)
@@ -54,28 +54,28 @@ def sectors(ball: Ball) -> list[Region]:
         most = (1.0 - THIN) * ball.lock
         if about > most:
             wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
-            raise NoRoom(
-                f"the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
-                f"crank_hub_mm must be below {wide:.4g}, or 0, or lock_radius_mm greater; "
-                "lock_radius_mm = 0 leaves the sector out, where the wheel is held in another way",
+            raise PartDoesNotFit(
+                f"the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm "
+                f"and crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater; "
+                "lock_radius_mm = 0 omits the sector",
                 ("size", "crank_bore_mm"),
             )
-        # a narrower sector is no nearer to the edge
-        i = bisect_left(SHARES, True, key=lambda share: nearest(share * whole) <= most)
+        # a narrower sector can begin nearer to the axis, never farther away
+        i = bisect_left(SHARES, True, key=lambda fraction: nearest(fraction * whole) <= most)
         if i < len(SHARES):
             half = SHARES[i] * whole
             regions.append(_sector(ball.lock, nearest(half), middle - half, middle + half))
         else:
-            raise NoRoom(
+            raise PartDoesNotFit(
                 "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
-                "room for one; 0 leaves it out, where the wheel is held in another way",
+                "part of it; 0 omits it",
                 ("size", "lock_radius_mm"),
             )
     return regions
 
 
 def locked(ball: Ball) -> list[tuple[float, float]]:
-    """Where the crank locks: azimuths about its axis, from and to."""
+    """Return the azimuths about the crank's axis, from and to, between which the crank locks."""
     if not ball.lock:
         return []
     after = (*ball.rollers[1:], ball.rollers[0] + math.tau)
@@ -87,7 +87,7 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
 
 
 def _sector(high: float, low: float, start: float, end: float) -> Region:
-    """From one azimuth to another, between two angles from the axis."""
+    """Return a sector from one azimuth to another, between two angles from the axis."""
     far, near = ([place(polar, a) for a in (start, end)] for polar in (high, low))
     sides = [(-math.sin(a), math.cos(a), 0.0) for a in (start, end)]
     boundary = (
@@ -100,28 +100,31 @@ def _sector(high: float, low: float, start: float, end: float) -> Region:
 
 
 def rollers(ball: Ball) -> list[Region]:
-    """The rollers' cones."""
+    """Return the rollers' cones."""
     return [Cap(place(ball.arm, azimuth), ball.roller).region for azimuth in ball.rollers]
 
 
 def at_mid_motion(ball: Ball) -> Rotation:
-    """The crank's frame in the wheel's, with the first roller at mid-motion."""
+    """Return the crank's frame in the wheel's frame, with the first roller at mid-motion."""
     axis = ball.crank_axis(0.0)
     ahead = place(ball.axes - QUARTER, 0.0)
     return Rotation(ahead, cross(axis, ahead), axis)
 
 
-def _reached(ball: Ball, ways: tuple[Array, Array], middle: float) -> Callable[[float], float]:
-    """How near to the locking edge, from the crank's axis, the wheel comes within so much on either
-    side of an azimuth, in all motions; radians, 0 where it stays clear of it."""
-    polar, azimuth = ways
+def _reached(ball: Ball, paths: tuple[Array, Array], middle: float) -> Callable[[float], float]:
+    """Return a function of half an azimuth range: the greatest polar angle that the wheel reaches.
+
+    The range is centred on ``middle``, over all motions. Angles are radians from the crank's axis;
+    the result is 0 where the wheel stays outside the locking edge.
+    """
+    polar, azimuth = paths
     ahead = [azimuth + turn - middle for turn in ball.rollers]
     off = np.abs(np.remainder(np.stack(ahead) + math.pi, math.tau) - math.pi)
     near = polar < ball.lock * (1.0 - SAME)
 
     def reached(half: float) -> float:
         inside = near & (off < half * (1.0 - SAME))
-        # what comes in or goes out from one position to the next does so on its way
+        # a point that is inside at one position counts at the adjacent ones too
         inside[:, 1:] |= inside[:, :-1]
         inside[:, :-1] |= inside[:, 1:]
         return min(ball.lock, float((polar * inside).max(initial=0.0)))
@@ -130,29 +133,30 @@ def _reached(ball: Ball, ways: tuple[Array, Array], middle: float) -> Callable[[
 
 
 def swept(ball: Ball) -> tuple[Array, Array]:
-    """The ways of the wheel's edge in the crank's frame, in the motion of the first roller.
+    """Return the paths of points of the wheel's edge in the crank's frame, in the first motion.
 
-    Polar angles from the crank's axis and azimuths about it, radians, a row a position; only what
-    comes within the locking edge. The crank turns clockwise about its axis where the wheel turns
-    counterclockwise.
+    These are polar angles from the crank's axis and azimuths about it, radians, one row for each
+    position. Only points that come within the locking edge are included. The crank turns clockwise
+    about its axis where the wheel turns counterclockwise.
     """
     frame = np.column_stack(at_mid_motion(ball))
     wheel = edge_points(ball, EACH)
-    # the wheel turns by half a step either way: what is nearer to the crank's axis then
+    # the wheel turns by half a step either way: the position nearest to the crank's axis counts
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
     flat = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     wheel = wheel[math.cos(ball.axes) * wheel[:, 2] + flat > math.cos(ball.lock) - SAME]
     turns = np.linspace(-ball.half_motion, ball.half_motion, STEPS)
     x, y, up = np.moveaxis((wheel @ _index(ball, frame, turns)) @ frame, -1, 0)
-    # less than their angles tells which points come there; those along the edge do not
+    # the limit is below the locking edge's angle, so that points along the edge do not count
     comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME) * ball.lock))
     x, y, up = x[:, comes], y[:, comes], up[:, comes]
     return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
 
 
 def _index(ball: Ball, frame: Array, turns: Array) -> Array:
-    """The rotations of the wheel that bring its slot under the roller, (n, 3, 3), for rows of
-    points.
+    """Return the rotations of the wheel that bring its slot under the roller, (n, 3, 3).
+
+    They multiply rows of points.
     """
     flat, up = math.sin(ball.arm), np.full(len(turns), math.cos(ball.arm))
     x, y, _ = frame @ np.stack((flat * np.cos(turns), -flat * np.sin(turns), up))

@@ -1,4 +1,4 @@
-"""The holes for a dial in a spherical wheel: about its axis, between its hub and its slots."""
+"""The holes for a dial in a spherical wheel: about its axis, between hub and slots."""
 
 from __future__ import annotations
 
@@ -18,33 +18,34 @@ if TYPE_CHECKING:
 
 
 def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:
-    """The bolts' holes, evenly, the first amid two slots; they point at the centre.
+    """Return the holes of the dial's bolts, evenly spaced and pointing at the centre.
 
-    Raises GenevaError where the wheel is open about its axis, or has no room for them.
+    The first lies in the middle between two slots. Raises GenevaError where the wheel is open about
+    its axis, or the holes do not fit.
     """
     if not size.dial_bolts:
         return ()
     if not ball.opening_mm:
         raise GenevaError(
-            "dial_bolts: the wheel is open about its axis, and has no place for them; give "
-            "wheel_bore_mm, or remove them",
+            "dial_bolts: the wheel is open about its axis, so the bolts have no material around "
+            "them; set wheel_bore_mm, or remove dial_bolts",
             ("size", "dial_bolts"),
         )
     L, inside, high = ball.radius_mm, ball.span_mm[0], web_angle(ball)
     low = RoundHole(POLE, ball.opening_mm).angle(inside)
-    room = 0.5 * inside * (high - low)
-    r = min(L / 80.0, 0.5 * room) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
+    half_width = 0.5 * inside * (high - low)
+    r = min(L / 80.0, 0.5 * half_width) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
     far = 0.5 * (low + high)
     if size.dial_bolt_circle_mm is not None:
         far = math.asin(min(1.0, 0.5 * size.dial_bolt_circle_mm / L))
-    ways = [ball.half_step + math.tau * k / size.dial_bolts for k in range(size.dial_bolts)]
-    holes = tuple(RoundHole(place(far, way), r) for way in ways)
+    azimuths = [ball.half_step + math.tau * k / size.dial_bolts for k in range(size.dial_bolts)]
+    holes = tuple(RoundHole(place(far, azimuth), r) for azimuth in azimuths)
     all_holes = RoundHole(POLE, ball.opening_mm), *holes
     if least_wall(Cap(POLE, high).region, all_holes, inside) <= 0.0:
         circles = [f"{2.0 * L * math.sin(angle):.6g}" for angle in (far, low, high)]
         raise GenevaError(
-            f"dial_bolts: holes of {2.0 * r:.6g} mm on a circle of {circles[0]} mm run into each "
-            f"other, the hub or the slots: they have their place between {circles[1]} and "
+            f"dial_bolts: holes of {2.0 * r:.6g} mm on a circle of {circles[0]} mm overlap, or cut "
+            f"the hub or the slots; they must lie between circles of {circles[1]} and "
             f"{circles[2]} mm",
             ("size", "dial_bolts"),
         )
@@ -52,7 +53,7 @@ def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:
 
 
 def dial_wall(size: Size, ball: Ball) -> float:
-    """The least wall between those holes, the hub and the slots' ends, mm."""
+    """Return the least wall between the dial's holes, the hub and the slots' ends, mm."""
     ends = Cap(POLE, min(ball.bottom - ball.half_width, 0.5 * math.pi)).region
     holes = RoundHole(POLE, ball.opening_mm), *dial_holes(size, ball)
     return least_wall(ends, holes, ball.span_mm[0])

@@ -1,4 +1,4 @@
-"""The dimensions of a spherical machine: radii of its shells, and the angles to make them by."""
+"""The dimensions of a spherical machine: radii of its shells, and angles to make them by."""
 
 from __future__ import annotations
 
@@ -18,36 +18,36 @@ from geneva_cli.parts.sphere.sizes import Ball
 
 
 def dimensions(proof: Proof) -> Iterator[Dimension | Missing]:
-    """Dimensions of shells, arm and cones; what cannot be built, with the reason."""
+    """Yield dimensions of shells, arm and cones; for parts that cannot be built, the reason."""
     yield from or_missing("dimensions of the shells", lambda: _dimensions(proof.shells))
 
 
 def _dimensions(shells: Shells) -> Iterator[Dimension | Missing]:
-    found = shells.ball
-    inner, outer = found.span_mm
+    ball = shells.ball
+    inner, outer = ball.span_mm
     yield Dimension("shells' inner radius", inner, "mm")
     yield Dimension("shells' outer radius", outer, "mm")
-    yield Dimension("roller's cone, half angle", math.degrees(found.roller), "deg")
-    yield Dimension("slot, between its walls", found.slot_width_deg, "deg")
-    yield Dimension("slot's last round, from the wheel's axis", math.degrees(found.bottom), "deg")
-    yield Dimension("rim, from the wheel's axis", math.degrees(found.rim), "deg")
-    yield Dimension("slotted ring's inner edge, from its axis", math.degrees(found.inner), "deg")
-    yield from _axle("wheel", found.bore_mm, found.hub_mm)
+    yield Dimension("roller's cone, half angle", math.degrees(ball.roller), "deg")
+    yield Dimension("slot, between its walls", ball.slot_width_deg, "deg")
+    yield Dimension("slot's last round, from the wheel's axis", math.degrees(ball.bottom), "deg")
+    yield Dimension("rim, from the wheel's axis", math.degrees(ball.rim), "deg")
+    yield Dimension("slotted ring's inner edge, from its axis", math.degrees(ball.inner), "deg")
+    yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
     size = shells.assembly.given.spec.size
-    yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, found)))
-    if found.lock:
-        yield Dimension("lock, from the crank's axis", math.degrees(found.lock), "deg")
-        yield Dimension("recess, from the crank's axis", math.degrees(found.recess), "deg")
-        yield Dimension("locking sectors' inner radius", found.lock_span_mm[0], "mm")
+    yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, ball)))
+    if ball.lock:
+        yield Dimension("lock, from the crank's axis", math.degrees(ball.lock), "deg")
+        yield Dimension("recess, from the crank's axis", math.degrees(ball.recess), "deg")
+        yield Dimension("locking sectors' inner radius", ball.lock_span_mm[0], "mm")
     for k, region in enumerate(shells.crank):
         yield from _sector(f"locking sector {k + 1}", region)
     if has_arm(shells):
-        yield from or_missing("arm's dimensions", lambda: _arm(found, crank_arm(shells)))
-    yield from _cones(found)
+        yield from or_missing("arm's dimensions", lambda: _arm(ball, crank_arm(shells)))
+    yield from _cones(ball)
 
 
 def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
-    """Diameters of a bore, and of the hub that it is in."""
+    """Yield the diameters of a bore and of the hub around it."""
     if bore:
         yield Dimension(f"{part}'s bore", 2.0 * bore, "mm")
     if hub > bore:

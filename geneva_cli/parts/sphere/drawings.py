@@ -1,6 +1,6 @@
 """Drawings of a spherical wheel and crank laid flat, and their solids.
 
-Layers: WHEEL and CRANK are cut; ROLLER is where a roller goes through; PITCH is where rollers run.
+Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the rollers' path.
 """
 
 from __future__ import annotations
@@ -22,43 +22,43 @@ from geneva_cli.parts.sphere.wheel import edge
 
 APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
 PITCH = "PITCH"
-CUT = ("WHEEL", "CRANK")  # layers of sheet
+CUT = ("WHEEL", "CRANK")  # layers that are cut from sheet
 
 
 def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """The wheel's cone, cut open amid two slots; x along the first slot."""
-    found = proof.shells.ball
-    cone = wheel_cone(found)
-    title = f"{titled(proof.mechanism)}: wheel, flat: {cone.said('wheel')}"
-    shapes = wheel_flat(found, cone, tolerance, curves)
-    solid = wheel_group(proof.mechanism.spec.size, found)
-    return _drawing(found, title, shapes, solid)
+    """Return the wheel's cone, cut open between two slots; x is along the first slot."""
+    ball = proof.shells.ball
+    cone = wheel_cone(ball)
+    title = f"{titled(proof.mechanism)}: wheel, flat: {cone.described('wheel')}"
+    shapes = wheel_flat(ball, cone, tolerance, curves)
+    solid = wheel_group(proof.mechanism.spec.size, ball)
+    return _drawing(ball, title, shapes, solid)
 
 
 def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """The crank's cone: locking sectors, and the rollers where they pass through it."""
-    found, locks = proof.shells.ball, proof.shells.crank
-    cone = crank_cone(found)
-    title = f"{titled(proof.mechanism)}: crank, flat: {cone.said('crank')}"
-    shapes = crank_flat(found, locks, cone, tolerance, curves)
-    return _drawing(found, title, shapes, built(proof.shells).crank.part)
+    """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
+    ball, locks = proof.shells.ball, proof.shells.crank
+    cone = crank_cone(ball)
+    title = f"{titled(proof.mechanism)}: crank, flat: {cone.described('crank')}"
+    shapes = crank_flat(ball, locks, cone, tolerance, curves)
+    return _drawing(ball, title, shapes, built(proof.shells).crank.part)
 
 
 def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """Both laid flat, side by side; as a solid the machine at input angle 0."""
-    found, locks = proof.shells.ball, proof.shells.crank
+    """Return both laid flat, side by side; the solid is the machine at input angle 0."""
+    ball, locks = proof.shells.ball, proof.shells.crank
     title = titled(proof.mechanism)
-    left = wheel_flat(found, wheel_cone(found), tolerance, curves)
-    right = crank_flat(found, locks, crank_cone(found), tolerance, curves)
-    shift = APART * found.radius_mm + max(bounds(shape).x1 for shape in left)
+    left = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
+    right = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
+    shift = APART * ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
-    beside = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
+    moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     whole = Group(title, built(proof.shells).members)
-    return _drawing(found, title, [*left, *beside], whole)._replace(look=Annotations((), ()))
+    return _drawing(ball, title, [*left, *moved], whole)._replace(look=Annotations((), ()))
 
 
 def _drawing(ball: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
-    """What is laid flat as plates of sheet, and the shells that it becomes."""
+    """Return a drawing of plates of sheet, and the shells that they become."""
     inner, outer = ball.span_mm
     plates = [
         Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
@@ -69,23 +69,23 @@ def _drawing(ball: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawi
 
 
 def wheel_cone(ball: Ball) -> Cone:
-    """It touches the sphere amid the slots' length."""
+    """Return the cone that touches the sphere in the middle of the slots' length."""
     mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
     return Cone(ball.radius_mm, 0.5 * (ball.bottom + mouth))
 
 
 def crank_cone(ball: Ball) -> Cone:
-    """It touches the sphere where the rollers are."""
+    """Return the cone that touches the sphere at the rollers."""
     return Cone(ball.radius_mm, ball.arm)
 
 
 def wheel_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
-    """The wheel's outline on its cone laid flat, and the ways of rollers."""
+    """Return the wheel's outline on its flat cone, and the rollers' paths."""
     b = ball.half_step
     slot = slot_flat(ball, cone, tolerance, curves)
     mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
     ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
-    way = Contour(PITCH, (Line(*ends),), closed=False)
+    path = Contour(PITCH, (Line(*ends),), closed=False)
     outer: list[Segment] = []
     pitch: list[Shape] = []
     for k in range(ball.z):
@@ -94,7 +94,7 @@ def wheel_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> list[Sh
             return cone.turned(p, 2 * k * b)
 
         outer += mapped(slot, to).segments
-        pitch.append(mapped(way, to))
+        pitch.append(mapped(path, to))
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
@@ -103,7 +103,7 @@ def wheel_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> list[Sh
 
 
 def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
-    """The edge about the first slot, from amid two slots to amid the next two."""
+    """Return the edge about the first slot, from the middle of one tooth to the next one."""
     one: list[Segment] = []
     for arc in edge(ball):
         one += cone.segments(arc, 0.0, tolerance, curves)
@@ -113,7 +113,7 @@ def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
 def crank_flat(
     ball: Ball, locks: list[Region], cone: Cone, tolerance: float, curves: str
 ) -> list[Shape]:
-    """Locking sectors and rollers on the crank's cone laid flat, and the rollers' circle."""
+    """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
     shapes: list[Shape] = []
     for region, (a, b) in zip(locks, locked(ball), strict=True):
         shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))
@@ -127,8 +127,8 @@ def crank_flat(
 def flat_region(
     layer: str, region: Region, cone: Cone, about: float, tolerance: float, curves: str
 ) -> Contour:
-    """A region laid flat, whose azimuths are within half a turn of one."""
-    found: list[Segment] = []
+    """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
+    segments: list[Segment] = []
     for arc in region.boundary:
-        found += cone.segments(arc, about, tolerance, curves)
-    return closed(layer, found)
+        segments += cone.segments(arc, about, tolerance, curves)
+    return closed(layer, segments)

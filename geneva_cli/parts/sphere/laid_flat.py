@@ -1,8 +1,8 @@
-"""A shell of a sphere laid flat: seen from its centre on a cone that touches the sphere, unrolled.
+"""A shell of a sphere laid flat: projected from the centre on a tangent cone and unrolled.
 
-Walls lead to the centre, so that a sheet cut by this outline and rolled up to the cone lets the
-roller pass as the shell does. Flat, a point is at the distance from the apex that it has on the
-cone, and the cone's sector is 2 pi cos(polar) wide; at 90 degrees it is a cylinder.
+All walls lead to the centre. So a sheet that is cut by this outline and rolled up to the cone lets
+the roller pass as the shell does. On the flat sheet a point keeps the distance from the apex that
+it has on the cone. The cone's sector is 2 pi cos(polar) wide; at 90 degrees it is a cylinder.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 LEVEL = 1e-12  # cosine of the angle between a great circle and its axis
-CYLINDER = 1e-9  # cosine of the polar angle below which the cone is called a cylinder
+CYLINDER = 1e-9  # cosine of the polar angle below which the cone counts as a cylinder
 
 
 class Cone(NamedTuple):
     """The cone about z that touches the sphere all round at a polar angle, radians.
 
-    Flat, the origin is where it touches at the azimuth 0, x away from the pole, y as azimuths
-    rise; seen from outside.
+    Laid flat and seen from outside, its origin is the point of contact at azimuth 0. x leads away
+    from the pole, y towards rising azimuths.
 
     >>> cone = Cone(100.0, math.radians(60.0))
     >>> round(cone.apex_mm, 9), round(cone.sector_deg, 9)
@@ -42,21 +42,21 @@ class Cone(NamedTuple):
 
     @property
     def apex_mm(self) -> float:
-        """From the apex to where it touches the sphere; negative for an apex on the far side."""
+        """Distance from the apex to the circle of contact; negative for an apex on the far side."""
         return self.radius_mm * math.tan(self.polar)
 
     @property
     def sector_deg(self) -> float:
-        """The angle of the whole cone laid flat."""
+        """The angle of the whole cone, laid flat."""
         return 360.0 * abs(math.cos(self.polar))
 
     def point(self, polar: float, azimuth: float) -> Point:
-        """Where a point of the sphere, seen from its centre, lies on the flat cone, mm."""
+        """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
         points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
         return float(points[0, 0]), float(points[0, 1])
 
     def turned(self, at: Point, azimuth: float) -> Point:
-        """A point of the flat cone, when the sphere is turned about z."""
+        """Return a point of the flat cone after the sphere is turned about z."""
         x, y = at
         turn = azimuth * math.cos(self.polar)
         moved = self.point(self.polar, azimuth)
@@ -66,9 +66,10 @@ class Cone(NamedTuple):
     def segments(
         self, arc: SphereArc, about: float, tolerance_mm: float, curves: str
     ) -> list[Segment]:
-        """An arc of the sphere on the flat cone; azimuths are within half a turn of ``about``.
+        """Return an arc of the sphere on the flat cone, as segments.
 
-        Circles about z are arcs, meridians lines; ``curves``, "arcs" or "cubics", become the rest.
+        Azimuths are unwrapped to within half a turn of ``about``. Circles about z become arcs and
+        meridians lines; the rest becomes ``curves``: "arcs" or "cubics".
         """
         ends = [self._at(p, about) for p in (arc.start, arc.end)]
         if not arc.axis[2] and abs(math.cos(arc.angle)) < LEVEL:
@@ -88,12 +89,12 @@ class Cone(NamedTuple):
         return [*fit.KINDS[curves](curve, 0.0, arc.sweep, tolerance_mm)]
 
     def level(self, start: Point, end: Point, azimuth: float) -> Segment:
-        """The arc about the apex over an azimuth, between two points."""
+        """Return the arc about the apex between two points, over an azimuth."""
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
         return Arc(start, end, bulge) if abs(bulge) > CYLINDER else Line(start, end)
 
-    def said(self, whose: str) -> str:
-        """Where it touches, for people who make it."""
+    def described(self, whose: str) -> str:
+        """Return a description of the cone's shape and position for the workshop."""
         polar = math.degrees(self.polar)
         at = f"touches the {self.radius_mm:g} mm sphere {polar:.6g} deg from the {whose}'s axis"
         if abs(math.cos(self.polar)) < CYLINDER:
@@ -111,16 +112,16 @@ class Cone(NamedTuple):
     def _flat(
         self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
     ) -> tuple[Array, Array]:
-        """Points, and their derivatives, (n, 2)."""
-        share = math.cos(self.polar)
+        """Return points and their derivatives, (n, 2)."""
+        ratio = math.cos(self.polar)
         off = polar - self.polar
-        beyond = self.radius_mm * np.tan(off)  # along the cone, from where it touches
-        turn, wide = share * azimuth, self.radius_mm * math.sin(self.polar)
+        beyond = self.radius_mm * np.tan(off)  # along the cone, from the circle of contact
+        turn, wide = ratio * azimuth, self.radius_mm * math.sin(self.polar)
         c, s = np.cos(turn), np.sin(turn)
-        # (1 - cos)/share and sin/share, which are 0 and the azimuth on a cylinder
+        # (1 - cos)/ratio and sin/ratio, which are 0 and the azimuth on a cylinder
         x = beyond * c - wide * azimuth * np.sin(0.5 * turn) * np.sinc(0.5 * turn / math.pi)
         y = beyond * s + wide * azimuth * np.sinc(turn / math.pi)
-        along, across = self.radius_mm / np.cos(off) ** 2 * d_polar, wide + share * beyond
+        along, across = self.radius_mm / np.cos(off) ** 2 * d_polar, wide + ratio * beyond
         across = across * d_azimuth
         return (
             np.column_stack((x, y)),

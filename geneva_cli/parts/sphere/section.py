@@ -30,18 +30,18 @@ Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on
 
 
 def section(parts: Shells, whole: BuiltBall, scale: float) -> View:
-    """All parts as the plane of the shafts cuts them, and angles from the wheel's axis.
+    """Return all parts cut by the plane of the shafts, with angles from the wheel's axis.
 
-    Locking sectors are turned into it.
+    Locking sectors are turned into that plane.
     """
     ball, view = parts.ball, View("section through both shafts", scale)
     inner, outer = ball.span_mm
     end = ball.bottom - ball.half_width
-    # across the wheel's axis there is a slot too, or what is between two
+    # opposite, across the wheel's axis, there is a slot too, or the edge between two slots
     between = ball.axes - ball.recess if ball.recess else ball.rim
     back = between if ball.z % 2 else end
-    opening = beside(0.0, ball.opening_mm) if ball.opening_mm else radial(ball.inner)
-    closing = beside(0.0, -ball.opening_mm) if ball.opening_mm else radial(-ball.inner)
+    opening = parallel(0.0, ball.opening_mm) if ball.opening_mm else radial(ball.inner)
+    closing = parallel(0.0, -ball.opening_mm) if ball.opening_mm else radial(-ball.inner)
     for low, high in ((opening, radial(end)), (radial(-back), closing)):
         view.draw(_ring(inner, outer, low, high), OUTLINE)
     view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
@@ -62,17 +62,17 @@ def section(parts: Shells, whole: BuiltBall, scale: float) -> View:
         for radius in ball.arm_span_mm:
             arc = _arc(radius, start - 0.5 * whole.arm.cap, start)
             view.of_arcs([arc], sized.plain(radius, "SR "))
-    _told(view, ball, end, middle, _reach(parts), far)
+    _dimension_angles(view, ball, end, middle, _reach(parts), far)
     return view
 
 
-def _told(
+def _dimension_angles(
     view: View, ball: Ball, end: float, middle: float, reach: tuple[float, ...], far: float
 ) -> None:
-    """The angles."""
-    told = {"slot's end": end, "roller": middle, "rim": ball.rim, "shafts": ball.axes}
-    told |= {} if ball.opening_mm else {"opening": ball.inner}
-    for name, angle in sorted(told.items(), key=lambda item: item[1]):
+    """Draw the dimensions of the angles."""
+    angles = {"slot's end": end, "roller": middle, "rim": ball.rim, "shafts": ball.axes}
+    angles |= {} if ball.opening_mm else {"opening": ball.inner}
+    for name, angle in sorted(angles.items(), key=lambda item: item[1]):
         view.angular([(UP - angle, UP)], far, far, f"{name} {degrees(angle)}")
     axis = UP - ball.axes
     for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
@@ -80,12 +80,12 @@ def _told(
 
 
 def _crank(parts: Shells, whole: BuiltBall) -> Iterator[Contour]:
-    """Rollers, locking sector and arm."""
+    """Yield the cut faces of rollers, locking sector and arm."""
     ball, arm = parts.ball, whole.arm
     for middle in _rollers(ball):
         sides = [radial(middle - ball.roller), radial(middle + ball.roller)]
         if arm:
-            sides[1:1] = [beside(middle, -ball.pin_mm), beside(middle, ball.pin_mm)]
+            sides[1:1] = [parallel(middle, -ball.pin_mm), parallel(middle, ball.pin_mm)]
         for low, high in zip(sides[::2], sides[1::2], strict=True):
             yield _ring(*ball.span_mm, low, high)
     reach = _reach(parts)
@@ -93,32 +93,32 @@ def _crank(parts: Shells, whole: BuiltBall) -> Iterator[Contour]:
         yield _ring(*ball.lock_span_mm, *(radial(ball.axes + angle) for angle in reach))
     if arm:
         middle, hole = ball.axes - ball.arm, arm.pins[0].radius
-        sides = [radial(middle - arm.eye), beside(middle, -hole), beside(middle, hole)]
-        sides += [beside(ball.axes, -arm.hub), beside(ball.axes, arm.hub), *_behind(ball, arm)]
+        sides = [radial(middle - arm.eye), parallel(middle, -hole), parallel(middle, hole)]
+        sides += [parallel(ball.axes, -arm.hub), parallel(ball.axes, arm.hub), *_behind(ball, arm)]
         for low, high in zip(sides[::2], sides[1::2], strict=True):
             yield _ring(*ball.arm_span_mm, low, high)
 
 
 def _rollers(ball: Ball) -> list[float]:
-    """The rollers in the plane of the shafts: the first one, and one across the crank's axis."""
+    """Return angles of the rollers in the plane of the shafts: the first, and one opposite."""
     across = any(abs(azimuth - math.pi) < SAME for azimuth in ball.rollers)
     return [ball.axes - ball.arm, *([ball.axes + ball.arm] if across else [])]
 
 
 def _behind(ball: Ball, arm: CapArm) -> list[Side]:
-    """The arm's end across the crank's axis, and a hole that is on the way."""
-    ways = [polar for arc in arm.boundary.boundary for polar in arc.crossings(math.pi)]
-    end = radial(ball.axes + max(ways))
+    """Return the sides of the arm across the crank's axis, with a hole that lies there."""
+    polars = [polar for arc in arm.boundary.boundary for polar in arc.crossings(math.pi)]
+    end = radial(ball.axes + max(polars))
     for hole in (*arm.pins, *arm.bolts):
         x, y, z = hole.axis
         if x < 0.0 and abs(y) < SAME:
             at = ball.axes + math.acos(z)
-            return [beside(at, -hole.radius), beside(at, hole.radius), end]
+            return [parallel(at, -hole.radius), parallel(at, hole.radius), end]
     return [end]
 
 
 def _plates(parts: Shells, whole: BuiltBall) -> Iterator[tuple[Plate, float]]:
-    """Hubs, shafts and the pin, and the angles of their axes from the wheel's."""
+    """Yield hubs, shafts and pins, each with the angle of its axis from the wheel's axis."""
     axes = parts.ball.axes
     yield from ((plate, 0.0) for plate in plates(whole.wheel.part))
     for plate in dict.fromkeys(plates(whole.crank.part)):
@@ -130,7 +130,7 @@ def _plates(parts: Shells, whole: BuiltBall) -> Iterator[tuple[Plate, float]]:
 
 
 def _along(plate: Plate, angle: float) -> Iterator[Contour]:
-    """A round plate cut along its axis: on either side of its bore, if it has one."""
+    """Yield a round plate cut along its axis: both sides of its bore, if it has one."""
     assert isinstance(plate.outline, Circle)
     wide = plate.outline.radius
     bore = math.hypot(*_edge(plate)) if plate.holes else 0.0
@@ -142,35 +142,35 @@ def _along(plate: Plate, angle: float) -> Iterator[Contour]:
 
 
 def _edge(plate: Plate) -> Point:
-    """A point on a bore's circle."""
+    """Return a point on a bore's circle."""
     (hole,) = plate.holes
     return (hole.radius, 0.0) if isinstance(hole, Circle) else hole.segments[0].start
 
 
 def _far(whole: BuiltBall) -> float:
-    """How far the shafts reach."""
+    """Return the distance of the shafts' farthest end from the centre."""
     return max((m.part.high for m in whole.shafts if isinstance(m.part, Plate)), default=0.0)
 
 
 def _reach(parts: Shells) -> tuple[float, ...]:
-    """The locking sectors' inner edge and their locking one, from the crank's axis."""
+    """Return the angles of the locking sectors' inner and outer edge, from the crank's axis."""
     arcs = [arc for one in parts.crank for arc in one.boundary]
     angles = [math.acos(max(-1.0, min(1.0, arc.start[2]))) for arc in arcs]
     return (min(angles), max(angles)) if angles else ()
 
 
 def radial(angle: float) -> Side:
-    """A wall that leads to the centre."""
+    """Return a wall that leads to the centre."""
     return lambda sphere: angle
 
 
-def beside(axis: float, off: float) -> Side:
-    """A wall beside an axis, which is parallel to it."""
+def parallel(axis: float, off: float) -> Side:
+    """Return a wall that is parallel to an axis, at the distance ``off``."""
     return lambda sphere: axis + math.asin(off / sphere)
 
 
 def _ring(inner: float, outer: float, low: Side, high: Side) -> Contour:
-    """What a shell shows between two walls."""
+    """Return the section of a shell between two walls."""
     out, back = _arc(outer, low(outer), high(outer)), _arc(inner, high(inner), low(inner))
     return closed("", [out, Line(out.end, back.start), back, Line(back.end, out.start)])
 
@@ -184,5 +184,5 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def degrees(angle: float) -> str:
-    """An angle as the sheet has it."""
+    """Return an angle in the form that the sheet shows."""
     return f"{number(math.degrees(angle), DECIMALS)}°"

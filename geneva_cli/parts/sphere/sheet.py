@@ -1,8 +1,8 @@
-"""The drawing sheet of a spherical machine: its section, wheel and crank laid flat, all angles.
+"""The drawing sheet of a spherical machine: section, flat wheel and crank, and all angles.
 
-The section is in the plane of both shafts, with a roller at the end of its slot; the sphere's
-centre is the origin, the wheel's axis points up. Flat views have their cone's apex as the origin,
-where it is near.
+The section is in the plane of both shafts, with a roller at the end of its slot. The sphere's
+centre is the origin, and the wheel's axis points up. Flat views have the apex of their cone as the
+origin, if it is near.
 """
 
 from __future__ import annotations
@@ -48,22 +48,22 @@ if TYPE_CHECKING:
 
 UP = 0.5 * math.pi
 SAME = 1e-6  # of a radius
-FAR = 4.0  # sphere's radii: an apex farther off is on no sheet
-BEYOND = 0.1  # of the sphere's radius: axes, over the shells
-FINE = 0.1  # of a table's tolerance: what its curve is fitted to
-CROSS = 0.05  # of it: at the apex
+FAR = 4.0  # sphere's radii: a farther apex is not shown on the sheet
+BEYOND = 0.1  # of the sphere's radius: axes extend beyond the shells by this
+FINE = 0.1  # of a table's tolerance: tolerance of the curve that the table samples
+CROSS = 0.05  # of the sphere's radius: size of the cross at the apex
 HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
 COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
 DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 
 
 def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
-    """The drawing sheet of a machine. Raises GenevaError where no scale brings it on one."""
-    found, locks = proof.shells.ball, proof.shells.crank
-    wheel = wheel_flat(found, wheel_cone(found), tolerance, curves)
-    crank = crank_flat(found, locks, crank_cone(found), tolerance, curves)
+    """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
+    ball, locks = proof.shells.ball, proof.shells.crank
+    wheel = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
+    crank = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
     whole = built(proof.shells)
-    arm = arm_flat(found, whole.arm, tolerance, curves) if whole.arm else []
+    arm = arm_flat(ball, whole.arm, tolerance, curves) if whole.arm else []
     rows = [
         (d.name, number(d.value, DECIMALS), d.unit)
         for d in dimensions(proof)
@@ -71,40 +71,40 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
     ]
     fixed = [
         table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),
-        flat_slot(found, tolerance),
+        flat_slot(ball, tolerance),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         views = [
             section(proof.shells, whole, scale),
-            _flat("wheel", found, wheel_cone(found), wheel, scale),
-            _flat("crank", found, crank_cone(found), crank, scale),
+            _flat("wheel", ball, wheel_cone(ball), wheel, scale),
+            _flat("crank", ball, crank_cone(ball), crank, scale),
         ]
         if whole.arm:
-            views.append(_arm(proof, found, whole.arm, arm, scale))
+            views.append(_arm(proof, ball, whole.arm, arm, scale))
         views += _axles(proof, whole, scale)
         yield [*(view.block() for view in views), *fixed]
 
-    items = list(part_rows(proof.mechanism.spec, Group("", whole.members), found.span_mm[1]))
-    return on_paper(proof.mechanism.spec, items, 2.0 * found.span_mm[1], blocks)
+    items = list(part_rows(proof.mechanism.spec, Group("", whole.members), ball.span_mm[1]))
+    return on_paper(proof.mechanism.spec, items, 2.0 * ball.span_mm[1], blocks)
 
 
-def _arm(proof: Proof, ball: Ball, made: CapArm, flat: list[Contour], scale: float) -> View:
-    """The arm laid flat, and what its pins are pressed into."""
+def _arm(proof: Proof, ball: Ball, arm: CapArm, flat: list[Contour], scale: float) -> View:
+    """Return the view of the arm laid flat, with notes on pins, hub and bolts."""
     view = _flat("crank", ball, arm_cone(ball), flat, scale)
     view.title = "arm, laid flat"
-    hole, pin = made.pins[0].radius, ball.pin_mm
+    hole, pin = arm.pins[0].radius, ball.pin_mm
     text = f"{sized.pin_hole(proof.mechanism, hole)} through, to the sphere's centre"
-    view.remark(f"pins: {times(len(made.pins), text)}; pin {sized.pin(pin)}")
-    view.remark(f"hub: {sized.plain(2.0 * made.hub, 'Ø ')} through, about the crank's axis")
-    if made.bolts:
-        text = f"{sized.bore(made.bolts[0].radius)} through, to the sphere's centre"
-        view.remark(f"locking sectors: {times(len(made.bolts), text)}")
+    view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(pin)}")
+    view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
+    if arm.bolts:
+        text = f"{sized.bore(arm.bolts[0].radius)} through, to the sphere's centre"
+        view.remark(f"locking sectors: {times(len(arm.bolts), text)}")
     return view
 
 
 def _axles(proof: Proof, whole: BuiltBall, scale: float) -> Iterator[View]:
-    """Hubs along their axes, with bores and keyways, and the shafts from the side."""
+    """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
     size = proof.mechanism.spec.size
     for part, standard in ((whole.wheel, size.wheel_keyway), (whole.crank, size.crank_keyway)):
         for hub in plates(part.part):
@@ -125,9 +125,9 @@ def _axles(proof: Proof, whole: BuiltBall, scale: float) -> Iterator[View]:
 
 
 def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: float) -> View:
-    """A cone laid flat: its radii from the apex, the depth of a slot, the angles between slots."""
+    """Return a cone laid flat: radii from the apex, depth of a slot, angles between slots."""
     view = View(f"{whose}, laid flat", scale)
-    view.remark(cone.said(whose))
+    view.remark(cone.described(whose))
     shift = _shift(ball, cone)
     near = shift != 0.0
     moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
@@ -144,13 +144,13 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
                 radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
         for text, some in radii.items():
             view.of_arcs(some, text)
-    ways = [c.segments[0] for c in contours if c.layer == PITCH and isinstance(c.segments[0], Line)]
-    if not ways:
+    axes = [c.segments[0] for c in contours if c.layer == PITCH and isinstance(c.segments[0], Line)]
+    if not axes:
         return view
-    first, after = ways[:2]
+    first, after = axes[:2]
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
     if near:
-        legs = sorted(math.atan2(way.start[1], way.start[0]) for way in (first, after))
+        legs = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
         text = f"{number(math.degrees(abs(legs[1] - legs[0])), DECIMALS)}°"
         view.angular([(legs[0], legs[1])], far, far, times(ball.z - 1, text))
     else:
@@ -160,20 +160,20 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
 
 
 def _shift(ball: Ball, cone: Cone) -> float:
-    """From a cone's apex to where it touches, mm; 0 where that is too far for a sheet."""
+    """Return the distance from a cone's apex to its contact, mm; 0 if too far for a sheet."""
     near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * ball.radius_mm
     return cone.apex_mm if near else 0.0
 
 
 def flat_slot(ball: Ball, tolerance: float) -> Block:
-    """A table of half of a slot, laid flat: its edge from amid two slots to its end."""
+    """Return a table of half of a flat slot: its edge from between two slots to its end."""
     cone, close = wheel_cone(ball), max(tolerance, COARSE * ball.radius_mm)
     shift = _shift(ball, cone)
     points: list[Point] = []
     for piece in slot_flat(ball, cone, FINE * close, "arcs").segments:
 
         def curve(t: Array, piece: Segment = piece) -> Array:
-            return np.array([at(piece, float(share)) for share in t])
+            return np.array([at(piece, float(fraction)) for fraction in t])
 
         for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
             if y < -SAME * ball.radius_mm and (not points or math.dist(points[-1], (x, y)) > SAME):
@@ -186,7 +186,7 @@ def flat_slot(ball: Ball, tolerance: float) -> Block:
 
 
 def _sectors(view: View, locking: list[Segment], far: float) -> None:
-    """How wide the locking sectors are, and how far the first is from the first roller."""
+    """Draw the angles of the locking sectors, and that from the first roller to the first one."""
     arcs = [arc for arc in locking if isinstance(arc, Arc)]
     wide: dict[str, list[tuple[float, float]]] = {}
     for arc in arcs:

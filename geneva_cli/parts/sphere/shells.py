@@ -1,4 +1,4 @@
-"""The shells of a spherical machine as a full turn has them: where they stand, lengths and gaps."""
+"""The shells of a spherical machine for a full turn: positions, lengths and gaps."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 
 class BallLengths(NamedTuple):
-    """Arcs of the sphere, mm, but for ``rim`` and ``outer``, which are from the wheel's axis."""
+    """Arc lengths on the sphere, mm; ``rim`` and ``outer`` are distances from the wheel's axis."""
 
     roller: float
     half_width: float
     rim: float
-    outer: float  # the sphere's radius, where the wheel reaches round it
+    outer: float  # the sphere's radius, where the rim lies beyond its equator, else 0
     arm: float
     horn: float
     wall_min: float
@@ -43,7 +43,7 @@ class Shells(NamedTuple):
 
     @property
     def close(self) -> float:
-        """The overlap, mm, that is rounding."""
+        """The overlap, mm, that counts as rounding."""
         return EXACT * self.ball.radius_mm
 
     @property
@@ -52,34 +52,39 @@ class Shells(NamedTuple):
         return CONTACT * self.ball.radius_mm
 
     def over(self, assembly: Assembly) -> Shells:
-        """The same parts where another assembly has them."""
+        """Return these parts with another assembly."""
         return self._replace(assembly=assembly)
 
     def in_wheel(self, motion: int, at: Array) -> Array:
-        """Where a motion's roller is in the wheel's frame, mm, at input angles (n,): (n, 3)."""
+        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
+
+        It is an array (n, 3).
+        """
         out: Array = self.ball.radius_mm * self.gaps.in_wheel(motion, at)
         return out
 
     def past_mouth(self, motion: int, at: Array) -> Array:
-        """How far that is in its slot, past the mouth's corners, mm, (n,)."""
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
         polar = np.arccos(np.clip(self.gaps.in_wheel(motion, at)[:, 2], -1.0, 1.0))
         past: Array = self.ball.radius_mm * (self.ball.mouth - polar)
         return past
 
 
 def shells(mechanism: Mechanism, advice: bool = True) -> Shells:
-    """The shells of a machine. Raises GenevaError, naming the key, where its sizes leave none; with
-    ``advice`` also the roller that leaves some.
+    """Return the shells of a machine.
+
+    Raises GenevaError, naming the key, where its sizes leave none. With ``advice`` the message
+    names a roller that fits.
     """
-    found, locks = fitted(mechanism, advice)
-    L, where = found.radius_mm, assembled(mechanism)
+    ball, locks = fitted(mechanism, advice)
+    L, assembly = ball.radius_mm, assembled(mechanism)
     lengths = BallLengths(
-        roller=L * found.roller,
-        half_width=L * found.half_width,
-        rim=L * math.sin(found.rim),
-        outer=L if found.rim > 0.5 * math.pi else 0.0,
-        arm=L * math.sin(found.arm),
-        horn=L * (found.arm - found.half_width - found.recess),
+        roller=L * ball.roller,
+        half_width=L * ball.half_width,
+        rim=L * math.sin(ball.rim),
+        outer=L if ball.rim > 0.5 * math.pi else 0.0,
+        arm=L * math.sin(ball.arm),
+        horn=L * (ball.arm - ball.half_width - ball.recess),
         wall_min=wall_min(mechanism.spec.size, L),
     )
-    return Shells(where, found, lengths, locks, BallGaps(where, found, locks))
+    return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))

@@ -1,9 +1,9 @@
 """The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
 
-All walls lead to the centre, and so does the roller, a cone. Its radius, slots and clearances are
-arcs of the sphere, of the radius ``center_distance_mm``; radii of the lock and of bores are from
-their axes. What lies below the wheel on a plane is outside of it here: a height above the wheel's
-lower face is a distance inwards from its outer sphere.
+All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
+and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
+bores are distances from their axes. The side that is below the wheel on a plane is outside the
+wheel here: a height above the wheel's lower face is a distance inwards from its outer sphere.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from geneva_cli.parts.sizes import (
 from geneva_cli.parts.sphere.axles import about_crank, wheel_axle
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
-LEAST_HORN = 1e-3  # of the roller's angle: a horn at the rim thinner than this is none
+LEAST_HORN = 1e-3  # of half a step: a horn thinner than this at the rim counts as none
 
 
-class NoRoom(GenevaError):
-    """Raised where there is no room for a part, which a smaller roller leaves."""
+class PartDoesNotFit(GenevaError):
+    """Error for a part that does not fit, but would with a smaller roller."""
 
 
 class Ball(NamedTuple):
-    """Of a machine whose slots are meridians.
+    """The sizes of a spherical machine, whose slots are meridians.
 
-    Polar angles are from the wheel's axis, and about the crank from the crank's.
+    Polar angles are from the wheel's axis; for parts of the crank they are from the crank's axis.
     """
 
     radius_mm: float  # of the sphere
@@ -43,26 +43,26 @@ class Ball(NamedTuple):
     axes: float  # between the shafts
     arm: float  # of the rollers, from the crank's axis
     half_motion: float  # crank angle from entry to mid-motion
-    rollers: tuple[float, ...]  # where they are about the crank's axis
+    rollers: tuple[float, ...]  # azimuths about the crank's axis
     roller: float  # half angle of its cone
     half_width: float  # of the slots
-    bottom: float  # of the slot's last round, its polar angle
-    mouth: float  # where a roller enters
-    rim: float  # the wheel's edge
-    inner: float  # where its slotted ring ends towards its axis
-    lock: float  # of the locking sectors, 0 for none
-    recess: float  # the same in the wheel
-    span_mm: tuple[float, float]  # radii of the wheel's inner and outer face, and the rollers'
-    lock_span_mm: tuple[float, float]  # of the locking sectors'
-    arm_span_mm: tuple[float, float]  # of the crank arm's
+    bottom: float  # polar angle of the centre of the slot's round end
+    mouth: float  # polar angle where a roller enters
+    rim: float  # polar angle of the wheel's edge
+    inner: float  # polar angle where the slotted ring ends towards its axis
+    lock: float  # polar angle of the locking sectors' edge, 0 for none
+    recess: float  # polar angle of the recess in the wheel, 0 for none
+    span_mm: tuple[float, float]  # radii of the inner and outer face of wheel and rollers
+    lock_span_mm: tuple[float, float]  # of the locking sectors
+    arm_span_mm: tuple[float, float]  # of the crank arm
     bore_mm: float  # radius of the wheel's bore, 0 for none
-    hub_mm: float  # of its hub, likewise
-    pin_mm: float  # of the rollers' pins, likewise
-    about_crank_mm: float  # of what of the crank's shaft and hub is beside the wheel
+    hub_mm: float  # radius of its hub, 0 for none
+    pin_mm: float  # radius of the rollers' pins, 0 for none
+    about_crank_mm: float  # radius of the crank's shaft or hub between the arm and the wheel
 
     @property
     def half_step(self) -> float:
-        """Half an index of the wheel."""
+        """Half a step of the wheel."""
         return math.pi / self.z
 
     @property
@@ -71,32 +71,32 @@ class Ball(NamedTuple):
         return max(self.bore_mm, self.hub_mm)
 
     def out(self, height_mm: float) -> float:
-        """The distance from the centre of a height above the wheel's lower face."""
+        """Return the distance from the centre to a height above the wheel's lower face."""
         return self.span_mm[1] - height_mm
 
     @property
     def slot_width_deg(self) -> float:
-        """Between the walls of a slot, seen from the sphere's centre."""
+        """The angle between the walls of a slot, seen from the sphere's centre."""
         return math.degrees(2.0 * self.half_width)
 
     def corner(self) -> float:
-        """The azimuth of the slot's corner at the rim, from its middle."""
+        """Return the azimuth of the slot's corner at the rim, from the slot's middle."""
         return math.asin(math.sin(self.half_width) / math.sin(self.rim))
 
     def opened(self) -> float:
-        """Half the azimuth over which a recess opens the rim, 0 for none."""
+        """Return half the azimuth over which a recess opens the rim, 0 without a recess."""
         if not self.recess:
             return 0.0
         c = math.cos(self.recess) - math.cos(self.rim) * math.cos(self.axes)
         return math.acos(c / (math.sin(self.rim) * math.sin(self.axes)))
 
     def crank_axis(self, azimuth: float) -> Vector:
-        """The crank's axis at an azimuth about the wheel's."""
+        """Return the crank's axis when it is at an azimuth about the wheel's axis."""
         return place(self.axes, azimuth)
 
 
 def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
-    """The sizes of a machine on a sphere; with another roller than its own, if one is named.
+    """Return the sizes of a spherical machine; ``roller_mm`` replaces its own roller radius.
 
     Raises GenevaError, naming the key, where they leave no wheel or no lock.
     """
@@ -122,16 +122,16 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     _refuse_thick(thick, size, L, roller, pin)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + size.pin_gap_mm  # the arm's inner face, on which the sectors stand
-    room = bottom - w
-    bore, hub = wheel_axle(size, L, inside, room)
+    slot_end = bottom - w
+    bore, hub = wheel_axle(size, L, inside, slot_end)
     hole = math.asin(max(bore, hub) / inside)
-    inner = room - roller if room - roller > hole else 0.5 * (room + hole)
+    inner = slot_end - roller if slot_end - roller > hole else 0.5 * (slot_end + hole)
     lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
     many = spec.drive.rollers
     turns = [p.crank_deg for p in (first, *others)]
     if len(turns) == 1:
         turns = [360.0 * i / many for i in range(many)]
-    found = Ball(
+    result = Ball(
         radius_mm=L,
         z=z,
         axes=axes,
@@ -154,53 +154,52 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         pin_mm=pin,
         about_crank_mm=about_crank(size),
     )
-    _refuse(found)
-    return found
+    _refuse(result)
+    return result
 
 
-def _lock(mechanism: Mechanism, room: float, least: float, roller: float) -> float:
-    """The locking sectors' angle from the crank's axis; its sine is ``lock_radius_mm`` over L.
+def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
+    """Return the angle of the locking sectors' edge; its sine is ``lock_radius_mm`` over L.
 
-    As on a plane: a horn as thick as the roller's radius, or a fifth of the room.
+    As on a plane, the default leaves a horn as thick as the roller's radius, or a fifth of the
+    space.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS:
         return 0.0
-    room -= size.allowances.lock_clearance_mm / L
-    low, high = (L * math.sin(max(0.0, x)) for x in (least, room))
-    if room <= least:
-        raise NoRoom(
-            f"no room for a locking sector: it would have to reach {low:.4g} mm from the crank's "
-            f"axis, to the rim, and the roller leaves {high:.4g} mm; lock_radius_mm = 0 leaves it "
-            "out, where the wheel is held in another way",
+    limit -= size.allowances.lock_clearance_mm / L
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    if limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: it must reach the rim, {low:.4g} mm from the "
+            f"crank's axis, but the roller limits it to {high:.4g} mm; lock_radius_mm = 0 omits it",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
-        return lock_between(least, room, roller)
+        return lock_between(least, limit, roller)
     require_lock_between(size.lock_radius_mm, low, high)
     return math.asin(size.lock_radius_mm / L)
 
 
 def _refuse_slots(bottom: float, w: float, z: int) -> None:
     if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
-        raise NoRoom(
-            "the slots meet beside their ends: roller_radius_mm, slot_clearance_mm and "
-            "slot_bottom_clearance_mm are too large for so many slots",
+        raise PartDoesNotFit(
+            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
             ("size", "roller_radius_mm"),
         )
 
 
 def _refuse(ball: Ball) -> None:
     if ball.inner <= 0.0:
-        raise NoRoom(
-            "the wheel has no bore, and no opening about its axis: the slots' ends are no farther "
-            "from it than a roller's width; a wheel_bore_mm, or a smaller roller, is needed",
+        raise PartDoesNotFit(
+            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+            "set a wheel_bore_mm or reduce the roller",
             ("size", "wheel_bore_mm"),
         )
     if ball.opened() + ball.corner() > (1.0 - LEAST_HORN) * ball.half_step:
-        raise NoRoom(
-            "no horn is left between slot and recess at the rim: a smaller lock_radius_mm may "
-            "leave one",
+        raise PartDoesNotFit(
+            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
             ("size", "roller_radius_mm"),
         )
 
@@ -208,7 +207,7 @@ def _refuse(ball: Ball) -> None:
 def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:
     if thick.wheel >= L:
         raise GenevaError(
-            f"wheel_thickness_mm = {thick.wheel:g}: half of it lies within the sphere of "
+            f"wheel_thickness_mm = {thick.wheel:g}: half of it lies inside the sphere of radius "
             f"{L:g} mm; it must be below {L:g}",
             ("size", "wheel_thickness_mm"),
         )
@@ -216,7 +215,7 @@ def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_m
     if thick.lock >= most:
         raise GenevaError(
             f"lock_thickness_mm = {thick.lock:g}: the locking sectors reach inwards from the arm, "
-            f"{most:g} mm from the sphere's centre; it must be below that",
+            f"which is {most:g} mm from the sphere's centre; it must be below {most:g}",
             ("size", "lock_thickness_mm"),
         )
     thin = (L - 0.5 * thick.wheel) * math.sin(roller)

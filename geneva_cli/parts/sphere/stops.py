@@ -1,9 +1,10 @@
-"""Where a turning wheel on a sphere comes to touch what stands beside it, in closed form.
+"""Stops of a turning wheel on a sphere, in closed form.
 
-What lies to the left of an arc lies in a cap about its axis, and so does a roller; a corner is a
-cap of no size. Caps touch where their axes are as far apart as the sum of their angles: a hollow is
-the rim of a cap of more than half the sphere, so this holds for what runs in it, too. As the wheel
-turns, the axes of its caps go round its own, and a stop is a spherical triangle of known sides.
+The region to the left of an arc lies in a cap about the arc's axis. A roller is a cap, and a corner
+is a cap of no size. Two caps touch where the angle between their axes is the sum of their angles. A
+hollow is the rim of a cap of more than half the sphere, so this also holds for parts inside it. As
+the wheel turns, the axes of its caps move on circles about its own axis. So a stop is a spherical
+triangle of known sides.
 """
 
 from __future__ import annotations
@@ -25,42 +26,42 @@ WHOLE = 7.0  # radians, more than a whole turn
 
 
 class Caps(NamedTuple):
-    """k caps about axes (k, 3), of angles (k,), and what of their rims is an edge."""
+    """k caps about axes (k, 3), of angles (k,), and the part of each rim that is an edge."""
 
     axis: Array
     angle: Array
-    x: Array  # (k, 3), square to the axis: from there to where the edge begins,
-    y: Array  # and on along the edge,
-    sweep: Array  # which is so long, radians about the axis
+    x: Array  # (k, 3), normal to the axis, towards the start of the edge
+    y: Array  # (k, 3), normal to both, onwards along the edge
+    sweep: Array  # length of the edge, radians about the axis
 
     def edge(self, which: NDArray[np.intp], points: Array) -> NDArray[np.bool_]:
-        """Whether points (n, 3) on the rims of some caps are on their edges."""
+        """Return True where points (n, 3) on the rims of caps lie on their edges."""
         along = (points * self.x[which]).sum(axis=1)
-        aside = (points * self.y[which]).sum(axis=1)
-        turn = np.remainder(np.arctan2(aside, along) + SLACK, 2.0 * np.pi)
+        across = (points * self.y[which]).sum(axis=1)
+        turn = np.remainder(np.arctan2(across, along) + SLACK, 2.0 * np.pi)
         out: NDArray[np.bool_] = turn <= self.sweep[which] + 2.0 * SLACK
         return out
 
 
 def caps(boundaries: Sequence[Arcs]) -> Caps:
-    """The caps of arcs, and those of the corners where these come to a point."""
-    found = []
+    """Return the caps of arcs, and caps of the convex corners between them."""
+    columns = []
     for one in boundaries:
         corner = np.flatnonzero(one.first > FLAT)
         at, none = one.at(corner, np.zeros(len(corner))), np.zeros(len(corner))
-        found.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
-        found.append(Caps(at, none, at, at, none + WHOLE))
-    return Caps(*[np.concatenate(each) for each in zip(*found, strict=True)])
+        columns.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
+        columns.append(Caps(at, none, at, at, none + WHOLE))
+    return Caps(*[np.concatenate(each) for each in zip(*columns, strict=True)])
 
 
 def round_cap(angle: float) -> Caps:
-    """A roller's cap, wherever it is."""
+    """Return a roller's cap, at no position in particular."""
     nowhere = np.zeros((1, 3))
     return Caps(nowhere, np.array([angle]), nowhere, nowhere, np.array([WHOLE]))
 
 
 class WheelCaps:
-    """A wheel's caps, which repeat themselves after ``pitch`` radians about z."""
+    """A wheel's caps, which repeat after ``pitch`` radians about z."""
 
     def __init__(self, edge: Arcs, pitch: float) -> None:
         self.caps, self.pitch = caps([edge]), pitch
@@ -75,11 +76,11 @@ class WheelCaps:
         most: float,
         close: float,
     ) -> Touch:
-        """Contacts with other caps in n poses, the wheel at angles (n,) being turned up to ``most``
-        radians back and on.
+        """Return contacts with other caps in n poses, within ``most`` radians back and on.
 
-        The others' axes stand at ``axis``, (n, k, 3); ``own`` takes points (m, 3) and which of the
-        n each is for, to the frame that the others are given in.
+        ``wheel`` is the wheel's angle in each pose, (n,). The axes of the other caps are ``axis``,
+        (n, k, 3). ``own`` transforms points (m, 3), each with the index of its pose, to the frame
+        in which the other caps are defined.
         """
         apart = self.caps.angle[:, None] + others.angle - close
         ps, qs = np.nonzero((apart > 0.0) & (apart < np.pi))
@@ -105,19 +106,19 @@ class WheelCaps:
 
 
 def polar(points: Array) -> Array:
-    """Angles of directions (..., 3) from z."""
+    """Return the angles of directions (..., 3) from z."""
     out: Array = np.arctan2(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
     return out
 
 
 def _azimuth(points: Array) -> Array:
-    """Angles of directions (..., 3) about z, from x."""
+    """Return the angles of directions (..., 3) about z, from x."""
     out: Array = np.arctan2(points[..., 1], points[..., 0])
     return out
 
 
 def about(points: Array, angle: Array) -> Array:
-    """Directions (n, 3), each turned about z by its own angle, radians."""
+    """Return directions (n, 3), each turned about z by its own angle, radians."""
     c, s = np.cos(angle), np.sin(angle)
     x, y, z = points.T
     out = np.empty(points.shape)

@@ -1,7 +1,8 @@
-"""A spherical wheel as regions of its sphere, one about each slot, side by side.
+"""A spherical wheel as adjacent regions of its sphere, one about each slot.
 
-The wheel's axis is z, the first slot on the azimuth 0. The slot's walls are the circles that its
-roller's cone touches, a round at its end; the rim and the recesses are circles about the two axes.
+The wheel's axis is z, and the first slot is on the azimuth 0. The slot's walls are the circles that
+its roller's cone touches, with a round at its end. The rim is a circle about the wheel's axis, the
+recesses are circles about the crank's.
 """
 
 from __future__ import annotations
@@ -19,12 +20,14 @@ if TYPE_CHECKING:
 
 QUARTER = 0.5 * math.pi
 POLE = (0.0, 0.0, 1.0)
-WEB = 1.0  # radians: no farther from its axis the cap in the wheel's middle reaches
+WEB = 1.0  # radians: greatest angle of the cap in the wheel's middle
 
 
 def wheel_regions(ball: Ball, inner: float) -> list[Region]:
-    """The wheel's slotted ring from an angle on: a region a slot, which share the meridians between
-    the slots."""
+    """Return the wheel's slotted ring from a polar angle outwards, one region for each slot.
+
+    Adjacent regions share the meridian between their slots.
+    """
     b, z = ball.half_step, ball.z
     between = [place(_end(ball), (2 * k - 1) * b) for k in range(z)]
     ends = [place(inner, (2 * k - 1) * b) for k in range(z)]
@@ -36,27 +39,27 @@ def wheel_regions(ball: Ball, inner: float) -> list[Region]:
 
 
 def web_angle(ball: Ball) -> float:
-    """How far the cap about the wheel's axis reaches that closes its slotted ring."""
+    """Return the polar angle of the cap about the wheel's axis that closes its slotted ring."""
     return min(ball.inner, WEB)
 
 
 def web_region(ball: Ball, inner: float) -> Region:
-    """That cap."""
+    """Return the cap about the wheel's axis that closes its slotted ring."""
     b, z = ball.half_step, ball.z
     at = [place(inner, (2 * k - 1) * b) for k in range(z)]
     return Region(tuple(SphereArc(POLE, inner, at[k], at[(k + 1) % z]) for k in range(z)), POLE)
 
 
 def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
-    """The edge about the slot at an azimuth, from the meridian before it to the one after."""
+    """Return the edge about the slot at an azimuth, from the meridian before it to the next."""
     b = ball.half_step
     return _edge(ball, at, place(_end(ball), at - b), place(_end(ball), at + b))
 
 
 def edge_points(ball: Ball, each: int = 200) -> Array:
-    """Points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
-    share = np.arange(each) / each
-    one = np.concatenate([arc.at(arc.sweep * share)[0] for arc in edge(ball)])
+    """Return points along the edge of the whole wheel, (n, 3), ``each`` on every arc."""
+    fractions = np.arange(each) / each
+    one = np.concatenate([arc.at(arc.sweep * fractions)[0] for arc in edge(ball)])
     angle = 2.0 * ball.half_step * np.arange(ball.z)[:, None]  # of each slot
     c, s = np.cos(angle), np.sin(angle)
     x, y, up = one.T
@@ -65,7 +68,7 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
 
 
 def _end(ball: Ball) -> float:
-    """The polar angle of the edge on the meridian between two slots."""
+    """Return the polar angle of the edge on the meridian between two slots."""
     return ball.axes - ball.recess if ball.recess else ball.rim
 
 
@@ -86,7 +89,7 @@ def _region(
 
 
 def _edge(ball: Ball, at: float, start: Vector, end: Vector) -> list[SphereArc]:
-    """Recess, rim, wall, round, wall, rim and recess, counterclockwise about the wheel's axis."""
+    """Return recess, rim, wall, round, wall, rim and recess, counterclockwise."""
     b, w, corner = ball.half_step, ball.half_width, ball.corner()
     out = []
     low, high = start, end
@@ -95,14 +98,14 @@ def _edge(ball: Ball, at: float, start: Vector, end: Vector) -> list[SphereArc]:
         high = place(ball.rim, at + b - ball.opened())
         out.append(_recess(ball, at - b, start, low))
     mouths = [place(ball.rim, at - corner), place(ball.rim, at + corner)]
-    middle, aside = place(ball.bottom, at), (-math.sin(at), math.cos(at), 0.0)
-    ends = [_beside(middle, aside, -w), _beside(middle, aside, w)]
+    middle, across = place(ball.bottom, at), (-math.sin(at), math.cos(at), 0.0)
+    ends = [_offset(middle, across, -w), _offset(middle, across, w)]
     wall = QUARTER - w
     out += [
         SphereArc(POLE, ball.rim, low, mouths[0]),
-        SphereArc(opposite(aside), wall, mouths[0], ends[0]),
+        SphereArc(opposite(across), wall, mouths[0], ends[0]),
         SphereArc(opposite(middle), math.pi - w, ends[0], ends[1]),
-        SphereArc(aside, wall, ends[1], mouths[1]),
+        SphereArc(across, wall, ends[1], mouths[1]),
         SphereArc(POLE, ball.rim, mouths[1], high),
     ]
     if ball.recess:
@@ -114,8 +117,8 @@ def _recess(ball: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc
     return SphereArc(opposite(ball.crank_axis(azimuth)), math.pi - ball.recess, start, end)
 
 
-def _beside(at: Vector, aside: Vector, angle: float) -> Vector:
-    """A point on the great circle from one point to another, square to it."""
+def _offset(at: Vector, across: Vector, angle: float) -> Vector:
+    """Return the point at an angle from ``at`` along the great circle towards ``aside``."""
     c, s = math.cos(angle), math.sin(angle)
-    x, y, z = (c * p + s * q for p, q in zip(at, aside, strict=True))
+    x, y, z = (c * p + s * q for p, q in zip(at, across, strict=True))
     return x, y, z

@@ -64,8 +64,8 @@ class Gaps:
         if self.left < 0.0:
             raise NotProved(
                 f"the full turn is not proved: it takes more than {WORK:.0e} distances between "
-                "parts (some seconds), because they have very many pieces or very small features; "
-                "a larger roller or horn takes less"
+                "parts with so many pieces or such small features; a larger roller or horn takes "
+                "less"
             )
 
     def _sector(self) -> None:

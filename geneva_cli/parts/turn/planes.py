@@ -1,10 +1,10 @@
 """The gaps, in a whole turn, between links and the round parts that pass through their planes.
 
-Each plane below the wheel's has one link, or gears; the arm has a check of its own. These round
-parts pass through: the wheel's hub and, below it, its shaft; the spacer on a pin that joins links
-of distant planes; the crank's shaft between the planes in which it carries something. The crank's
-shaft leaves the machine below all links, or above through the locking disc. If both are blocked,
-the shaft has no bearing.
+Each plane below the wheel's has one link, or gears; the arm has a check of its own. Three kinds
+of round parts pass through. One is the wheel's hub and, below it, its shaft. Another is the spacer
+on a pin that joins links of distant planes. The third is the crank's shaft between the planes in
+which it carries something. It leaves the machine below all links, or above through the locking
+disc. If both are blocked, the shaft has no bearing.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
 """Stops of a turning wheel against rollers and crank, in closed form.
 
 Outlines consist of lines, arcs and corners. A corner is an arc of radius 0, a roller is a full
-circle. As the wheel turns, the centre of each of its arcs moves on a circle about the wheel's axis,
-and so does the foot of the perpendicular to each of its lines. Two arcs touch when the distance of
-their centres is the sum of their radii, or the difference if one of them is hollow. An arc and a
-line touch when the centre is one radius away from the line. All of these are triangles of three
-known sides. So no stop needs a search, and none is missed. Each triangle has two solutions; the
-parts approach each other in one of them.
+circle. As the wheel turns, the centres of its arcs move on circles about the wheel's axis. So do
+the feet of the perpendiculars to its lines. Two arcs touch when the distance of their centres is
+the sum of their radii, or the difference if one of them is hollow. An arc and a line touch when the
+centre is one radius away from the line. All of these are triangles of three known sides. So no stop
+needs a search, and none is missed. Each triangle has two solutions; the parts approach each other
+in one of them.
 """
 
 from __future__ import annotations
