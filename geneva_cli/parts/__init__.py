@@ -1,1 +1,1 @@
-"""The parts: sizes, walls, outlines, drawings, and the proof that they turn."""
+"""The parts: sizes, walls, outlines, drawings, and the check that they turn."""

@@ -23,7 +23,7 @@ from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.outlines import Outlines, slot_walls
 from geneva_cli.parts.plates import arm_plate, crank_group, wheel_part
 from geneva_cli.parts.shafts import crank_hub
-from geneva_cli.parts.walls.ways import beside
+from geneva_cli.parts.walls.ways import parallel
 from geneva_cli.parts.wheel import wheel_circles, wheel_contour
 from geneva_cli.parts.wheel_hub import wheel_hub
 
@@ -150,5 +150,5 @@ def _pitch_line(
         return Contour(PITCH, (Line(*ends),), closed=False)
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
-        pieces += fit.KINDS[curves](beside(assembly, engagement, 0.0, b > 0.0), a, b, tolerance)
+        pieces += fit.KINDS[curves](parallel(assembly, engagement, 0.0, b > 0.0), a, b, tolerance)
     return Contour(PITCH, joined(pieces), closed=False)

@@ -313,5 +313,5 @@ def test_the_comparison_can_fail():
 
 def test_refusals():
     slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
-    with pytest.raises(GenevaError, match="do not go on one A1 sheet"):
+    with pytest.raises(GenevaError, match="do not fit on one A1 sheet"):
         sheet(Design.of(slots).parts, 1e3, "arcs")

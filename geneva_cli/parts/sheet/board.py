@@ -1,7 +1,7 @@
-"""What is on a drawing already, so that no text comes to stand on a line, or a line on a text.
+"""The lines and texts that are already on a drawing, to keep new ones clear of them.
 
-Lines are kept as short chords. What is to be put is a candidate with all its lines and texts, and
-the first of several that is free is taken.
+Lines are stored as short chords. A new dimension comes as several candidates, each with all its
+lines and texts. The first candidate that is free is used.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from geneva_cli.curves.sheet import ABOVE, BELOW, Label, Measure
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-CHORD = 1.5  # mm: the longest chord of a curve
-BESIDE, ON = 3.0, 4.0  # mm: of a dimension line to another, and to a line of the part beside it
-LEAST = 0.1  # mm: those that share less may be in one line
-GAP = 0.6  # mm: between a text and what is nearest to it
+CHORD = 1.5  # mm: longest chord of a curve
+BESIDE, ON = 3.0, 4.0  # mm: distance of a dimension line to another, and to a line of the part
+LEAST = 0.1  # mm: lines that share less may be in line with each other
+GAP = 0.6  # mm: distance of a text to its nearest neighbour
 
 
 class Board:
-    """Chords, and the boxes of texts."""
+    """A drawing's chords, and the boxes of its texts."""
 
     def __init__(self) -> None:
         self._texts: list[Label] = []
@@ -35,24 +35,24 @@ class Board:
         self._all: Array = np.empty((0, 4))
 
     def draw(self, shape: Shape) -> None:
-        """Keep a shape's lines."""
+        """Add the lines of a shape."""
         self._keep(chords(shape))
         if isinstance(shape, Contour):
             self._drawn += [piece for piece in shape.segments if isinstance(piece, Line)]
 
     def write(self, label: Label) -> None:
-        """Keep a text."""
+        """Add a text."""
         self._texts.append(label)
         self._keep(_edges(label))
 
     def put(self, measure: Measure) -> None:
-        """Keep a dimension: its lines, arrows and text."""
+        """Add a dimension: its lines, arrows and text."""
         self._keep(_lines(measure))
         self._ruled.append(measure.lines[0])
         self.write(measure.label)
 
     def first(self, candidates: Iterable[Measure]) -> Measure | None:
-        """The first of some dimensions that is free, which is kept; None if none is."""
+        """Return the first dimension that is free, and add it; None if none is free."""
         for measure in candidates:
             own = measure.lines[0]
             ruled = any(_run_together(own, other, BESIDE) for other in self._ruled)
@@ -63,14 +63,14 @@ class Board:
         return None
 
     def is_free(self, label: Label, lines: Array) -> bool:
-        """Whether a text and lines that go with it meet nothing that is here."""
+        """Return True if a text and its lines meet nothing on the board."""
         if bool(_inside(label, self._all, GAP).any()):
             return False
         own = np.concatenate((lines, _edges(label)))
         return not any(bool(_inside(text, own, GAP).any()) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
-        """The least and the greatest coordinates of all: x0, y0, x1, y1."""
+        """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
         x, y = self._all[:, ::2], self._all[:, 1::2]
         return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
@@ -79,12 +79,12 @@ class Board:
 
 
 def crosses(label: Label, lines: Array, gap: float = 0.0) -> bool:
-    """Whether some chords, (n, 4), come nearer to a text's box than a gap in mm."""
+    """Return True if chords, (n, 4), come nearer to a text's box than ``gap`` mm."""
     return bool(_inside(label, lines, gap).any())
 
 
 def chords(shape: Shape) -> Array:
-    """A shape's chords, (n, 4)."""
+    """Return the chords of a shape, (n, 4)."""
     if isinstance(shape, Circle):
         return _chords(two_arcs(shape))
     assert isinstance(shape, Contour)
@@ -92,7 +92,7 @@ def chords(shape: Shape) -> Array:
 
 
 def _run_together(a: Segment, b: Segment, apart: float) -> bool:
-    """Whether two lines, or two arcs, run side by side, too near to be told apart."""
+    """Return True if two lines, or two arcs, run side by side with less than ``apart`` between."""
     if isinstance(a, Arc) and isinstance(b, Arc):
         same = math.dist(a.centre, b.centre) < LEAST and abs(a.radius - b.radius) < apart
         turn = (_middle(b) - _middle(a)) % math.tau
@@ -111,7 +111,7 @@ def _run_together(a: Segment, b: Segment, apart: float) -> bool:
 
 
 def _middle(arc: Arc) -> float:
-    """The direction of an arc's middle from its centre."""
+    """Return the direction of an arc's middle from its centre."""
     (x, y), (u, v) = arc.centre, at(arc, 0.5)
     return math.atan2(v - y, u - x)
 
@@ -126,7 +126,7 @@ def _chords(pieces: Iterable[Segment]) -> Array:
 
 
 def _lines(measure: Measure) -> Array:
-    """A dimension's lines, and the sides of its arrows."""
+    """Return the chords of a dimension's lines and arrows."""
     sides = [
         Line(a, b)
         for arrow in measure.arrows
@@ -141,7 +141,7 @@ def _edges(label: Label) -> Array:
 
 
 def _inside(label: Label, lines: Array, gap: float) -> Array:
-    """Which chords, (n, 4), meet the box of a text grown by a gap, (n,)."""
+    """Return a mask of the chords, (n, 4), that meet the box of a text grown by ``gap``."""
     c, s = math.cos(label.turn), math.sin(label.turn)
     x, y = lines[:, ::2] - label.at[0], lines[:, 1::2] - label.at[1]
     along, up = c * x + s * y, c * y - s * x

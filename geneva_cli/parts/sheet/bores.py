@@ -1,4 +1,4 @@
-"""Bores with their keyways, and bolts on their circles, in the sheet's views."""
+"""Dimensions of bores with keyways, and of bolts on their circles, in the sheet's views."""
 
 from __future__ import annotations
 
@@ -14,37 +14,37 @@ from geneva_cli.parts.sheet.view import View, number, times
 
 
 def bored(view: View, bores: Sequence[Shape], radius: float, standard: str | None) -> None:
-    """A bore's diameter, and its keyway's size by a standard."""
+    """Draw a bore's diameter, and its keyway's size by a standard."""
     if not bores:
         return
     view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
     if isinstance(bores[0], Contour):
         fitted = key(standard, radius)
-        assert fitted is not None  # or it were a circle
+        assert fitted is not None  # otherwise the bore would be a circle
         top = bores[0].segments[3]
         text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
         view.note(at(top, 0.5), f"{text} ({standard})")
 
 
 def radius_of(bore: Shape) -> float:
-    """A bore's radius, without its keyway."""
+    """Return a bore's radius, without its keyway."""
     if isinstance(bore, Circle):
         return bore.radius
     return math.hypot(*bore.segments[0].start)
 
 
 def circle_of(view: View, screwed: Sequence[Circle]) -> None:
-    """The circles that bolts stand on, as centre lines."""
+    """Draw the circles that bolts lie on, as centre lines."""
     for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
         view.draw(Circle("", (0.0, 0.0), far), CENTRE)
 
 
 def bolted(view: View, screwed: Sequence[Circle]) -> None:
-    """Diameters of the bolts' holes and of the circle on which they are."""
+    """Draw the diameters of the bolts' holes and of their circle."""
     if not screwed:
         return
     far = math.hypot(*screwed[0].centre)
     text = times(len(screwed), f"{sized.bore(screwed[0].radius)} on Ø {number(2.0 * far)}")
     view.diameter(screwed, text)
-    ways = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
-    view.notes.append("holes at " + ", ".join(f"{number(way, 2)}°" for way in ways))
+    angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
+    view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))

@@ -1,7 +1,7 @@
 """Blocks on a sheet of paper, with the list of items and a title block.
 
-The views have one scale, the largest of the standard's with which all goes on one sheet, A1 at
-most, the smallest sheet that will do. Above 1:1 the largest part is no wider than a hand.
+The views have one scale: the largest standard scale at which everything fits on one sheet, A1 at
+most. The sheet is the smallest that fits. Above 1:1 the largest part is no wider than a hand.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ from geneva_cli.parts.sheet.paper import (
 from geneva_cli.parts.sheet.view import Block, number
 from geneva_cli.spec.tables import Material
 
-ENLARGED = 170.0  # mm: how large a part is drawn at most above 1:1
-GENERAL = "ISO 2768-m"  # tolerances of what has none of its own
+ENLARGED = 170.0  # mm: greatest size of a part that is drawn above 1:1
+GENERAL = "ISO 2768-m"  # tolerances of dimensions without their own
 ITEMS = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm: columns of the list of items
 
 
@@ -40,11 +40,11 @@ def on_paper(
     blocks: Callable[[float], Iterable[list[Block]]],
     area: float = 0.0,
 ) -> Sheet:
-    """The sheet of blocks to the largest scale with which all go on one; ``rows`` are its items.
+    """Return the sheet with blocks at the largest scale at which all fit on it.
 
-    ``blocks`` yields what may be on it, the best first. ``largest`` is the longest of what is
-    drawn, mm, and ``area``, mm², what some of it needs at least. Raises GenevaError where no scale
-    will do.
+    ``rows`` are its list of items. ``blocks`` yields alternatives of what is on it, the best first.
+    ``largest`` is the greatest length that is drawn, mm. ``area``, mm², is the least area that some
+    of it needs. Raises GenevaError where no scale fits.
     """
     for scale in SCALES:
         width, height = FORMATS[-1].width, FORMATS[-1].height
@@ -54,11 +54,11 @@ def on_paper(
         drawn = list(blocks(scale))
         for paper in FORMATS:
             for one in drawn:
-                made = _composed(spec, paper, scale, rows, one)
-                if made is not None:
-                    return made
+                sheet = _composed(spec, paper, scale, rows, one)
+                if sheet is not None:
+                    return sheet
     raise GenevaError(
-        "--part sheet: the parts and their tables do not go on one A1 sheet; a coarser "
+        "--part sheet: the parts and their tables do not fit on one A1 sheet; a coarser "
         "--tolerance makes shorter tables"
     )
 
@@ -70,7 +70,7 @@ def _composed(
     rows: list[dict[str, Any]],
     blocks: list[Block],
 ) -> Sheet | None:
-    """All on one sheet; None where it has no room."""
+    """Return all blocks on one sheet; None where they do not fit."""
     materials = [_material(spec.material_wheel), _material(spec.material_roller)]
     fields = {
         "scale": scale_name(scale),
@@ -91,20 +91,20 @@ def _composed(
     placed = packed(blocks, [corner, items], area)
     if placed is None:
         return None
-    every = [corner, items, *placed]
+    all_blocks = [corner, items, *placed]
     return Sheet(
         head,
         paper.width,
         paper.height,
         scale,
-        (*frame(paper), *(s for b in every for s in b.shapes)),
-        tuple(label for b in every for label in b.labels),
-        tuple(m for b in every for m in b.measures),
+        (*frame(paper), *(s for b in all_blocks for s in b.shapes)),
+        tuple(label for b in all_blocks for label in b.labels),
+        tuple(m for b in all_blocks for m in b.measures),
     )
 
 
 def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
-    """The list of items (ISO 7573), from below."""
+    """Return the list of items (ISO 7573), numbered from below."""
     own = {"material.wheel": materials[0], "material.roller": materials[1]}
     lines = [
         (
@@ -122,7 +122,7 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
 
 
 def _material(of: Material) -> str:
-    """Steel where nothing else is said, or else the density that is given."""
+    """Return "steel" for the default material, otherwise the density."""
     usual = type(of)()
     same = (of.youngs_modulus_GPa, of.poisson_ratio, of.density_kgm3) == (
         usual.youngs_modulus_GPa,
@@ -133,10 +133,10 @@ def _material(of: Material) -> str:
 
 
 def _mass(kg: float) -> str:
-    """With its unit, which is less where a kilogram has too many zeros for its field."""
+    """Return a mass with its unit, mg where kg would have too many zeros for the field."""
     return f"{_rounded(kg)} kg" if kg >= 1e-3 else f"{_rounded(1e6 * kg)} mg"
 
 
 def _rounded(mass: float) -> str:
-    """Four digits, and no exponent."""
+    """Return a number of four digits, without exponent."""
     return number(float(f"{mass:.4g}"), 9)

@@ -1,4 +1,4 @@
-"""The views of what the crank carries: locking disc, arm, roller and pin; and of the machine."""
+"""The views of locking disc, arm, roller with pin, and of the assembled machine."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SAME = 1e-6  # mm
 
 
 def draw_disc(view: View, parts: Outlines) -> None:
-    """The locking disc, or its sectors, about the crank's axis."""
+    """Draw the locking disc, or its sectors, about the crank's axis."""
     assembly, sizes = parts.assembly, parts.sizes
     for contour in parts.crank:
         view.draw(contour, OUTLINE)
@@ -61,7 +61,7 @@ def draw_disc(view: View, parts: Outlines) -> None:
 
 
 def _gaps(view: View, parts: Outlines, locking: list[Arc]) -> None:
-    """The angles between the arcs that lock."""
+    """Draw the angles between the locking arcs."""
     ends = sorted(legs(arc) for arc in _joined(locking))
     gaps: dict[str, list[tuple[float, float]]] = {}
     for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
@@ -73,63 +73,63 @@ def _gaps(view: View, parts: Outlines, locking: list[Arc]) -> None:
 
 
 def _joined(arcs: list[Arc]) -> list[Arc]:
-    """Arcs of one circle that go on in each other as one."""
-    found: list[Arc] = []
+    """Return arcs of one circle, with adjoining ones joined."""
+    joined: list[Arc] = []
     for arc in arcs:
-        if found and found[-1].end == arc.start:
-            sweep = found[-1].sweep + arc.sweep
-            found[-1] = Arc(found[-1].start, arc.end, math.tan(0.25 * sweep))
+        if joined and joined[-1].end == arc.start:
+            sweep = joined[-1].sweep + arc.sweep
+            joined[-1] = Arc(joined[-1].start, arc.end, math.tan(0.25 * sweep))
         else:
-            found.append(arc)
-    return found
+            joined.append(arc)
+    return joined
 
 
-def draw_arm(view: View, parts: Outlines, made: CrankArm) -> None:
-    """The crank arm with its holes."""
-    view.draw(made.outline, OUTLINE)
-    for shape in (made.bore, *made.pins, *made.bolts):
+def draw_arm(view: View, parts: Outlines, arm: CrankArm) -> None:
+    """Draw the crank arm with its holes."""
+    view.draw(arm.outline, OUTLINE)
+    for shape in (arm.bore, *arm.pins, *arm.bolts):
         view.draw(shape, OUTLINE)
-    view.cross((0.0, 0.0), made.hub)
-    for pin in made.pins:
-        view.cross(pin.centre, made.eye, math.atan2(pin.centre[1], pin.centre[0]))
-    circle_of(view, made.bolts)
+    view.cross((0.0, 0.0), arm.hub)
+    for pin in arm.pins:
+        view.cross(pin.centre, arm.eye, math.atan2(pin.centre[1], pin.centre[0]))
+    circle_of(view, arm.bolts)
     mechanism = parts.assembly.mechanism
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown: dict[str, list[Circle]] = {}
-    for pin in made.pins:
+    for pin in arm.pins:
         text = sized.plain(math.hypot(*pin.centre), deviation=deviation)
         shown.setdefault(text, []).append(pin)
     for text, some in shown.items():
         centre = some[0].centre
         turn = math.atan2(centre[1], centre[0])
         view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
-    _between(view, made)
-    bored(view, [made.bore], radius_of(made.bore), mechanism.spec.size.crank_keyway)
-    view.diameter(made.pins, times(len(made.pins), sized.pin_hole(mechanism, made.pins[0].radius)))
+    _between(view, arm)
+    bored(view, [arm.bore], radius_of(arm.bore), mechanism.spec.size.crank_keyway)
+    view.diameter(arm.pins, times(len(arm.pins), sized.pin_hole(mechanism, arm.pins[0].radius)))
     radii: dict[str, list[Arc]] = {}
-    for arc in made.outline.segments:
+    for arc in arm.outline.segments:
         if isinstance(arc, Arc):
             radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
     for text, arcs in radii.items():
         view.of_arcs(arcs, times(len(arcs), text))
-    bolted(view, made.bolts)
+    bolted(view, arm.bolts)
 
 
-def _between(view: View, made: CrankArm) -> None:
-    """The angles from one pin to the next."""
-    ways = sorted(math.atan2(p.centre[1], p.centre[0]) for p in made.pins)
-    reach = max(math.hypot(*p.centre) for p in made.pins) + made.eye
+def _between(view: View, arm: CrankArm) -> None:
+    """Draw the angles from one pin to the next."""
+    angles = sorted(math.atan2(p.centre[1], p.centre[0]) for p in arm.pins)
+    reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
     pairs: dict[str, list[tuple[float, float]]] = {}
-    for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
+    for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
         wide = end - start
-        if wide < math.pi - SAME:  # what is left of a turn, and what is straight on, is seen
+        if wide < math.pi - SAME:  # the rest of a turn, and a straight line, need no dimension
             pairs.setdefault(f"{number(math.degrees(wide))}°", []).append((start, end))
     for text, some in pairs.items():
         view.angular(some, reach, reach, times(len(some), text))
 
 
 def draw_roller(view: View, mechanism: Mechanism) -> None:
-    """A roller about its pin."""
+    """Draw a roller about its pin."""
     roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
     pin = pin_radius(mechanism.spec.size, roller)
     circles = [Circle("", axis, roller)] + ([Circle("", axis, pin)] if pin else [])
@@ -143,7 +143,7 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
 
 
 def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
-    """The machine put together, with the centre distance."""
+    """Draw the assembled machine, with the centre distance."""
     layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN, "HUB": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))

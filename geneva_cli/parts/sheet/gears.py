@@ -1,4 +1,4 @@
-"""The views of gears: pitch circles and curves, bores, the bolts of those that stand."""
+"""The views of gears: pitch circles and curves, bores, and bolts of fixed gears."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from geneva_cli.parts.sheet.bores import bolted, circle_of
 from geneva_cli.parts.sheet.view import View, number, times
 
 NEAR = 1e-6  # mm
-TOOTHLESS = "teeth are for who cuts them"
+TOOTHLESS = "teeth not shown"
 
 
 def draw_gear(view: View, gear: Gear) -> None:
-    """A gear's pitch circle, or its sectors, with its bore and the bolts that hold it."""
+    """Draw a gear's pitch circle, or its sectors, with its bore and the bolts that hold it."""
     outline, axis, screwed = gear.plate.outline, (0.0, 0.0), gear.bolts
     pitch = Circle("", axis, gear.radius)
     draw_blank(view, gear, axis)
@@ -35,11 +35,11 @@ def draw_gear(view: View, gear: Gear) -> None:
         view.diameter([Circle("", axis, gear.bore)], sized.bore(gear.bore))
     bolted(view, screwed)
     whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
-    view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else ", on these sectors alone"))
+    view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else "; teeth on these sectors only"))
 
 
 def draw_blank(view: View, gear: Gear, at: Point) -> None:
-    """A gear at a place: what is pitch circle of it as centre line."""
+    """Draw a gear at a position; its arcs on the pitch circle are drawn as centre lines."""
     outline = gear.plate.outline
     pieces: list[Shape] = [outline, *gear.plate.holes]
     if isinstance(outline, Contour):
@@ -51,7 +51,7 @@ def draw_blank(view: View, gear: Gear, at: Point) -> None:
 
 
 def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
-    """The toothed arcs, how wide they are, and the hub's radius between them."""
+    """Draw the toothed arcs, their angles, and the hub's radius between them."""
     arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
     toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < NEAR]
     hub = [arc for arc in arcs if arc not in toothed]
@@ -68,7 +68,7 @@ def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
 
 
 def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -> None:
-    """The pitch curves of two gears as they mesh at input angle 0, with bores, about their axes."""
+    """Draw two gears' pitch curves in mesh at input angle 0, with bores, about their axes."""
     for shape in shapes:
         view.draw(shape, OUTLINE if isinstance(shape, Circle) else CENTRE)
     view.centre_line(*ends)

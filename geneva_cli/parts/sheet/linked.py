@@ -1,4 +1,4 @@
-"""The views of what the wheel's outline is not needed for: links, gears, rollers, shafts."""
+"""The views that do not need the wheel's outline: links, gears, rollers, shafts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Begin: TypeAlias = Callable[..., View]
 
 
 def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
-    """What begins a view: some parts' names with their numbers in the list, and thicknesses."""
+    """Return a function that begins a view, titled with its parts' numbers and thicknesses."""
 
     def begin(*names: str, thick: bool = True) -> View:
         titles = []
@@ -37,41 +37,41 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
 def linked(
     begin: Begin, bars: Links, mechanism: Mechanism, in_series: bool = False
 ) -> Iterator[View]:
-    """Links and gears, each once; of two wheels in series the first is no gear."""
+    """Yield views of links and gears, each once; two wheels in series have no gears."""
     for one in {member.part: member for member in bars.cut}.values():
-        made = begin(one.part.name)
-        draw_link(made, one, bars, mechanism)
-        yield made
+        view = begin(one.part.name)
+        draw_link(view, one, bars, mechanism)
+        yield view
     for gear in () if in_series else bars.gears:
-        made = begin(gear.name)
-        draw_gear(made, gear)
-        yield made
+        view = begin(gear.name)
+        draw_gear(view, gear)
+        yield view
 
 
 def geared(begin: Begin, shapes: Sequence[Shape], mechanism: Mechanism) -> Iterator[View]:
-    """Noncircular gears as they mesh; none without them."""
+    """Yield the view of noncircular gears in mesh, if there are any."""
     if shapes:
         L, C = mechanism.center_distance_mm, required_gears(mechanism).distance_mm
-        made = begin("driven gear", "driver gear")
-        draw_gears(made, shapes, ((L, 0.0), (L + C, 0.0)))
-        yield made
+        view = begin("driven gear", "driver gear")
+        draw_gears(view, shapes, ((L, 0.0), (L + C, 0.0)))
+        yield view
 
 
 def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
-    """The roller with its pin."""
-    made = begin("roller", "pin")
-    draw_roller(made, mechanism)
-    yield made
+    """Yield the view of the roller with its pin."""
+    view = begin("roller", "pin")
+    draw_roller(view, mechanism)
+    yield view
 
 
 def shafted(begin: Begin, shafts: Iterable[Member]) -> Iterator[View]:
-    """Each shaft."""
+    """Yield a view of each shaft."""
     for plate in flat_plates(shafts):
-        made = begin(plate.name, thick=False)
-        draw_shaft(made, plate)
-        yield made
+        view = begin(plate.name, thick=False)
+        draw_shaft(view, plate)
+        yield view
 
 
 def flat_plates(members: Iterable[Member]) -> list[Plate]:
-    """The plates among some parts."""
+    """Return the plates among some parts."""
     return [one.part for one in members if isinstance(one.part, Plate)]

@@ -27,7 +27,7 @@ HEADING = ("round parts",)
 
 
 def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
-    """A link, or a block that slides in one: its holes, eyes and slots, from its first hole."""
+    """Draw a link, or a block that slides in one, with dimensions from its first hole."""
     plate = member.part
     assert isinstance(plate, Plate)
     for shape in (plate.outline, *plate.holes):
@@ -52,7 +52,7 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
 
 
 def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
-    """What a link is measured from: its own origin if that is on it, else its first hole."""
+    """Return the origin of a link's dimensions: its own if on the link, else its first hole."""
     assert isinstance(plate.outline, Contour)
     eyes = (piece for piece in plate.outline.segments if isinstance(piece, Arc))
     own = next((eye for eye in eyes if math.hypot(*eye.centre) < NEAR), None)
@@ -65,17 +65,17 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
 
 
 def _pressed(mechanism: Mechanism) -> list[Point]:
-    """Where pins of rollers are pressed in, at input angle 0: in a link, or in its block."""
-    found = []
+    """Return the centres of rollers' pins at input angle 0, in a link or in its block."""
+    centres = []
     for link in links_at(mechanism, np.zeros(1)):
-        for way, kind in zip(places(link), link.kinds, strict=True):
+        for position, kind in zip(places(link), link.kinds, strict=True):
             if kind in (Joint.ROLLER, Joint.CARRIED):
-                found.append((float(way[0].real), float(way[0].imag)))
-    return found
+                centres.append((float(position[0].real), float(position[0].imag)))
+    return centres
 
 
 def _places(view: View, holes: list[Circle], base: Point) -> None:
-    """How far the other holes are from the first, along the link and across."""
+    """Draw the distances of the other holes from the first, along the link and across it."""
     for axis, turn in ((0, 0.0), (1, UP)):
         seen = {number(0.0)}
         for hole in sorted(holes, key=lambda h: abs(h.centre[axis] - base[axis])):
@@ -86,30 +86,30 @@ def _places(view: View, holes: list[Circle], base: Point) -> None:
 
 
 def _slot(view: View, slot: Contour, base: Point) -> None:
-    """Width and ends of a slot of round ends, and its direction where that is not the link's."""
+    """Draw width and ends of a slot with round ends, and its direction if not the link's."""
     ends = [piece for piece in slot.segments if isinstance(piece, Arc)]
     near, far = sorted(ends, key=lambda arc: math.dist(arc.centre, base))
     (x0, y0), (x1, y1) = near.centre, far.centre
-    way = math.atan2(y1 - y0, x1 - x0)
+    turn = math.atan2(y1 - y0, x1 - x0)
     view.centre_line(at(near, 0.5), at(far, 0.5))
-    view.linear(base, near.centre, way, sized.plain(_along(base, near.centre, way)))
-    view.linear(near.centre, far.centre, way, sized.plain(math.dist(near.centre, far.centre)))
+    view.linear(base, near.centre, turn, sized.plain(_along(base, near.centre, turn)))
+    view.linear(near.centre, far.centre, turn, sized.plain(math.dist(near.centre, far.centre)))
     half = near.radius
-    sides = [(x1 + s * half * math.sin(way), y1 - s * half * math.cos(way)) for s in (-1.0, 1.0)]
-    view.linear(sides[0], sides[1], way + UP, sized.fitted(2.0 * half, "", "H7"))
-    turn = math.degrees(abs(math.remainder(way, math.tau)))
-    if turn > NEAR and math.hypot(*base) < NEAR:
-        legs = (0.0, way) if way > 0.0 else (way, 0.0)
+    sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
+    view.linear(sides[0], sides[1], turn + UP, sized.fitted(2.0 * half, "", "H7"))
+    degrees = math.degrees(abs(math.remainder(turn, math.tau)))
+    if degrees > NEAR and math.hypot(*base) < NEAR:
+        legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
         reach = math.dist(base, near.centre)
-        view.angular([legs], 0.0, reach, f"{number(turn)}°")
+        view.angular([legs], 0.0, reach, f"{number(degrees)}°")
 
 
-def _along(p: Point, q: Point, way: float) -> float:
-    return abs((q[0] - p[0]) * math.cos(way) + (q[1] - p[1]) * math.sin(way))
+def _along(p: Point, q: Point, turn: float) -> float:
+    return abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
 
 
 def _outline(view: View, plate: Plate, slides: bool) -> None:
-    """The radii of its eyes; a block has the width that goes into the slot, and its length."""
+    """Draw the radii of eyes; of a sliding block, its width in the slot and its length."""
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
     if slides:
@@ -126,9 +126,9 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
-    """A table of the pins, washers, spacers and rollers that links have between them."""
-    found = list(_rows(members, mechanism))
-    return [table(HEADING, [("part", "outside", "bore", "length"), *found], COLUMNS)] * bool(found)
+    """Return a table of the pins, washers, spacers and rollers between links."""
+    rows = list(_rows(members, mechanism))
+    return [table(HEADING, [("part", "outside", "bore", "length"), *rows], COLUMNS)] * bool(rows)
 
 
 def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:

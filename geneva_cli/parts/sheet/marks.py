@@ -1,6 +1,6 @@
-"""Dimensions as they are drawn (ISO 129-1): each as candidates, the best first.
+"""Dimensions as they are drawn (ISO 129-1), each as several candidates, the best first.
 
-All in millimetres on paper; ``value`` alone is the part's own.
+All lengths are in millimetres on paper, except ``value``, which is that of the part.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Line, Point, Segment, about
 from geneva_cli.curves.sheet import ARROW, BELOW, Arrow, Label, Measure, polar
 
-PAST = 1.5  # an extension line beyond the dimension's
-CLEAR = 0.8  # from the outline to an extension line, and from a line to the text on it
-ROUND = 16  # directions of a leader
+PAST = 1.5  # length of an extension line beyond the dimension line
+CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
+ROUND = 16  # number of directions of a leader
 LENGTHS = (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0)
 LENGTH = ARROW[0]
-PLACES = (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0)  # of a text along its dimension line
-LEVEL = 0.14  # radians: leaders nearer to level or upright would run on centre lines
+PLACES = (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0)  # positions of a text along its dimension line
+LEVEL = 0.14  # radians: leaders nearer to horizontal or vertical would lie on centre lines
 
 
 def linear(
@@ -29,18 +29,18 @@ def linear(
     value: float,
     h: float,
 ) -> Iterator[Measure]:
-    """A distance in the direction ``turn``, its line at some levels along the normal to it.
+    """Yield candidates of a distance in the direction ``turn``, with its line at some levels.
 
-    A level is a place on the axis across, counted from the origin.
+    A level is a coordinate normal to that direction, from the origin.
     """
     u, n = _axes(turn)
     a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
     for level in levels:
         for place in PLACES:
-            made = _linear(a, b, level, turn, place, text, h)
-            if made is None:
+            mark = _linear(a, b, level, turn, place, text, h)
+            if mark is None:
                 continue
-            lines, arrows, label = made
+            lines, arrows, label = mark
             points = (*(_at(u, n, *p) for p in (a, b)), _at(u, n, b[0], level))
             yield Measure("linear", points, value, label, lines, arrows, turn)
 
@@ -48,16 +48,17 @@ def linear(
 def _linear(
     a: Point, b: Point, level: float, turn: float, place: float, text: str, h: float
 ) -> tuple[tuple[Segment, ...], tuple[Arrow, ...], Label] | None:
-    """With the text somewhere between the arrows, or beyond one end; None where it has no room.
+    """Return one candidate; None where the text does not fit between the arrows.
 
-    ``place`` is the share of the room before it, or below 0 or above 1 for beyond an end.
+    ``place`` is the fraction of the free length before the text. Below 0 or above 1 the text stands
+    beyond one end.
     """
     u, n = _axes(turn)
-    long, room = width(text) * h, b[0] - a[0]
-    spare = room - long - 2.0 * (LENGTH + CLEAR)
+    long, length = width(text) * h, b[0] - a[0]
+    spare = length - long - 2.0 * (LENGTH + CLEAR)
     if 0.0 <= place <= 1.0 and spare < 0.0:
         return None
-    inside = room > 3.0 * LENGTH
+    inside = length > 3.0 * LENGTH
     low, high = a[0], b[0]
     if not inside:
         low, high = low - 2.5 * LENGTH, high + 2.5 * LENGTH
@@ -84,7 +85,7 @@ def _linear(
 def _on_line(
     u: Point, n: Point, start: float, end: float, level: float, turn: float, text: str, h: float
 ) -> Label:
-    """The text above its line, to be read from below or from the right."""
+    """Return the text above its line, readable from below or from the right."""
     off = CLEAR + BELOW * h
     if math.cos(turn) > 1e-9 or (abs(math.cos(turn)) <= 1e-9 and math.sin(turn) > 0.0):
         return Label(text, _at(u, n, start, level + off), h, turn)
@@ -100,9 +101,9 @@ def angular(
     value: float,
     h: float,
 ) -> Iterator[Measure]:
-    """An angle from one leg counterclockwise to the other, radians, on arcs of some radii.
+    """Yield candidates of an angle from one leg counterclockwise to the other, on arcs.
 
-    The extension lines begin at the distance ``begin`` from the apex.
+    Angles are in radians. The extension lines begin at the distance ``begin`` from the apex.
     """
     first, last = legs
     for radius in radii:
@@ -124,14 +125,14 @@ def angular(
         )
         middle = 0.5 * (first + last)
         points = (apex, *(polar(apex, begin, leg) for leg in legs), polar(apex, radius, middle))
-        for share in (0.5, 0.3, 0.7, -0.3, 1.3):
-            at = first + share * (last - first) if inside else middle
-            label = _beside(polar(apex, radius, at), at, text, h)
+        for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
+            at = first + fraction * (last - first) if inside else middle
+            label = _clear_of(polar(apex, radius, at), at, text, h)
             yield Measure("angular", points, value, label, tuple(lines), arrows)
 
 
-def _beside(p: Point, way: float, text: str, h: float) -> Label:
-    """An upright text whose box stands clear of a point, in a direction from it."""
+def _clear_of(p: Point, way: float, text: str, h: float) -> Label:
+    """Return an upright text whose box keeps clear of a point, in a direction from it."""
     half = 0.5 * width(text) * h, 0.7 * h
     away = half[0] * abs(math.cos(way)) + half[1] * abs(math.sin(way)) + 2.0 * CLEAR
     x, y = polar(p, away, way)
@@ -139,61 +140,61 @@ def _beside(p: Point, way: float, text: str, h: float) -> Label:
 
 
 def diameter(
-    centre: Point, radius: float, ways: Iterable[float], text: str, value: float, h: float
+    centre: Point, radius: float, angles: Iterable[float], text: str, value: float, h: float
 ) -> Iterator[Measure]:
-    """A diameter by a leader that meets the circle in one of some directions from its centre."""
-    for tip, way, end, label in _leaders(centre, radius, ways, text, h):
-        points = (polar(centre, -radius, way), tip)
+    """Yield candidates of a diameter, with a leader to the circle in one of some directions."""
+    for tip, angle, end, label in _leaders(centre, radius, angles, text, h):
+        points = (polar(centre, -radius, angle), tip)
         yield _led("diameter", points, value, tip, end, label)
 
 
 def radius(
-    centre: Point, reach: float, ways: Iterable[float], text: str, value: float, h: float
+    centre: Point, reach: float, angles: Iterable[float], text: str, value: float, h: float
 ) -> Iterator[Measure]:
-    """A radius, in the same way."""
-    for tip, _, end, label in _leaders(centre, reach, ways, text, h):
+    """Yield candidates of a radius, with a leader to the circle in one of some directions."""
+    for tip, _, end, label in _leaders(centre, reach, angles, text, h):
         yield _led("radius", (centre, tip), value, tip, end, label)
 
 
 def note(tip: Point, text: str, h: float) -> Iterator[Measure]:
-    """A text with a leader to a point."""
+    """Yield candidates of a text with a leader to a point."""
     for _, _, end, label in _leaders(tip, 0.0, around(), text, h):
         yield _led("note", (tip,), 0.0, tip, end, label)
 
 
 def around() -> list[float]:
-    """Directions all round, slanting ones first."""
-    every = [0.25 * math.pi + k * math.tau / ROUND for k in range(ROUND)]
-    return sorted(every, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
+    """Return directions all round, oblique ones first."""
+    directions = [0.25 * math.pi + k * math.tau / ROUND for k in range(ROUND)]
+    return sorted(directions, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
 
 
 def within(start: float, end: float, count: int = 9) -> list[float]:
-    """Directions between two, the middle ones first."""
-    shares = sorted(((k + 0.5) / count for k in range(count)), key=lambda s: abs(s - 0.5))
-    ways = [start + s * (end - start) for s in shares]
-    return sorted(ways, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * LEVEL)
+    """Return directions between two, the middle ones first."""
+    fractions = sorted(((k + 0.5) / count for k in range(count)), key=lambda s: abs(s - 0.5))
+    angles = [start + s * (end - start) for s in fractions]
+    return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * LEVEL)
 
 
 def _leaders(
-    centre: Point, reach: float, ways: Iterable[float], text: str, h: float
+    centre: Point, reach: float, angles: Iterable[float], text: str, h: float
 ) -> Iterator[tuple[Point, float, Point, Label]]:
-    """Tips, directions, where the leader turns level, and the text on it: short ones first."""
-    every = list(ways)
+    """Yield tip, direction, bend and text of leaders, short ones first."""
+    directions = list(angles)
     long = width(text) * h
     for length in LENGTHS:
-        for way in every:
-            tip = polar(centre, reach, way)
+        for angle in directions:
+            tip = polar(centre, reach, angle)
             for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):
-                end = polar(tip, out * length, way)
-                right = out * math.cos(way) >= 0.0
+                end = polar(tip, out * length, angle)
+                right = out * math.cos(angle) >= 0.0
                 start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                yield tip, way, end, Label(text, (start, end[1] + CLEAR + BELOW * h), h)
+                yield tip, angle, end, Label(text, (start, end[1] + CLEAR + BELOW * h), h)
 
 
 def _led(
     kind: str, points: tuple[Point, ...], value: float, tip: Point, end: Point, label: Label
 ) -> Measure:
-    """With its line from the tip to the shelf under its text, and the shelf."""
+    """Return a dimension with a leader from the tip to the line under its text, and that line."""
     left, right = label.at[0] - CLEAR, label.at[0] + label.width + CLEAR
     far = right if abs(end[0] - left) < abs(end[0] - right) else left
     lines = (Line(end, tip), Line(end, (far, end[1])))

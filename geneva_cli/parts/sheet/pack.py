@@ -1,7 +1,7 @@
-"""Blocks side by side on a sheet: the largest first, each as high up and then as far left as goes.
+"""Placing of blocks on a sheet: large ones first, each as high and then as far left as possible.
 
-A block's place is a corner that the frame and the blocks before it leave open. Largest is by area,
-or by height or width where that does not go; what goes is spread over the sheet.
+A block is placed at a corner that the frame and the blocks before it leave open. Large means area;
+if that fails, height, and then width. Then the blocks are spread over the sheet.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from geneva_cli.parts.sheet.view import Block
 
-APART = 8.0, 12.0, 18.0, 27.0, 40.0  # mm: between two blocks, the least first
+APART = 8.0, 12.0, 18.0, 27.0, 40.0  # mm: distances of two blocks to try, the least first
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
 ORDERS: tuple[Callable[[Block], float], ...] = (
     lambda block: -block.width * block.height,
@@ -21,20 +21,20 @@ ORDERS: tuple[Callable[[Block], float], ...] = (
 
 
 def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
-    """The blocks where they have room in an area beside those that are there.
+    """Return the blocks at free positions in an area, beside the ``taken`` ones.
 
-    None where they have none.
+    None where they do not fit.
     """
     for order in ORDERS:
-        found = _packed(blocks, taken, area, order, APART[0])
-        if found is None:
+        result = _packed(blocks, taken, area, order, APART[0])
+        if result is None:
             continue
         for apart in APART[1:]:
             wider = _packed(blocks, taken, area, order, apart)
             if wider is None:
                 break
-            found = wider
-        return found
+            result = wider
+        return result
     return None
 
 
@@ -46,7 +46,7 @@ def _packed(
     apart: float,
 ) -> list[Block] | None:
     x0, y0, x1, y1 = area
-    found: dict[int, Block] = {}
+    placed: dict[int, Block] = {}
     around = [(b.x0, b.y0, b.x1, b.y1) for b in taken]
     for i in sorted(range(len(blocks)), key=lambda k: order(blocks[k])):
         block = blocks[i]
@@ -59,12 +59,12 @@ def _packed(
                 break
         else:
             return None
-        found[i] = block.moved(left - block.x0, top - block.y1)
+        placed[i] = block.moved(left - block.x0, top - block.y1)
         around.append(box)
-    return [found[i] for i in range(len(blocks))]
+    return [placed[i] for i in range(len(blocks))]
 
 
 def _meet(a: Box, b: Box, apart: float) -> bool:
     gap = 0.999 * apart
-    beside = a[2] + gap <= b[0] or b[2] + gap <= a[0]
-    return not (beside or a[3] + gap <= b[1] or b[3] + gap <= a[1])
+    separate = a[2] + gap <= b[0] or b[2] + gap <= a[0]
+    return not (separate or a[3] + gap <= b[1] or b[3] + gap <= a[1])

@@ -1,4 +1,4 @@
-"""The paper: formats (ISO 5457), frame, title block (ISO 7200), list of items, other tables."""
+"""The paper: formats (ISO 5457), frame, title block (ISO 7200), list of items, tables."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from geneva_cli.curves.shapes import Circle, Point, Shape
 from geneva_cli.curves.sheet import FRAME, OUTLINE, TEXT, Label, line, polar, rectangle
 from geneva_cli.parts.sheet.view import LARGE, SMALL, Block
 
-LEFT, MARGIN = 20.0, 10.0  # mm: of the frame, on the side that is filed and on the others
+LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 BLOCK = 180.0  # mm: width of the title block
 ROW = 5.0  # mm: of tables
-NARROW = 60.0  # mm: text above a table is broken to this at least
+NARROW = 60.0  # mm: least width to which text above a table is wrapped
 
 
 class PaperSize(NamedTuple):
@@ -38,7 +38,7 @@ SCALES = [1.0 * n * 10**k for k in (4, 3, 2, 1, 0) for n in (5, 2, 1)] + [
 
 
 def scale_name(scale: float) -> str:
-    """A scale as it is written.
+    """Return a scale as text.
 
     >>> scale_name(2.0), scale_name(0.2)
     ('2:1', '1:5')
@@ -47,12 +47,12 @@ def scale_name(scale: float) -> str:
 
 
 def smaller(scale: float, times: float) -> float:
-    """The next scale of the standard that is smaller by a factor, at least; or its smallest."""
+    """Return the largest standard scale that is smaller by a factor; else the smallest one."""
     return max((s for s in SCALES if s <= scale / times * (1.0 + 1e-9)), default=SCALES[-1])
 
 
 def frame(paper: PaperSize) -> list[Shape]:
-    """The frame, with marks at the middle of its sides."""
+    """Return the frame, with marks at the middle of its sides."""
     w, h = paper.width, paper.height
     shapes: list[Shape] = [rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)]
     x, y = 0.5 * w, 0.5 * h
@@ -67,7 +67,7 @@ def frame(paper: PaperSize) -> list[Shape]:
 
 
 def title_block(fields: dict[str, str], title: str, parts: str) -> Block:
-    """Title and fields in a block; its lower left corner is the origin."""
+    """Return the title block; its lower left corner is the origin."""
     shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, BLOCK, 36.0)]
     labels: list[Label] = []
     shapes += [line(TEXT, (0.0, y), (BLOCK, y)) for y in (12.0, 24.0)]
@@ -85,29 +85,29 @@ def title_block(fields: dict[str, str], title: str, parts: str) -> Block:
     return Block(0.0, 0.0, BLOCK, 36.0, tuple(shapes), tuple(labels))
 
 
-def _field(at: Point, name: str, value: str, height: float, room: float) -> list[Label]:
-    """A small heading, and its value, made to fit in."""
+def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:
+    """Return a small heading and its value, cut to fit into ``limit``."""
     x, y = at[0] + 2.0, at[1]
-    shown = cut_to(value, height, room - 4.0)
+    shown = cut_to(value, height, limit - 4.0)
     labels = [Label(name, (x, y + 8.4), 1.8)]
     return [*labels, Label(shown, (x, y + 3.0), height)] if shown else labels
 
 
-def cut_to(text: str, height: float, room: float) -> str:
-    """A text that is too long for its room, cut."""
-    if _fits(text, height, room):
+def cut_to(text: str, height: float, limit: float) -> str:
+    """Return a text, cut if it is longer than ``limit``."""
+    if _fits(text, height, limit):
         return text
-    while text and not _fits(text + "...", height, room):
+    while text and not _fits(text + "...", height, limit):
         text = text[:-1]
     return text + "..."
 
 
-def _fits(text: str, height: float, room: float) -> bool:
-    return width(text) * height <= room
+def _fits(text: str, height: float, limit: float) -> bool:
+    return width(text) * height <= limit
 
 
 def projection(at: Point) -> list[Shape]:
-    """The symbol of first angle projection (ISO 5456-2): a cone's frustum and its view."""
+    """Return the symbol of first angle projection (ISO 5456-2): a frustum and its view."""
     x, y = at
     small, large, long = 1.75, 3.5, 7.0
     side = ((-10.0, -small), (-10.0 + long, -large), (-10.0 + long, large), (-10.0, small))
@@ -122,8 +122,9 @@ def projection(at: Point) -> list[Shape]:
 
 
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
-    """A table, its first row the names of its columns; above it some lines of text, which are
-    broken to its width. ``columns`` are widths in mm.
+    """Return a table, with lines of text above it that are wrapped to its width.
+
+    The first row has the names of its columns. ``columns`` are widths in mm.
     """
     wide, high = sum(columns), ROW * len(rows)
     shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]
@@ -151,11 +152,11 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
     return Block(0.0, 0.0, wide, top, tuple(shapes), tuple(labels))
 
 
-def broken(text: str, height: float, room: float) -> list[str]:
-    """A text in lines that are no longer than a room, broken at spaces."""
+def broken(text: str, height: float, limit: float) -> list[str]:
+    """Return the lines of a text, wrapped at spaces to the width ``limit``."""
     lines: list[str] = []
     for word in text.split():
-        if lines and width(f"{lines[-1]} {word}") * height <= room:
+        if lines and width(f"{lines[-1]} {word}") * height <= limit:
             lines[-1] += f" {word}"
         else:
             lines.append(word)

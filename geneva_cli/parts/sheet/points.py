@@ -1,4 +1,4 @@
-"""Tables of points, of curves that no few numbers describe: curved slots, grooves, pitch curves."""
+"""Tables of points for curves without simple dimensions: slots, grooves, pitch curves."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from geneva_cli.parts.sheet.view import Block, number, times
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-COARSE = 1e-4  # of the centre distance: no table is finer than that
+COARSE = 1e-4  # of the centre distance: finest tolerance of a table
 COLUMNS = (9.0, 17.0, 17.0)
-ROWS = 40  # at most, before the table goes on beside itself
+ROWS = 40  # at most; longer tables continue in further columns
 MIRRORED = "; the other half is its mirror image in the x axis"
 SAME = 1e-9  # of the centre distance
 BEGIN = 4  # intervals
 DEPTH = 14  # halvings of one
-BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is looked at
+BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is computed
 
 
 def tables(parts: Outlines, tolerance: float) -> list[Block]:
-    """A table for each kind of curved slot, and for the groove of a cam."""
-    made = []
+    """Return a table for each kind of curved slot, and for the groove of a cam."""
+    blocks = []
     assembly = parts.assembly
     close = max(tolerance, COARSE * assembly.L)
     for engagement in assembly.kinds:
@@ -49,7 +49,7 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
         width = sized.slot_width(assembly.mechanism, parts.sizes.half_width)
         what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
         more = MIRRORED if symmetric else ""
-        made.append(point_table(what + more, points, close))
+        blocks.append(point_table(what + more, points, close))
     guide = assembly.rollers[0][0].groove
     if guide is not None:
         guided = groove_curve(guide, assembly.L, 0.0)
@@ -57,16 +57,16 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
         last = 180.0 if symmetric else 360.0
         points = polyline(lambda t: guided(t)[0], 0.0, last, close)
         what = "groove: points of its centre line"
-        made.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
-    return made
+        blocks.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
+    return blocks
 
 
 def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
-    """A table for each noncircular gear; none without them."""
+    """Return a table for each noncircular gear; none without them."""
     pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
     if pair is None:
         return []
-    close, made = max(tolerance, COARSE * L), []
+    close, blocks = max(tolerance, COARSE * L), []
     for name, of in (("driven gear", driven_curve), ("driver gear", driver_curve)):
         both = of(pair, crank_sense(mechanism))
 
@@ -77,21 +77,21 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
         symmetric = bool(np.abs(curve(-seen) - curve(seen) * (1.0, -1.0)).max() < SAME * L)
         points = polyline(curve, 0.0, 180.0 if symmetric else 360.0, close)
         what = f"{name}: points of its pitch curve about its axis, at input angle 0"
-        made.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
-    return made
+        blocks.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
+    return blocks
 
 
 def polyline(
     curve: Callable[[Array], Array], a: float, b: float, tolerance: float, begin: int = BEGIN
 ) -> Array:
-    """Points of a curve, (n, 2), such that no chord between them misses it by more.
+    """Return points of a curve, (n, 2), whose chords are within ``tolerance`` of the curve.
 
-    There are ``begin`` chords at least.
+    There are at least ``begin`` chords.
     """
     nodes = np.linspace(a, b, begin + 1)
     for _ in range(DEPTH):
         steps = np.diff(nodes)
-        inner = np.concatenate([nodes[:-1] + share * steps for share in BETWEEN])
+        inner = np.concatenate([nodes[:-1] + fraction * steps for fraction in BETWEEN])
         ends = curve(nodes)
         between = curve(inner).reshape(len(BETWEEN), -1, 2)
         chord = np.diff(ends, axis=0)
@@ -106,7 +106,7 @@ def polyline(
 
 
 def point_table(title: str, points: Array, close: float) -> Block:
-    """The points side by side in as many columns as they need, with their tolerance."""
+    """Return a table of points in as many columns as they need, with their tolerance."""
     groups = math.ceil(len(points) / ROWS)
     high = math.ceil(len(points) / groups)
     rows = [["No.", "x", "y"] * groups]

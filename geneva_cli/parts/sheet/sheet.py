@@ -1,6 +1,6 @@
-"""The drawing sheet of a machine: its parts with dimensions, the list of items and a title block.
+"""The drawing sheet of a machine: dimensioned parts, the list of items and a title block.
 
-The machine put together is drawn at the scale of its parts, or half of it.
+The assembled machine is drawn at the scale of its parts, or at half of it.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from geneva_cli.parts.sheet.paper import smaller, table
 from geneva_cli.parts.sheet.view import Block, number
 from geneva_cli.parts.sheet.views import shown_on_sheet, together, views
 
-ASSEMBLED = 1.0, 2.0  # how much smaller the machine is drawn than its parts
+ASSEMBLED = 1.0, 2.0  # the machine's scale is smaller than its parts' by one of these factors
 LAYOUT = (60.0, 36.0, 20.0)  # mm: columns of the table of pivots and links
 
 
 def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
-    """The drawing sheet of a machine. Raises GenevaError where no scale brings it on one."""
+    """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     shown = shown_on_sheet(parts, tolerance, curves)
     mechanism, bars = parts.assembly.mechanism, shown.parts.links
     fixed = [
@@ -41,7 +41,7 @@ def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
 
 
 def layout(mechanism: Mechanism) -> list[Block]:
-    """Pivots and lengths of what drives the crank."""
+    """Return a table of pivots and lengths of the drive in front of the crank, if any."""
     own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
     rows = [("drive", "x or value", "y or unit")]
     rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in own if isinstance(p, Pivot)]

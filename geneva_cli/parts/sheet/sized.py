@@ -1,4 +1,4 @@
-"""Sizes as texts: with the deviation that the spec gives, or else a fit by ISO 286."""
+"""Sizes as texts, with the deviation from the spec or else a fit of ISO 286."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from geneva_cli.parts.sheet.view import number
 
 
 def plain(value: float, sign: str = "", deviation: float = 0.0) -> str:
-    """A size, and plus or minus where that is given.
+    """Return a size, with a plus-minus deviation if it is not 0.
 
     >>> plain(5.0, "R "), plain(100.0, deviation=0.02)
     ('R 5', '100 ±0.02')
@@ -17,56 +17,56 @@ def plain(value: float, sign: str = "", deviation: float = 0.0) -> str:
 
 
 def fitted(value: float, sign: str, fit: str, deviation: float = 0.0) -> str:
-    """A size with a fit; ``deviation``, where the spec gives one, goes before it."""
+    """Return a size with its deviation if the spec has one, otherwise with a fit."""
     shown = plain(value, sign, deviation)
     return shown if deviation else toleranced(value, shown, fit)
 
 
 def slot_width(mechanism: Mechanism, half: float) -> str:
-    """The slot's width."""
+    """Return the slot's width."""
     return fitted(2.0 * half, "", "H7", mechanism.spec.tolerance.slot_width_mm)
 
 
 def roller(mechanism: Mechanism, radius: float) -> str:
-    """The roller's diameter: with play in the slot by its fit where the spec gives none."""
+    """Return the roller's diameter; its fit has play in the slot if the spec has no clearance."""
     spec = mechanism.spec
     fit = "h6" if spec.size.allowances.slot_clearance_mm else "g6"
     return fitted(2.0 * radius, "Ø ", fit, spec.tolerance.roller_diameter_mm)
 
 
 def lock(mechanism: Mechanism, radius: float) -> str:
-    """The locking disc's diameter, likewise in the wheel's recesses."""
+    """Return the locking disc's diameter; its fit has play unless the spec has a clearance."""
     spec = mechanism.spec
     fit = "h6" if spec.size.allowances.lock_clearance_mm else "g6"
     return fitted(2.0 * radius, "Ø ", fit, 2.0 * spec.tolerance.lock_radius_mm)
 
 
 def recess(mechanism: Mechanism, radius: float) -> str:
-    """The diameter of the wheel's recesses."""
+    """Return the diameter of the wheel's recesses."""
     return fitted(2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
 
 
 def pin(radius: float) -> str:
-    """The pin's diameter, the same all along: it is pressed into what is P7, and F7 turns on it."""
+    """Return the diameter of the pin: it is pressed into a P7 hole, and an F7 bore turns on it."""
     return fitted(2.0 * radius, "Ø ", "h6")
 
 
 def pin_hole(mechanism: Mechanism, radius: float) -> str:
-    """The hole that holds the pin: P7, unless it is drawn smaller by ``press_fit_mm``."""
+    """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller."""
     smaller = mechanism.spec.size.allowances.press_fit_mm
     return fitted(2.0 * radius, "Ø ", "H7" if smaller else "P7")
 
 
 def roller_bore(radius: float) -> str:
-    """What turns on the pin."""
+    """Return the diameter of the bore that turns on the pin."""
     return fitted(2.0 * radius, "Ø ", "F7")
 
 
 def bore(radius: float) -> str:
-    """A bore's diameter."""
+    """Return the diameter of a bore."""
     return fitted(2.0 * radius, "Ø ", "H7")
 
 
 def shaft(radius: float) -> str:
-    """A shaft's diameter, in such a bore."""
+    """Return the diameter of a shaft that fits into a bore."""
     return fitted(2.0 * radius, "Ø ", "h6")

@@ -1,4 +1,4 @@
-"""The views of the plates that stand, frame and groove plate, and of hubs and shafts."""
+"""The views of frame and groove plate, which stand still, and of hubs and shafts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from geneva_cli.parts.sheet.view import View, number, times
 
 
 def draw_frame(view: View, plate: Plate) -> None:
-    """The frame: its size, and each hole's diameter and place from the wheel's axis."""
+    """Draw the frame: its size, and diameter and position of each hole from the wheel's axis."""
     for shape in (plate.outline, *plate.holes):
         view.draw(shape, OUTLINE)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
@@ -31,7 +31,7 @@ def draw_frame(view: View, plate: Plate) -> None:
     up = 0.5 * math.pi
     view.linear((box.x0, box.y0), (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
     view.linear((box.x0, box.y0), (box.x0, box.y1), up, number(box.y1 - box.y0))
-    wheel = (0.0, 0.0)  # its axis, drilled or not
+    wheel = (0.0, 0.0)  # the wheel's axis, with or without a hole
     view.cross(wheel, holes[0].radius)
     view.linear((box.x0, box.y0), wheel, 0.0, number(-box.x0))
     view.linear((box.x0, box.y0), wheel, up, number(-box.y0))
@@ -50,7 +50,7 @@ def draw_frame(view: View, plate: Plate) -> None:
 def draw_groove(
     view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
 ) -> None:
-    """A cam's groove, whose points are in a table, in its plate where that can be made."""
+    """Draw a cam's groove, in its plate if there is one; a table has the groove's points."""
     round_ = (plate.outline, *plate.holes) if plate else ()
     mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
     for shape in (*round_, *flanks):
@@ -70,13 +70,13 @@ def draw_groove(
 
 
 def draw_hub(view: View, hub: Plate) -> None:
-    """The diameter of a hub that is drawn."""
+    """Draw the diameter of a hub that is already drawn."""
     assert isinstance(hub.outline, Circle)
     view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
 
 
 def draw_shaft(view: View, shaft: Plate) -> None:
-    """A shaft from the side."""
+    """Draw a shaft from the side."""
     assert isinstance(shaft.outline, Circle)
     long, radius = shaft.thickness, shaft.outline.radius
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]

@@ -1,4 +1,4 @@
-"""A view: one part at a scale, and the dimensions that are put about it."""
+"""A view: one part at a scale, and its dimensions around it."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
-FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and to the next
-RANKS = 14  # of dimension lines that are looked at
-OVER = 3.0  # mm: a centre line beyond what it is the centre of
-NEAR = 1e-6  # mm: radii and centres nearer to each other are one
+FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
+RANKS = 14  # rows of dimension lines that are tried
+OVER = 3.0  # mm: length of a centre line beyond its part
+NEAR = 1e-6  # mm: radii and centres nearer to each other count as equal
 
 
 class Block(NamedTuple):
-    """What goes on a sheet together, and its box."""
+    """A part of a sheet that is placed as a whole, and its bounding box."""
 
     x0: float
     y0: float
@@ -38,16 +38,16 @@ class Block(NamedTuple):
 
     @property
     def width(self) -> float:
-        """Across."""
+        """Width, mm."""
         return self.x1 - self.x0
 
     @property
     def height(self) -> float:
-        """Upwards."""
+        """Height, mm."""
         return self.y1 - self.y0
 
     def moved(self, dx: float, dy: float) -> Block:
-        """The same, somewhere else."""
+        """Return the block, moved by (dx, dy)."""
 
         def point(p: Point) -> Point:
             return p[0] + dx, p[1] + dy
@@ -76,38 +76,38 @@ class Block(NamedTuple):
 
 
 class View:
-    """One part at a scale; points and lengths are given as the part's own.
+    """One part at a scale; points and lengths are in the part's own millimetres.
 
-    All lines are drawn before the first dimension: these are put outside of them.
+    Draw all lines before the first dimension: dimensions are placed outside of them.
     """
 
     def __init__(self, title: str, scale: float) -> None:
         self.title, self.scale = title, scale
         self.shapes: list[Shape] = []
-        self.corners: list[Array] = []  # of their chords
+        self.corners: list[Array] = []  # start points of the chords of all shapes
         self.measures: list[Measure] = []
-        self.notes: list[str] = []  # remarks, and dimensions for which there was no place
+        self.notes: list[str] = []  # remarks, and dimensions that did not fit
         self.board = Board()
 
     def draw(self, shape: Shape, layer: str) -> None:
-        """A shape on a layer."""
+        """Draw a shape on a layer."""
         self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
 
     def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
-        """Both centre lines of a circle."""
+        """Draw both centre lines of a circle."""
         over = self._long(reach) + OVER
         for way in (turn, turn + 0.5 * math.pi):
             ends = (polar(self._at(centre), side * over, way) for side in (-1.0, 1.0))
             self._draw(line(CENTRE, *ends))
 
     def centre_line(self, start: Point, end: Point) -> None:
-        """From one point to another, and a little beyond both."""
+        """Draw a centre line from one point to another, and a little beyond both."""
         way = math.atan2(end[1] - start[1], end[0] - start[0])
         a, b = self._at(start), self._at(end)
         self._draw(line(CENTRE, polar(a, -OVER, way), polar(b, OVER, way)))
 
     def linear(self, p: Point, q: Point, turn: float, text: str, near: bool = False) -> None:
-        """A distance in a direction; ``near`` allows a line that is not outside of the part."""
+        """Draw a distance in a direction; ``near`` allows a line inside the part's outline."""
         ends = self._at(p), self._at(q)
         value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
         levels = list(self._levels(turn, ends if near else ()))
@@ -116,11 +116,11 @@ class View:
     def angular(
         self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
     ) -> None:
-        """An angle about the origin, counterclockwise between one of some pairs of legs."""
+        """Draw an angle about the origin, between one of some pairs of legs, counterclockwise."""
         reach = self._long(radius)
         radii = [reach + FIRST + k * NEXT for k in range(RANKS)]
         start = self._long(begin) + marks.CLEAR
-        found = (
+        candidates = (
             mark
             for wide in radii
             for legs in pairs
@@ -128,11 +128,11 @@ class View:
                 (0.0, 0.0), legs, start, [wide], text, math.degrees(legs[1] - legs[0]), SMALL
             )
         )
-        self._put(found, text)
+        self._put(candidates, text)
 
     def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
-        """The diameter of one of some circles; ``where`` they are, if it must stand below."""
-        found = (
+        """Draw the diameter of one of some circles; ``where`` is added if it stands as a note."""
+        candidates = (
             marks.diameter(
                 self._at(c.centre),
                 self._long(c.radius),
@@ -143,12 +143,12 @@ class View:
             )
             for c in circles
         )
-        self._put(_short_first(found), f"{text} {where}".rstrip())
+        self._put(_short_first(candidates), f"{text} {where}".rstrip())
 
     def of_arcs(self, arcs: Iterable[Arc], text: str, whole: bool = False) -> None:
-        """The radius of one of some arcs, or (``whole``) its diameter."""
+        """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
         kind, factor = (marks.diameter, 2.0) if whole else (marks.radius, 1.0)
-        found = (
+        candidates = (
             kind(
                 self._at(arc.centre),
                 self._long(arc.radius),
@@ -159,18 +159,18 @@ class View:
             )
             for arc in arcs
         )
-        self._put(_short_first(found), text)
+        self._put(_short_first(candidates), text)
 
     def note(self, tip: Point, text: str) -> None:
-        """A text that points at a place."""
+        """Draw a text that points at a place."""
         self._put(marks.note(self._at(tip), text, SMALL), text)
 
     def remark(self, text: str) -> None:
-        """A text below the title."""
+        """Add a text below the title."""
         self.notes.append(text)
 
     def block(self) -> Block:
-        """The view with its title below it."""
+        """Return the view with its title below it."""
         x0, y0, x1, y1 = self.board.box()
         labels: list[Label] = []
         low = y0
@@ -185,11 +185,11 @@ class View:
         )
 
     def _put(self, candidates: Iterable[Measure], text: str) -> None:
-        found = self.board.first(candidates)
-        if found is None:
+        dimension = self.board.first(candidates)
+        if dimension is None:
             self.notes.append(text)
         else:
-            self.measures.append(found)
+            self.measures.append(dimension)
 
     def _draw(self, shape: Shape) -> None:
         self.shapes.append(shape)
@@ -197,7 +197,7 @@ class View:
         self.board.draw(shape)
 
     def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
-        """Where a dimension line may be: along the normal to its direction, nearest first."""
+        """Yield levels for a dimension line, normal to its direction, nearest first."""
         n = -math.sin(turn), math.cos(turn)
         across = np.concatenate(self.corners) @ np.array(n)
         low, high = float(across.min()), float(across.max())
@@ -215,16 +215,16 @@ class View:
         return self.scale * length
 
 
-def _short_first(found: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
-    """Leaders in the order of their length, whatever they point at; each row has its short first.
+def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
+    """Yield candidates of all rows, in the order of their leaders' length.
 
-    Directions keep their order.
+    Each row is already in that order; equal lengths keep the order of rows.
     """
-    return merge(*found, key=lambda m: round(math.dist(*m.lines[0]), 6))
+    return merge(*rows, key=lambda m: round(math.dist(*m.lines[0]), 6))
 
 
 def number(value: float, decimals: int = 3) -> str:
-    """A size as it is written: no zeros at its end.
+    """Return a size as text, without trailing zeros.
 
     >>> number(173.20508), number(20.0)
     ('173.205', '20')
@@ -234,5 +234,5 @@ def number(value: float, decimals: int = 3) -> str:
 
 
 def times(count: int, text: str) -> str:
-    """How often a size is there (ISO 129-1)."""
+    """Return a text with the number of times that the size occurs (ISO 129-1)."""
     return f"{count}× {text}" if count > 1 else text

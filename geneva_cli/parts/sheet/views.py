@@ -36,7 +36,7 @@ APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
 
 
 class Shown(NamedTuple):
-    """What goes on a sheet, whatever its scale."""
+    """The content of a sheet, independent of its scale."""
 
     found: Outlines
     together: tuple[Shape, ...]
@@ -46,13 +46,13 @@ class Shown(NamedTuple):
     groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
     gears: list[Shape]  # pitch curves and bores, of noncircular ones
     largest: float  # mm: a part's width or height
-    area: float  # mm², of boxes about some of the parts: the views need more
+    area: float  # mm², of the boxes about some parts: the views need more than that
     tolerance: float
     curves: str
 
 
 def shown_on_sheet(found: Outlines, tolerance: float, curves: str) -> Shown:
-    """What the views show, worked out once for all scales."""
+    """Return the content of the views, computed once for all scales."""
     given, cam = found.assembly.given, found.assembly.rollers[0][0].groove is not None
     whole, parts = machine_and_parts(found, tolerance, curves)
     assert isinstance(whole.solid, Group)
@@ -77,7 +77,7 @@ def shown_on_sheet(found: Outlines, tolerance: float, curves: str) -> Shown:
 
 
 def views(shown: Shown, scale: float) -> Iterator[View]:
-    """A view of each part."""
+    """Yield a view of each part."""
     begin = titled(shown.rows, scale)
     yield from _wheels(shown, begin)
     yield from _crank(shown, begin)
@@ -86,54 +86,54 @@ def views(shown: Shown, scale: float) -> Iterator[View]:
 
 
 def _wheels(shown: Shown, begin: Begin) -> Iterator[View]:
-    """Wheels and locking discs, of two in series both."""
+    """Yield the views of wheels and locking discs; of two wheels in series, of both."""
     for front, of in (("", shown.found), ("first ", shown.first)):
         if of is None:
             continue
-        made = begin(f"{front}wheel", f"{front}wheel's hub")
-        wheel.draw_wheel(made, of, shown.tolerance, shown.curves)
-        yield made
+        view = begin(f"{front}wheel", f"{front}wheel's hub")
+        wheel.draw_wheel(view, of, shown.tolerance, shown.curves)
+        yield view
         if of.crank:
-            made = begin(
+            view = begin(
                 *(f"{front}{name}" for name in ("locking disc", "locking sector", HUB)),
             )
-            draw_disc(made, of)
-            yield made
+            draw_disc(view, of)
+            yield view
 
 
 def _crank(shown: Shown, begin: Begin) -> Iterator[View]:
-    """The arm, and the roller with its pin."""
+    """Yield the views of the arm and of the roller with its pin."""
     if shown.parts.arm:
-        made = begin("arm")
-        draw_arm(made, shown.found, shown.parts.arm)
-        yield made
+        view = begin("arm")
+        draw_arm(view, shown.found, shown.parts.arm)
+        yield view
     yield from rolling(begin, shown.found.assembly.mechanism)
 
 
 def _links(shown: Shown, begin: Begin) -> Iterator[View]:
-    """Links, and gears by their pitch curves."""
-    bars, given = shown.parts.links, shown.found.assembly.given
-    yield from linked(begin, bars, given, in_series=bool(shown.first))
-    yield from geared(begin, shown.gears, given)
+    """Yield the views of links, and of gears by their pitch curves."""
+    bars, mechanism = shown.parts.links, shown.found.assembly.given
+    yield from linked(begin, bars, mechanism, in_series=bool(shown.first))
+    yield from geared(begin, shown.gears, mechanism)
 
 
 def _standing(shown: Shown, begin: Begin) -> Iterator[View]:
-    """Shafts, and the plates that stand."""
+    """Yield the views of shafts, and of the plates that stand still."""
     yield from shafted(begin, shown.parts.shafts)
     *grooved, lowest = flat_plates(shown.parts.standing)
     if shown.groove:
-        made = begin(*(plate.name for plate in grooved), "groove")
+        view = begin(*(plate.name for plate in grooved), "groove")
         draw_groove(
-            made, shown.groove, shown.found.sizes.half_width, grooved[0] if grooved else None
+            view, shown.groove, shown.found.sizes.half_width, grooved[0] if grooved else None
         )
-        yield made
-    made = begin(lowest.name)
-    draw_frame(made, lowest)
-    yield made
+        yield view
+    view = begin(lowest.name)
+    draw_frame(view, lowest)
+    yield view
 
 
 def together(shown: Shown, scale: float) -> View:
-    """The machine put together."""
-    made = View(f"together ({scale_name(scale)})", scale)
-    draw_assembly(made, shown.found, shown.together)
-    return made
+    """Return the view of the assembled machine."""
+    view = View(f"assembly ({scale_name(scale)})", scale)
+    draw_assembly(view, shown.found, shown.together)
+    return view

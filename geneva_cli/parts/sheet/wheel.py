@@ -1,4 +1,4 @@
-"""The wheel's view."""
+"""The wheel's view on the drawing sheet."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ SAME = 1e-6  # mm
 
 
 def draw_wheel(view: View, parts: Outlines, tolerance: float, curves: str) -> None:
-    """The wheel with all its dimensions; curved slots have theirs in a table."""
+    """Draw the wheel with all its dimensions; a table has the points of curved slots."""
     assembly, sizes = parts.assembly, parts.sizes
-    made = drawings.wheel(parts, tolerance, curves)
-    contour = next(s for s in made.shapes if isinstance(s, Contour))
-    for shape in made.shapes:
+    drawing = drawings.wheel(parts, tolerance, curves)
+    contour = next(s for s in drawing.shapes if isinstance(s, Contour))
+    for shape in drawing.shapes:
         view.draw(shape, HIDDEN if shape.layer == HUB else OUTLINE)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross((0.0, 0.0), reach)
@@ -35,7 +35,7 @@ def draw_wheel(view: View, parts: Outlines, tolerance: float, curves: str) -> No
         view.cross(_recess_centre(parts), 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
     screwed = dial_bolts(assembly, sizes)
-    bores = [s for s in made.shapes if s.layer == "BORE" and s not in screwed]
+    bores = [s for s in drawing.shapes if s.layer == "BORE" and s not in screwed]
     circle_of(view, screwed)
     _recesses(view, parts, arcs)
     for engagement in assembly.kinds:
@@ -54,7 +54,7 @@ def draw_wheel(view: View, parts: Outlines, tolerance: float, curves: str) -> No
 
 
 def _axes(view: View, parts: Outlines, reach: float) -> None:
-    """The axes of straight slots, the rollers' way in a curved one."""
+    """Draw the axes of straight slots, and the roller's path in a curved one."""
     for i, (engagement, direction) in enumerate(parts.assembly.slots):
         if not engagement.slot.curved:
             for end, mouth in _ends(turned(parts.slots[engagement], direction)):
@@ -65,7 +65,7 @@ def _axes(view: View, parts: Outlines, reach: float) -> None:
 
 
 def _ends(walls: Contour) -> list[tuple[Point, Point]]:
-    """The ends of straight slots' axes, of one or of a pair: the bottom of a round end, a mouth."""
+    """Return inner end and mouth of the axis of a straight slot, or of each slot of a pair."""
     first, *_, last = walls.segments
     arcs = [piece for piece in walls.segments[1:-1] if isinstance(piece, Arc)]
     if len(arcs) == 1:
@@ -74,22 +74,22 @@ def _ends(walls: Contour) -> list[tuple[Point, Point]]:
 
 
 def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point, Point]:
-    """Of a slot with a wall from a corner inwards, a round end, and perhaps another corner."""
+    """Return the axis of a slot: a wall from a corner inwards, a round end, other corners."""
     x, y = arc.centre
-    way = math.atan2(inner[1] - corner[1], inner[0] - corner[0])
-    c, s = math.cos(way), math.sin(way)
+    turn = math.atan2(inner[1] - corner[1], inner[0] - corner[0])
+    c, s = math.cos(turn), math.sin(turn)
     farther = min((p[0] - x) * c + (p[1] - y) * s for p in (corner, *corners))
     return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
 
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
-    """Width, end and depth of a straight slot, and by how much it misses the wheel's centre."""
+    """Draw width, end and depth of a straight slot, and its offset from the wheel's centre."""
     direction = next(d for one, d in parts.assembly.slots if one is engagement)
     walls = turned(parts.slots[engagement], direction)
     ends = _ends(walls)
     end, mouth = ends[0]
-    way = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
-    across = way + 0.5 * math.pi
+    turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
+    across = turn + 0.5 * math.pi
     corner = walls.segments[0].start
     count *= len(ends)
     if len(ends) == 1:
@@ -97,12 +97,12 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
         view.linear(corner, walls.segments[-1].end, across, times(count, width))
     else:  # one wall each
         view.linear(corner, mouth, across, times(count, sized.plain(parts.sizes.half_width)))
-    foot = _foot(end, way)
-    view.linear(foot, end, way, sized.plain(math.dist(foot, end)), near=True)
-    view.linear(end, mouth, way, times(count, sized.plain(math.dist(end, mouth))), near=True)
+    foot = _foot(end, turn)
+    view.linear(foot, end, turn, sized.plain(math.dist(foot, end)), near=True)
+    view.linear(end, mouth, turn, times(count, sized.plain(math.dist(end, mouth))), near=True)
     if math.hypot(*foot) > SAME:
-        turn = math.atan2(foot[1], foot[0])
-        view.linear((0.0, 0.0), foot, turn, sized.plain(math.hypot(*foot)))
+        normal = math.atan2(foot[1], foot[0])
+        view.linear((0.0, 0.0), foot, normal, sized.plain(math.hypot(*foot)))
     rounds = [
         s
         for one, d in parts.assembly.slots
@@ -113,15 +113,15 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
 
-def _foot(p: Point, way: float) -> Point:
-    """The point of a line that is nearest to the origin."""
-    c, s = math.cos(way), math.sin(way)
+def _foot(p: Point, turn: float) -> Point:
+    """Return the point of a line that is nearest to the origin."""
+    c, s = math.cos(turn), math.sin(turn)
     along = p[0] * c + p[1] * s
     return p[0] - along * c, p[1] - along * s
 
 
 def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
-    """The recesses, and where their centres are."""
+    """Draw the recesses and the distance of their centres."""
     assembly, sizes = parts.assembly, parts.sizes
     L = assembly.L
     if not sizes.recess:
@@ -138,7 +138,7 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
 
 
 def _recess_centre(parts: Outlines) -> Point:
-    """The centre of the recess that lies farthest to the left."""
+    """Return the leftmost centre of a recess."""
     L = parts.assembly.L
     return min(
         ((L * math.cos(a), L * math.sin(a)) for a in parts.assembly.rests), key=lambda p: p[0]
@@ -146,7 +146,7 @@ def _recess_centre(parts: Outlines) -> Point:
 
 
 def _rims(view: View, arcs: list[Arc], reach: float) -> None:
-    """Arcs about the wheel's axis that are not its outside."""
+    """Draw arcs about the wheel's axis other than the outermost one."""
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME]
     for radius, some in _by_radius(own).items():
         if abs(radius - reach) > SAME:
@@ -154,44 +154,44 @@ def _rims(view: View, arcs: list[Arc], reach: float) -> None:
 
 
 def _steps(view: View, parts: Outlines, reach: float) -> None:
-    """The angles between slots, and from a slot to the middle of a recess."""
+    """Draw the angles between slots, and from a slot to the middle of a recess."""
     assembly = parts.assembly
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
     begin = reach
-    ways = sorted(
-        way
+    angles = sorted(
+        angle
         for engagement, direction in assembly.slots
-        for way in _ways(parts, engagement, direction)
+        for angle in _directions(parts, engagement, direction)
     )
     steps: dict[str, list[tuple[float, float]]] = {}
-    for start, end in zip(ways, [*ways[1:], ways[0] + math.tau], strict=True):
+    for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
         shown = f"{number(math.degrees(end - start))}°" + (f" ±{deviation:g}°" if deviation else "")
         steps.setdefault(shown, []).append((start, end))
     for text, pairs in steps.items():
         view.angular(pairs, begin, reach, times(len(pairs), text))
     halves: dict[str, list[tuple[float, float]]] = {}
     for rest in assembly.rests if parts.sizes.recess else ():
-        off = min((rest - way) % math.tau for way in ways)
+        off = min((rest - angle) % math.tau for angle in angles)
         halves.setdefault(f"{number(math.degrees(off))}°", []).append((rest - off, rest))
     for text, pairs in halves.items():
         view.angular(pairs, begin, reach, times(len(pairs), text))
 
 
-def _ways(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
-    """The directions of the axes of a slot, or of a pair, in the wheel."""
+def _directions(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
+    """Yield the directions in the wheel of the axis of a slot, or of both slots of a pair."""
     if engagement.slot.curved:
         yield direction
         return
     for (x, y), (u, v) in _ends(turned(parts.slots[engagement], direction)):
-        way = math.atan2(v - y, u - x)
-        way += 0.0 if parts.assembly.sign > 0.0 else math.pi
-        yield direction + math.remainder(way - direction, math.tau)
+        angle = math.atan2(v - y, u - x)
+        angle += 0.0 if parts.assembly.sign > 0.0 else math.pi
+        yield direction + math.remainder(angle - direction, math.tau)
 
 
 def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:
-    """Arcs that have the same radius together."""
-    found: dict[float, list[Arc]] = {}
+    """Return arcs grouped by radius."""
+    groups: dict[float, list[Arc]] = {}
     for arc in arcs:
-        same = next((r for r in found if abs(r - arc.radius) < SAME), arc.radius)
-        found.setdefault(same, []).append(arc)
-    return found
+        same = next((r for r in groups if abs(r - arc.radius) < SAME), arc.radius)
+        groups.setdefault(same, []).append(arc)
+    return groups

@@ -1,1 +1,1 @@
-"""The full turn: parts against each other at every position."""
+"""The full turn: a collision check of the parts in all positions."""

@@ -1,10 +1,10 @@
-"""The boundary of a curved slot: the outer one of all that its roller passes over.
+"""The boundary of a curved slot: the outer boundary of all positions of its roller.
 
-The roller comes along its circle, while the wheel still rests; it runs through the slot and out
-again, and leaves along its circle. Each of these paths has a wall on either side; where the roller
-turns back, its own outline is a wall too. Of all walls only what no other position of the roller
-passes over is left, and of that only the chain from one corner of the mouth round the bottom to
-the other: an island between the way in and the way out falls out of the wheel.
+The roller comes along its circle while the wheel still rests. It runs into the slot and out again,
+and leaves along its circle. Each of these paths has a wall on either side. Where the roller turns
+back, its own outline is a wall too. Of all walls only those stretches remain that no other position
+of the roller covers. Of these only the chain from one corner of the mouth round the bottom to the
+other remains. An island between the way in and the way out falls out of the wheel.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
-TURNS = 64  # walls a chain may have before it is lost
+TURNS = 64  # walls in a chain, at most: more means that the search has lost its way
 SHORT = 1e-7  # of the centre distance: a shorter piece is rounding
-BACK = -0.999  # the cosine between two directions that are each other's reverse
+BACK = -0.999  # cosine below which two directions count as opposite
 
 
 class Piece(NamedTuple):
-    """A part of a wall, from one parameter to another, either way."""
+    """A part of a wall between two parameters, in either direction."""
 
     wall: Wall
     start: float
@@ -41,22 +41,22 @@ class Piece(NamedTuple):
 
 
 def chain(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Piece]:
-    """The pieces of walls that bound a slot, from the mouth's lower corner to its upper one."""
+    """Return the pieces of walls that bound a slot, from the mouth's lower corner to its upper."""
     around = walls(assembly, sizes, engagement)
     rim = _Rim(assembly, sizes)
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:
         raise _lost()
     place, t = min(crossings, key=lambda c: math.atan2(*point(c[0].wall, c[1])[::-1]))
-    found: list[Piece] = []
+    pieces: list[Piece] = []
     for _ in range(TURNS):
         last, leaves = _run(rim, place)
         if leaves is not None:
-            found.append(Piece(place.wall, t, leaves))
-            return [piece for piece in found if _long(piece, SHORT * assembly.L)]
+            pieces.append(Piece(place.wall, t, leaves))
+            return [piece for piece in pieces if _long(piece, SHORT * assembly.L)]
         following = _next(around, last)
         end, begin = joint(last, following)
-        found.append(Piece(place.wall, t, end))
+        pieces.append(Piece(place.wall, t, end))
         place, t = following, begin
     raise _lost()
 
@@ -68,24 +68,24 @@ def _long(piece: Piece, least: float) -> bool:
 def _lost() -> GenevaError:
     return GenevaError(
         "the walls of this slot do not close: the roller is too large for its curve, or the rim "
-        "too small",
+        "too small; reduce roller_radius_mm or increase wheel_radius_mm",
         ("size", "roller_radius_mm"),
     )
 
 
 class _Rim:
-    """The wheel's rim, which tells on which side points are; those on it count as inside."""
+    """The wheel's rim, as a test of the side on which points lie; on the rim counts as inside."""
 
     def __init__(self, assembly: Assembly, sizes: Sizes) -> None:
         self.sign, self.radius, self.close = assembly.sign, sizes.rim, 1e-9 * assembly.L
 
     def depth(self, points: Array) -> Array:
-        """How far points lie within the wheel."""
+        """Return how far points lie inside the wheel."""
         out: Array = self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
         return out
 
     def crossings(self, wall: Wall) -> Iterator[tuple[WallPlace, float]]:
-        """Where a wall enters the wheel: the first sample inside, and the parameter itself."""
+        """Yield where a wall enters the wheel: its first sample inside, and the parameter."""
         depth = self.depth(wall.points)
         inside = (depth > -self.close) & wall.free
         for way in (1, -1):
@@ -100,17 +100,17 @@ class _Rim:
                     yield WallPlace(wall, i, way), self.crossing(wall, wall.t[before], wall.t[i])
 
     def crossing(self, wall: Wall, outside: float, inside: float) -> float:
-        """The parameter at which a wall crosses the rim."""
+        """Return the parameter at which a wall crosses the rim."""
 
         def within(t: Array) -> Mask:
-            found: Mask = self.depth(wall.curve(t)[0]) > 0.0
-            return found
+            out: Mask = self.depth(wall.curve(t)[0]) > 0.0
+            return out
 
         return boundary_by_sections(within, float(inside), float(outside))
 
 
 def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
-    """A wall's last free sample from a place on; at the rim, the parameter where it leaves."""
+    """Return the last free sample from a place on, and the parameter of leaving the rim, if so."""
     wall, i, way = place
     depth = rim.depth(wall.points)
     while True:
@@ -126,7 +126,7 @@ def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
 
 
 def _next(around: list[Wall], last: WallPlace) -> WallPlace:
-    """The wall that continues where one ends: the nearest free one other than itself."""
+    """Return the place where the next wall continues: on the nearest free wall but this one."""
     here = last.wall.points[last.i]
     travel = last.way * last.wall.curve(last.wall.t[last.i : last.i + 1])[1][0]
     ahead = []
@@ -138,7 +138,7 @@ def _next(around: list[Wall], last: WallPlace) -> WallPlace:
             i = int(np.argmin(away))
             ahead.append((float(away[i]), wall, start, start + i, end))
     best: tuple[float, int] | None = None
-    found = None
+    place = None
     for far, wall, start, i, end in sorted(ahead, key=lambda one: one[0]):
         if best is not None and far > best[0]:
             break
@@ -146,10 +146,10 @@ def _next(around: list[Wall], last: WallPlace) -> WallPlace:
         way = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
         rest_of_run = end - i if way > 0 else i - start
         score = (far, -rest_of_run)
-        # Not back where it came from: walls that run into each other end in one point.
+        # Never turn back: walls that merge end in one point.
         back = way * along < BACK
         if rest_of_run and not back and (best is None or score < best):
-            best, found = score, WallPlace(wall, i, way)
-    if found is None:
+            best, place = score, WallPlace(wall, i, way)
+    if place is None:
         raise _lost()
-    return found
+    return place

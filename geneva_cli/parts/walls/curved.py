@@ -18,34 +18,34 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 LAYER = "WHEEL"
-SAME = 1e-10  # of the centre distance: walls that are so nearly mirror images are
+SAME = 1e-10  # of the centre distance: accuracy at which walls count as mirror images
 
 
 def curved_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
-    """A curved slot from one corner of its mouth round the bottom to the other, counterclockwise
-    about the wheel's axis; within ``tolerance`` mm of the true walls, and never inside them.
+    """Return a curved slot's walls, counterclockwise from one corner of its mouth to the other.
 
-    What is fitted is the slot of a roller larger by half the tolerance, so that no fit leaves
-    material in the roller's way. ``curves`` is "arcs" or "cubics", what the walls become where
-    they are no arcs. Raises GenevaError where the walls do not close.
+    They are within ``tolerance`` mm of the true walls, and never inside them. For that the slot of
+    a roller larger by half the tolerance is fitted. So no fit leaves material in the roller's path.
+    ``curves`` is "arcs" or "cubics", the form of walls that are no arcs. Raises GenevaError where
+    the walls do not close.
     """
     half = 0.5 * tolerance
-    found: list[list[Segment]] = []
+    runs: list[list[Segment]] = []
     pieces = chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement)
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
         both = other < i and engagement.mirrored
         if both and _mirrors(pieces[other], piece, SAME * assembly.L):
-            found.append([mirrored(segment) for segment in reversed(found[other])])
+            runs.append([mirrored(segment) for segment in reversed(runs[other])])
         else:
-            found.append(_segments(piece, half, curves))
-    return Contour(LAYER, joined(itertools.chain(*found)), closed=False)
+            runs.append(_segments(piece, half, curves))
+    return Contour(LAYER, joined(itertools.chain(*runs)), closed=False)
 
 
 def _mirrors(one: Piece, other: Piece, near: float) -> bool:
-    """Whether a piece is another's mirror image in the slot's axis, run through backwards."""
+    """Return True if a piece is the other's mirror image in the slot's axis, run backwards."""
     ends = ((one.start, other.end), (one.end, other.start))
     middles = (0.5 * (one.start + one.end), 0.5 * (other.start + other.end))
     for t, u in (*ends, middles):
@@ -56,7 +56,7 @@ def _mirrors(one: Piece, other: Piece, near: float) -> bool:
 
 
 def mirrored(segment: Segment) -> Segment:
-    """A segment's mirror image in the slot's axis, run through backwards."""
+    """Return a segment's mirror image in the slot's axis, run backwards."""
     start, end = _over(segment.end), _over(segment.start)
     if isinstance(segment, Cubic):
         return Cubic(start, _over(segment.second), _over(segment.first), end)

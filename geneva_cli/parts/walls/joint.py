@@ -13,10 +13,10 @@ from geneva_cli.parts.walls.ways import Wall
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-WINDOW = 80  # samples among which the crossing of two walls is looked for
+WINDOW = 80  # samples in which the crossing of two walls is searched
 REACH = 3  # samples within which two walls meet
-PARALLEL = 1e-7  # the sine below which two walls do not cross but run into each other
-MET = 1e-7  # of a point's distance: nearer points are one
+PARALLEL = 1e-7  # sine of the angle below which two walls merge and do not cross
+MET = 1e-7  # of a point's distance: nearer points count as one
 
 
 class WallPlace(NamedTuple):
@@ -28,7 +28,7 @@ class WallPlace(NamedTuple):
 
 
 def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
-    """The parameters on both walls of the point where they meet."""
+    """Return the parameters on both walls of the point where they meet."""
     a, b = float(last.wall.t[last.i]), float(following.wall.t[following.i])
     at_ends = all(p.i in (0, len(p.wall.t) - 1) for p in (last, following))
     p, q = point(last.wall, a), point(following.wall, b)
@@ -37,7 +37,7 @@ def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
     met = _crossing(last, following)
     if met is not None:
         return met
-    # They run into each other: on from the point of the one to the nearest free one of the other.
+    # They merge: continue from the point of the one to the nearest free point of the other.
     low, high = _free_run(following)
     for _ in range(8):
         q, v = _at(following.wall, b)
@@ -47,13 +47,13 @@ def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
 
 
 def _free_run(place: WallPlace) -> tuple[float, float]:
-    """The parameters at both ends of the free stretch that a sample is in."""
+    """Return the parameters of both ends of the free stretch that contains a sample."""
     start, end = next((a, b) for a, b in runs(place.wall) if a <= place.i <= b)
     return float(place.wall.t[start]), float(place.wall.t[end])
 
 
 def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | None:
-    """The parameters on both walls of their crossing near these samples; None if none."""
+    """Return the parameters on both walls of their crossing near two samples; None if none."""
     start = _polylines_cross(last, following)
     if start is None:
         return None
@@ -72,7 +72,7 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
 
 
 def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, WallPlace] | None:
-    """The samples before the crossing of two walls: the last on the one, the first on the other."""
+    """Return the samples before the crossing of two walls: the last one and the first one."""
     one = _window(last, -WINDOW, REACH)
     two = _window(following, -REACH, WINDOW)
     p, q = last.wall.points[one], following.wall.points[two]
@@ -90,14 +90,14 @@ def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, 
 
 
 def _window(place: WallPlace, behind: int, ahead: int) -> NDArray[np.intp]:
-    """Indices of samples around one, in the direction of travel."""
+    """Return the indices of samples around one, in the direction of travel."""
     indices = place.i + place.way * np.arange(behind, ahead + 1)
     out: NDArray[np.intp] = indices[(indices >= 0) & (indices < len(place.wall.t))]
     return out
 
 
 def _within(place: WallPlace, t: float) -> float:
-    """A parameter kept to the neighbourhood of a sample."""
+    """Return a parameter limited to the neighbourhood of a sample."""
     grid, i = place.wall.t, place.i
     return min(max(t, float(grid[max(i - REACH, 0)])), float(grid[min(i + REACH, len(grid) - 1)]))
 
@@ -108,12 +108,12 @@ def _at(wall: Wall, t: float) -> tuple[tuple[float, float], tuple[float, float]]
 
 
 def point(wall: Wall, t: float) -> tuple[float, float]:
-    """A wall's point at a parameter."""
+    """Return the point of a wall at a parameter."""
     return _at(wall, t)[0]
 
 
 def _speed(place: WallPlace, t: float) -> float:
-    """How fast a wall's point moves with its parameter."""
+    """Return the speed of a wall's point with its parameter."""
     step = 1e-6 * float(place.wall.t[-1] - place.wall.t[0])
     low, high = _within(place, t - step), _within(place, t + step)
     moved = math.dist(point(place.wall, low), point(place.wall, high))
@@ -121,7 +121,7 @@ def _speed(place: WallPlace, t: float) -> float:
 
 
 def runs(wall: Wall) -> Iterator[tuple[int, int]]:
-    """First and last index of every stretch of free samples."""
+    """Yield first and last index of every stretch of free samples."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], wall.free, [False])).astype(int)))
     for start, end in zip(edges[::2], edges[1::2], strict=True):
         yield int(start), int(end) - 1

@@ -1,11 +1,11 @@
-"""What a curved slot takes from its wheel, ring by ring about the wheel's axis.
+"""The area that a curved slot removes from its wheel, ring by ring about the wheel's axis.
 
-On the circle of a radius r the roller at the polar coordinates (rho, theta), w being half the
-slot's width, covers the angles theta -+ delta, sin²(delta/2) = (w² - (r - rho)²)/(4 r rho). The pin
-runs on a circle about the crank's axis, so rho falls on the way in and rises on the way out, and
-each way covers one stretch of the circle. What is left between the two is an island, which falls
-out of the wheel: the slot is from the least angle that any place of the roller covers to the
-greatest. No wall is traced, and none needs to close.
+Let the roller be at the polar coordinates (rho, theta), and w half the slot's width. On the circle
+of radius r it covers the angles theta -+ delta, with sin²(delta/2) = (w² - (r - rho)²)/(4 r rho).
+The pin moves on a circle about the crank's axis. So rho falls on the way in and rises on the way
+out, and each way covers one stretch of the circle. An island between the two falls out of the
+wheel. So the slot extends from the least to the greatest angle that any position of the roller
+covers. No wall is traced, and none needs to close.
 """
 
 from __future__ import annotations
@@ -31,52 +31,52 @@ if TYPE_CHECKING:
 
     Complex: TypeAlias = NDArray[np.complex128]
 
-FINE = 12.0  # places of the roller to half a slot's width
-FIRST = 64  # and of the motion, before it is looked where they are too far apart
+FINE = 12.0  # positions of the roller in half a slot's width
+FIRST = 64  # positions in the motion, before intervals that are too long are halved
 HALVINGS = 64
-PANELS, NODES = 8, 6  # of radii at first, crowding towards the slot's bottom
-# Of the slot: by how much halves of a panel may differ from it. Walls cross where their panels are
-# halved, time and again.
+PANELS, NODES = 8, 6  # intervals of the radius at first, denser towards the slot's bottom
+# Of the slot's moment: accuracy to which a panel must agree with the sum of its halves. Panels with
+# crossing walls are halved many times.
 AGREED = 1e-6
 DEEPEST = 16
 
 
-class Taken(NamedTuple):
-    """A slot's face within the rim, and the angles between which it opens the rim."""
+class RemovedFace(NamedTuple):
+    """The face that a slot removes inside the rim, and the angles where it opens the rim."""
 
     face: Moments
     low: float
     high: float
 
 
-def taken(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Taken:
-    """What the slot ahead, of an engagement's roller, takes from the wheel."""
+def taken(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> RemovedFace:
+    """Return what the slot of an engagement's roller, ahead of it, removes from the wheel."""
     rho, theta = _places(assembly, sizes, engagement)
     rim, w = sizes.rim, sizes.half_width
     bottom = float(assembly.sign * np.min(assembly.sign * rho)) - assembly.sign * w
     at_rim = _covered(np.array([rim]), rho, theta, w)
 
     def rings(low: Array, high: Array) -> Array:
-        """The moments between two radii, a row a pair; u² of the way to the rim."""
+        """Return the moments between two radii, one row for each pair; u² is along the radius."""
         node, weight = rule(NODES)
         half = 0.5 * (high - low)[:, None]
         u = 0.5 * (low + high)[:, None] + half * node
         r = bottom + (rim - bottom) * u * u
         a, b = (x.reshape(r.shape) for x in _covered(r.ravel(), rho, theta, w))
-        share = half * weight * 2.0 * u * abs(rim - bottom) * r
+        weights = half * weight * 2.0 * u * abs(rim - bottom) * r
         parts = (b - a, r * (np.sin(b) - np.sin(a)), r * (np.cos(a) - np.cos(b)), r * r * (b - a))
-        return np.stack([(share * part).sum(axis=1) for part in parts], axis=1)
+        return np.stack([(weights * part).sum(axis=1) for part in parts], axis=1)
 
     face = Moments(*_sum(rings).tolist())
-    return Taken(face, float(at_rim[0][0]), float(at_rim[1][0]))
+    return RemovedFace(face, float(at_rim[0][0]), float(at_rim[1][0]))
 
 
 def _sum(of: Callable[[Array, Array], Array]) -> Array:
-    """The integrals from 0 to 1, a panel halved until its halves agree with it."""
+    """Return the integrals from 0 to 1; panels are halved until their halves agree."""
     ends = np.linspace(0.0, 1.0, PANELS + 1)
     low, high = ends[:-1], ends[1:]
     whole = of(low, high)
-    # the polar moment tells: it is of the same sign everywhere
+    # the polar moment decides: it has the same sign everywhere
     size, total = abs(whole[:, -1]).sum(), 0.0 * whole[0]
     for _ in range(DEEPEST):
         middle = 0.5 * (low + high)
@@ -93,7 +93,7 @@ def _sum(of: Callable[[Array, Array], Array]) -> Array:
 
 
 def _places(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> tuple[Array, Array]:
-    """Where the roller is on its way, in polar coordinates, from rim to rim: rho and theta."""
+    """Return the roller's polar coordinates on its path from rim to rim: rho and theta."""
     near = sizes.half_width / FINE
 
     def pin(t: Array) -> Complex:
@@ -111,11 +111,11 @@ def _places(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> tuple[A
             break
         middle = 0.5 * (t[far] + t[far + 1])
         t, z = np.insert(t, far + 1, middle), np.insert(z, far + 1, pin(middle))
-    ways = [
+    arcs = [
         _before(assembly, sizes, engagement, end, complex(at), near)
         for end, at in ((-1.0, z[0]), (1.0, z[-1]))
     ]
-    z = np.concatenate((ways[0][::-1], z, ways[1]))
+    z = np.concatenate((arcs[0][::-1], z, arcs[1]))
     return np.abs(z), np.angle(z)
 
 
@@ -127,32 +127,32 @@ def _before(
     start: complex,
     near: float,
 ) -> Complex:
-    """Places on the roller's circle before entry (-1) or after exit (1), outwards from the slot."""
+    """Return positions on the roller's circle before entry (-1) or after exit (1), outwards."""
     axis = complex(*rest(assembly, engagement, end))
-    # to the middle of the dwell, from where on the way is that of the next slot
+    # as far as the middle of the dwell, where the path of the next slot begins
     ahead = abs(np.angle(-(start - axis) / (assembly.sign * axis)))
     step = near / abs(start - axis)
     turn = -end * assembly.sign * np.arange(step, math.pi - ahead, step)
     z = axis + (start - axis) * np.exp(1j * turn)
     gone = assembly.sign * (abs(z) - sizes.rim) > sizes.half_width
     count = int(np.argmax(gone)) + 1 if gone.any() else len(z)
-    way: Complex = z[:count]
-    return way
+    path: Complex = z[:count]
+    return path
 
 
 def _covered(r: Array, rho: Array, theta: Array, w: float) -> tuple[Array, Array]:
-    """The least and the greatest angle that the roller covers on circles of radii r."""
+    """Return the least and greatest angle that the roller covers on circles of radii r."""
     off = r[:, None] - rho
     square = (w - off) * (w + off) / (4.0 * r[:, None] * rho)
     reach = 2.0 * np.arcsin(np.sqrt(np.clip(square, 0.0, 1.0)))
     reach[square < 0.0] = -np.inf
-    # how far along its way the roller is
+    # path length of the roller
     s = np.append(0.0, np.cumsum(abs(np.diff(rho * np.exp(1j * theta)))))
     return -_most(s, reach - theta), _most(s, reach + theta)
 
 
 def _most(s: Array, values: Array) -> Array:
-    """The greatest value of each row, on the parabola through the greatest sample's neighbours."""
+    """Return the greatest value of each row, on a parabola through the greatest sample."""
     row = np.arange(len(values))
     i = np.clip(np.argmax(values, axis=1), 1, len(s) - 2)
     top = values.max(axis=1)

@@ -1,10 +1,10 @@
 """The walls of a straight slot: two flanks and a round end.
 
-Where gears drive between two rollers, a motion has two slots, half of the angle between them on
-either side of its middle: one that starts the wheel and one that stops it. A roller leaves the
-first, and comes to the second, on an epicycloid with its cusp at the slot's end, which leans to the
-other slot. It sweeps away that side of each: so each keeps the wall on its recess's side, and
-between the two lies an arc about the wheel's axis, as deep as the slots are.
+Where gears drive between two rollers, a motion has two slots: one starts the wheel, one stops it.
+They lie half of the angle between them on either side of its middle. A roller leaves the first slot
+on an epicycloid with its cusp at the slot's end, and comes to the second on another. Each
+epicycloid leans to the other slot and sweeps away that side of its own slot. So each slot keeps the
+wall on its recess's side. Between the two lies an arc about the wheel's axis, as deep as the slots.
 """
 
 from __future__ import annotations
@@ -23,18 +23,17 @@ from geneva_cli.parts.roller_paths import corner, mouth, rest
 from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
-LOOKS = 721  # places at which the deepest is looked for
-ONE = 1e-9  # radians: slots nearer to each other are one
+LOOKS = 721  # positions among which the deepest is selected
+ONE = 1e-9  # radians: slots nearer to each other count as one
 QUARTER = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
 
 
 def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
-    """A straight slot from one corner of its mouth round the end to the other, counterclockwise
-    about the wheel's axis; or a pair of slots, and what is between them.
+    """Return a straight slot's walls, counterclockwise from one corner of its mouth to the other.
 
-    The wall that faces the crank's axis at entry ends where the roller enters, the other where it
-    leaves; of offset slots, and of unequal ones, these ends lie at different radii. Raises
-    GenevaError where the wheel ends short of the slot's end.
+    A pair of slots has the arc between them too. The wall that faces the crank's axis at entry ends
+    where the roller enters, the other where it leaves. These ends lie at different radii if the
+    slots are offset or unequal. Raises GenevaError where the wheel ends short of the slot's end.
     """
     apart, engagement = engagement.apart, engagement.through
     w, out = sizes.half_width, assembly.sign
@@ -46,7 +45,7 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
         start = math.sqrt(max(rim * rim - y * y, 0.0))
         if not out * (start - bottom) > 0.0:
             raise GenevaError(
-                f"wheel_radius_mm = {sizes.rim:g}: the rim ends short of the slots' ends, which "
+                f"wheel_radius_mm = {sizes.rim:g}: the rim does not reach the slots' ends, which "
                 f"lie at {bottom:.6g} mm",
                 ("size", "wheel_radius_mm"),
             )
@@ -73,14 +72,14 @@ def _refuse_crossed(apart: float) -> None:
     if apart < 0.0:
         raise GenevaError(
             f"the slots that start and stop the wheel cross by {math.degrees(-2.0 * apart):.4g} "
-            "deg: between them the gears turn it by less than the rollers in its slots would; a "
-            'larger sector_deg, or gear_ratio = "shockless", keeps them apart',
+            "deg: the gears turn the wheel too little between them; increase sector_deg, or set "
+            'gear_ratio = "shockless"',
             ("drive", "sector_deg"),
         )
 
 
 def _axis(assembly: Assembly, engagement: Engagement) -> tuple[float, float]:
-    """The direction of the slot's axis in the wheel, and its distance from the centre, mm."""
+    """Return the direction of the slot's axis, and its distance from the wheel's centre, mm."""
     x, y = engagement.slot(engagement.entry_deg, 0)
     u, v = engagement.slot(0.0, 0)
     px, py = assembly.L * x.c[0], assembly.L * y.c[0]
@@ -90,7 +89,7 @@ def _axis(assembly: Assembly, engagement: Engagement) -> tuple[float, float]:
 
 
 def _deepest(assembly: Assembly, engagement: Engagement, angle: float) -> float:
-    """The deepest position of the roller's centre along the slot's axis, mm."""
+    """Return the deepest position of the roller's centre along the slot's axis, mm."""
     x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, LOOKS), 0)
     along = array(assembly.L * (x.c[0] * math.cos(angle) + y.c[0] * math.sin(angle)))
     return float(along.min() if assembly.sign > 0.0 else along.max())
@@ -104,9 +103,9 @@ def _rim(
     level: float,
     side: float,
 ) -> float:
-    """The wheel's radius at one side of the slot's mouth.
+    """Return the wheel's radius at one side of the slot's mouth.
 
-    A rim that the spec sets is moved everywhere by as much as where it is widest.
+    If the spec sets the rim, it moves all mouths by as much as the widest one.
     """
     largest = max(mouth(assembly, s, sizes.roller) for s in assembly.kinds)
     own = mouth(assembly, engagement, sizes.roller)
